@@ -1,0 +1,66 @@
+/* drypoint/base.h: results, diagnostics, memory, version.
+ *
+ * Every call that can fail returns a dp_result whose value says what the caller can do about it,
+ * and, where a `dp_diag *` is taken (NULL allowed), fills it with where and why. There is no hidden
+ * "last error", nothing is printed, and the library never exits. */
+#ifndef DRYPOINT_BASE_H
+#define DRYPOINT_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DP_VERSION_MAJOR 0
+#define DP_VERSION_MINOR 1
+#define DP_VERSION_PATCH 0
+
+#if defined(_WIN32)
+#define DP_API
+#else
+#define DP_API __attribute__((visibility("default")))
+#endif
+
+/* What went wrong, by what the caller can do about it. */
+typedef enum dp_result {
+    DP_OK = 0,
+    DP_ERR_ARGUMENT,    /* the call is wrong: mend the program or the command line */
+    DP_ERR_MEMORY,      /* an allocation failed: give it more, or ask for less */
+    DP_ERR_IO,          /* the system refused to open, read or write */
+    DP_ERR_FORMAT,      /* the file's content is not what its format says */
+    DP_ERR_UNSUPPORTED, /* sound, but not something this build or this version does */
+    DP_ERR_LIMIT,       /* a count or size beyond what the library can address */
+    DP_ERR_CANCELLED    /* the progress callback asked to stop */
+} dp_result;
+
+/* Where and why. Filled by value; messages are English, one line, without a final newline. */
+typedef struct dp_diag {
+    dp_result result;
+    uint64_t line;   /* 1-based line of a text file, 0 where there is none */
+    uint64_t offset; /* byte offset in a binary file, 0 where there is none */
+    uint64_t item;   /* 0-based id of the polygon, vertex, … that is meant */
+    char message[240];
+} dp_diag;
+
+/* Memory comes from here; any member NULL means malloc, realloc and free for all three.
+ * `user` is handed back. Calls may come from several threads at once. */
+typedef struct dp_allocator {
+    void *(*alloc)(size_t size, void *user);
+    void *(*realloc)(void *block, size_t size, void *user); /* block may be NULL */
+    void (*free)(void *block, void *user);                  /* block may be NULL */
+    void *user;
+} dp_allocator;
+
+/* A short name of the result class, "out of memory" say. Never NULL. */
+DP_API const char *dp_result_name(dp_result result);
+
+/* "0.1.0" */
+DP_API const char *dp_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

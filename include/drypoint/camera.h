@@ -1,0 +1,57 @@
+/* drypoint/camera.h: view and projection, in OpenGL's conventions.
+ *
+ * Matrices are column-major, multiply column vectors, and use a right-handed camera space that looks
+ * along -z. The projection maps to clip space with -w <= x, y, z <= w. */
+#ifndef DRYPOINT_CAMERA_H
+#define DRYPOINT_CAMERA_H
+
+#include <drypoint/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct dp_camera {
+    double view[16];       /* world to camera space: rotation, translation, uniform scale */
+    double projection[16]; /* camera to clip space: perspective or orthographic */
+} dp_camera;
+
+/* The view part: from eye to target, both in world space. `up` need not be perpendicular; where it is
+ * parallel to the line of sight another one is chosen. eye != target, else DP_ERR_ARGUMENT. */
+DP_API dp_result dp_camera_look_at(dp_camera *camera, const double eye[3], const double target[3],
+                                   const double up[3]);
+
+/* The projection part. fov_y: vertical, degrees in (0, 180); aspect: width / height of the picture;
+ * 0 < near < far, distances along the line of sight. */
+DP_API dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect, double near_z,
+                                       double far_z);
+
+/* height: of what is seen, in world units, > 0; near may be negative (behind the eye). */
+DP_API dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect,
+                                        double near_z, double far_z);
+
+/* A camera that sees a box whole from a direction. Zero is the default. */
+typedef struct dp_fit {
+    float min[3], max[3]; /* the box, world space */
+    double direction[3];  /* from the box's centre to the eye; {0} means (1, 0.6, 1) */
+    double up[3];         /* {0} means +y, or -z / +z when looking down or up along y */
+    double fov_y;         /* degrees; 0 means 35 */
+    bool orthographic;
+    double height;        /* orthographic: what is seen, world units; 0 means fitted */
+    double aspect;        /* width / height of the picture; 0 means 4/3 */
+    double zoom;          /* 0 means 1; 2 shows everything twice as large */
+} dp_fit;
+
+/* Perspective: the distance is half the box's diagonal / sin(fov/2) (fov the smaller of the
+ * vertical and the horizontal one), so that the box's sphere fits. Near and far enclose the sphere. */
+DP_API dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit);
+
+/* Near and far for a given eye and box: far encloses the box, near is as large as it allows, and at
+ * least 1e-4 of far (so that a box around the eye works too). `view` must be set. */
+DP_API void dp_camera_near_far(const dp_camera *camera, const float min[3], const float max[3],
+                               double *near_z, double *far_z);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

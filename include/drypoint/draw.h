@@ -1,0 +1,123 @@
+/* drypoint/draw.h: the batch interface: a source, a camera, a style and a target in, a picture out.
+ *
+ *     dp_context *context = NULL;
+ *     dp_source *source = NULL;
+ *     uint8_t *rgba = malloc(1600 * 1200 * 4);
+ *     dp_camera camera;
+ *     dp_extent extent;
+ *     dp_diag diag;
+ *     dp_context_create(NULL, &context, &diag);
+ *     dp_source_open("fandisk.obj", NULL, &source, &diag);
+ *     dp_source_extent(source, &extent, &diag);
+ *     dp_fit fit = {0};
+ *     memcpy(fit.min, extent.min, sizeof fit.min), memcpy(fit.max, extent.max, sizeof fit.max);
+ *     dp_camera_fit(&camera, &fit);
+ *     const dp_target target = {.width = 1600, .height = 1200, .rgba = rgba};
+ *     dp_draw(context, source, &camera, NULL, &target, &diag);
+ *
+ * Not here: windows, image files (drypoint/io.h), shading other than one flat surface colour. */
+#ifndef DRYPOINT_DRAW_H
+#define DRYPOINT_DRAW_H
+
+#include <drypoint/camera.h>
+#include <drypoint/source.h>
+#include <drypoint/style.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A context owns its threads and all scratch memory, which stays for the next frame. Contexts are
+ * independent of each other; one context serves one thread at a time. */
+typedef struct dp_context dp_context;
+
+typedef struct dp_context_desc {
+    const dp_allocator *allocator; /* NULL: malloc; copied */
+    uint32_t threads;              /* workers, the caller included; 0: one per processor */
+    /* The application's own thread pool: must call task(arg, i) once for every i in [0, count),
+     * from any threads, and return when all are done. NULL: the context's own threads. */
+    void (*parallel_for)(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
+                         void *arg);
+    /* Called from the drawing thread now and then, fraction in [0, 1]; a non-zero return stops the
+     * drawing with DP_ERR_CANCELLED. */
+    int (*progress)(void *user, double fraction);
+    void *user;
+} dp_context_desc;
+
+/* desc may be NULL. DP_ERR_MEMORY, DP_ERR_LIMIT (threads could not be started). */
+DP_API dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_diag *diag);
+DP_API void dp_context_destroy(dp_context *context); /* NULL allowed */
+
+/* Where the picture goes. Rows run from top to bottom; every plane is the caller's and optional. */
+typedef struct dp_target {
+    uint32_t width, height; /* px, 1 to 32768 */
+    uint32_t samples;       /* per pixel: 1, 4, 8 or 16; 0 means 4 */
+    uint8_t *rgba;          /* [height][width][4], not premultiplied */
+    size_t rgba_stride;     /* bytes from row to row; 0 means 4 * width */
+    float *depth;           /* [height][width], world units along the line of sight; INFINITY: none */
+    uint8_t *line_class;    /* [height][width], 1 + dp_line of the ink that covers the pixel, or 0 */
+    float *normal;          /* [height][width][3], world space, unit, towards the eye; 0: none */
+} dp_target;
+
+/* Draws the source, from its start when it can be rewound, from where it is when not.
+ * style NULL: all defaults. The picture is the same, bit for bit, for any number of threads.
+ * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with; and
+ * DP_ERR_FORMAT when the source held polygons but every one of them had to be dropped. */
+DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
+                         const dp_style *style, const dp_target *target, dp_diag *diag);
+
+/* A visible piece of a feature line, as found by the last dp_draw with DP_INK_STROKES. */
+typedef struct dp_segment {
+    dp_line line;
+    float a[3], b[3];       /* both ends on the screen: x right, y down, px; third: distance along
+                               the line of sight, world units */
+    float world_a[3], world_b[3];
+    uint64_t polygon;       /* of the source, counted from 0 over all its batches */
+    uint64_t other;         /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
+    uint32_t edge;          /* from corner `edge` to the next; UINT32_MAX for an intersection */
+    float width;            /* px */
+    dp_color color;
+} dp_segment;
+
+/* Borrowed: valid until the next call that draws, or the context's end. */
+DP_API const dp_segment *dp_segments(const dp_context *context, size_t *count);
+
+/* Stages of a frame, in order. */
+typedef enum dp_stage {
+    DP_STAGE_GATHER = 0, /* read the source, check and split its polygons */
+    DP_STAGE_VERTICES,   /* transform */
+    DP_STAGE_BIN,        /* polygons to tiles */
+    DP_STAGE_TILES,      /* faces, edges, visibility */
+    DP_STAGE_SEGMENTS,   /* merge the tiles' pieces */
+    DP_STAGE_INK,        /* strokes, resolve to the target */
+    DP_STAGE_COUNT
+} dp_stage;
+DP_API const char *dp_stage_name(dp_stage stage);
+
+typedef struct dp_stats {
+    uint64_t polygons;         /* handed out by the source */
+    uint64_t triangles;        /* the same, polygons counted as their corners - 2 */
+    uint64_t split;            /* concave or non-planar polygons that were split */
+    uint64_t dropped;          /* sum of the next four */
+    uint64_t dropped_index;    /* index out of range */
+    uint64_t dropped_finite;   /* NaN or infinite coordinate */
+    uint64_t dropped_area;     /* no area */
+    uint64_t dropped_corners;  /* fewer than three corners */
+    uint64_t clipped;          /* crossed the near or far plane or the guard band */
+    uint64_t edges_resolved;   /* by the tiles' edge tables; counted per tile */
+    uint64_t edges_emergent;   /* left to emerge */
+    uint64_t open_edges;       /* edges met with one polygon; counted per tile */
+    uint64_t added_polygons;   /* by the primitive shaders; counted per tile */
+    uint64_t segments;
+    uint64_t bytes;            /* scratch memory held by the context */
+    double stage_ms[DP_STAGE_COUNT];
+    double frame_ms;
+} dp_stats;
+
+/* Of the last dp_draw. */
+DP_API void dp_stats_of(const dp_context *context, dp_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,13 @@
+/* Everything in the core library. drypoint/io.h (files through libpng and Assimp) stands apart. */
+#ifndef DRYPOINT_DRYPOINT_H
+#define DRYPOINT_DRYPOINT_H
+
+#include <drypoint/base.h>
+#include <drypoint/camera.h>
+#include <drypoint/draw.h>
+#include <drypoint/immediate.h>
+#include <drypoint/shapes.h>
+#include <drypoint/source.h>
+#include <drypoint/style.h>
+
+#endif

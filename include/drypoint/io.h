@@ -1,0 +1,41 @@
+/* drypoint/io.h: files, in the component libdrypoint_io (needs libpng and Assimp).
+ *
+ * The core library reads STL, PLY, OBJ and OFF by itself (drypoint/source.h); this adds every
+ * format that Assimp knows, writes pictures as PNG and models as PLY, STL and OBJ. */
+#ifndef DRYPOINT_IO_H
+#define DRYPOINT_IO_H
+
+#include <drypoint/source.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* As dp_source_open, and everything else (glTF, FBX, 3MF, COLLADA, …) through Assimp. */
+DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
+                            dp_diag *diag);
+
+/* Writes [height][width][4] RGBA, not premultiplied. A regular file is written beside its target and
+ * renamed when whole, so that the old one stays until then; a device or pipe is written in place;
+ * "-" is standard output. DP_ERR_IO (a full disk too), DP_ERR_MEMORY. */
+DP_API dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width,
+                                 uint32_t height, size_t stride, dp_diag *diag);
+
+typedef enum dp_mesh_file {
+    DP_MESH_FILE_AUTO = 0, /* by the name's ending */
+    DP_MESH_FILE_PLY,      /* binary little endian */
+    DP_MESH_FILE_PLY_ASCII,
+    DP_MESH_FILE_STL,      /* binary */
+    DP_MESH_FILE_OBJ
+} dp_mesh_file;
+
+/* Writes a source as a model file, streaming; the same care as for pictures. PLY and OBJ weld vertices
+ * only within what the source itself indexes. The source must be rewindable for PLY. */
+DP_API dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *source,
+                                  int (*progress)(void *user, double fraction), void *user,
+                                  dp_diag *diag);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

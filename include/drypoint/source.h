@@ -1,0 +1,112 @@
+/* drypoint/source.h: where polygons come from.
+ *
+ * A polygon source hands out batches of polygons and can (usually) be replayed from the start. A mesh
+ * in memory, a file on disk, an application's callback and a generator are the same thing to the
+ * rest of the library; nothing needs to be held in memory as a whole.
+ *
+ * A polygon is given by its corners, counter-clockwise seen from its front. It should be convex
+ * and planar; one that is not is split when drawn, and the splitting diagonals never draw a line.
+ * Polygons with fewer than three corners, no area, indices out of range or coordinates that are
+ * not finite are dropped and counted (dp_stats). */
+#ifndef DRYPOINT_SOURCE_H
+#define DRYPOINT_SOURCE_H
+
+#include <drypoint/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct dp_source dp_source;
+
+/* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
+ * `stable` is set, until the source is destroyed. */
+typedef struct dp_batch {
+    const float *positions;    /* x, y, z of vertex v at (const char *)positions + v * stride */
+    size_t position_stride;    /* bytes from one vertex to the next; 0 means 12 */
+    size_t vertex_count;       /* at most UINT32_MAX */
+    const uint32_t *indices;   /* corner_count vertex numbers; NULL: corner c is vertex c */
+    size_t corner_count;       /* triangles without `firsts`: 3 * polygon_count */
+    const uint32_t *firsts;    /* polygon_count + 1 ascending corner numbers; NULL: triangles */
+    size_t polygon_count;      /* 0: the source is at its end */
+    const uint8_t *edge_flags; /* per corner: 0 = the edge to the next corner never draws; or NULL */
+    const uint16_t *groups;    /* per polygon: its group (object, material, …), or NULL: group 0 */
+    bool stable;               /* the memory stays as it is while the source lives */
+} dp_batch;
+
+/* An application's own source. */
+typedef struct dp_source_callbacks {
+    void *user;
+    /* Fills *batch with the next polygons (polygon_count 0 at the end); batch comes zeroed.
+     * May fill *diag on failure (never NULL). */
+    dp_result (*next)(void *user, dp_batch *batch, dp_diag *diag);
+    /* Back to the first polygon. NULL: the source can be read only once. */
+    dp_result (*rewind)(void *user, dp_diag *diag);
+    /* Called once by dp_source_destroy. NULL allowed. */
+    void (*destroy)(void *user);
+    /* The name of group `group`, or NULL. Optional. */
+    const char *(*group_name)(void *user, uint32_t group);
+} dp_source_callbacks;
+
+/* Makes a source of one batch that the caller owns and keeps alive and unchanged while the source
+ * is being drawn (positions may change between frames: deforming meshes need no new source).
+ * `*out` is to be destroyed by the caller. DP_ERR_ARGUMENT, DP_ERR_MEMORY. */
+DP_API dp_result dp_source_from_arrays(const dp_batch *arrays, const dp_allocator *allocator,
+                                       dp_source **out, dp_diag *diag);
+
+/* Makes a source of an application's callbacks (copied). Takes charge of `user` on success only. */
+DP_API dp_result dp_source_from_callbacks(const dp_source_callbacks *callbacks,
+                                          const dp_allocator *allocator, dp_source **out,
+                                          dp_diag *diag);
+
+typedef enum dp_file_format {
+    DP_FORMAT_AUTO = 0, /* by content first, then by the name's ending */
+    DP_FORMAT_STL,      /* ASCII or binary */
+    DP_FORMAT_PLY,      /* ASCII, binary little or big endian; faces or tristrips */
+    DP_FORMAT_OBJ,      /* v, f, g, o, usemtl; relative indices */
+    DP_FORMAT_OFF       /* OFF and COFF, NOFF, … without their extras; ASCII */
+} dp_file_format;
+
+typedef struct dp_file_options {
+    dp_file_format format;
+    const dp_allocator *allocator;
+    /* Called now and then while reading; fraction in [0, 1], or negative when the size is unknown.
+     * A non-zero return stops with DP_ERR_CANCELLED. */
+    int (*progress)(void *user, double fraction);
+    void *user;
+} dp_file_options;
+
+/* Opens a model file ("-": standard input) with the library's own readers; drypoint/io.h opens
+ * every other format too. Options may be NULL. Indexed formats are read whole here; STL is streamed:
+ * it is read batch by batch by dp_source_next, twice when drawn twice (once from a pipe).
+ * DP_ERR_IO, DP_ERR_FORMAT (with line or offset), DP_ERR_MEMORY, DP_ERR_LIMIT,
+ * DP_ERR_UNSUPPORTED for a format that is not among these. */
+DP_API dp_result dp_source_open(const char *path, const dp_file_options *options, dp_source **out,
+                                dp_diag *diag);
+
+/* Next batch (zero polygons at the end), back to the start, whether that is possible. */
+DP_API dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag);
+DP_API dp_result dp_source_rewind(dp_source *source, dp_diag *diag);
+DP_API bool dp_source_rewindable(const dp_source *source);
+
+/* The name of a group (OBJ group or object, say), borrowed; NULL where it has none. */
+DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);
+
+/* NULL allowed. */
+DP_API void dp_source_destroy(dp_source *source);
+
+/* Extent of a source: reads it to the end and rewinds it when it can. */
+typedef struct dp_extent {
+    float min[3], max[3];     /* of the finite corners that polygons use */
+    uint64_t polygons;        /* all that the source handed out */
+    uint64_t corners;
+    uint64_t vertices;
+    uint64_t not_finite;      /* polygons with a NaN or infinite coordinate */
+    uint64_t bad_index;       /* polygons with an index out of range */
+} dp_extent;
+DP_API dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,58 @@
+/* Memory through the caller's allocator: sizes are checked for overflow here and nowhere else. */
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *default_alloc(size_t size, void *user) {
+    (void)user;
+    return malloc(size);
+}
+static void *default_realloc(void *block, size_t size, void *user) {
+    (void)user;
+    return realloc(block, size);
+}
+static void default_free(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+dp_allocator dp_allocator_resolve(const dp_allocator *allocator) {
+    if (allocator && allocator->alloc && allocator->realloc && allocator->free) return *allocator;
+    return (dp_allocator){default_alloc, default_realloc, default_free, NULL};
+}
+
+void *dp_alloc(const dp_allocator *allocator, size_t size) {
+    return allocator->alloc(size ? size : 1, allocator->user);
+}
+
+void *dp_alloc_zeroed(const dp_allocator *allocator, size_t size) {
+    void *const block = dp_alloc(allocator, size);
+    if (block) memset(block, 0, size);
+    return block;
+}
+
+void *dp_alloc_array(const dp_allocator *allocator, size_t count, size_t size) {
+    if (size && count > SIZE_MAX / size) return NULL;
+    return dp_alloc(allocator, count * size);
+}
+
+void dp_free(const dp_allocator *allocator, void *block) {
+    if (block) allocator->free(block, allocator->user);
+}
+
+bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capacity, size_t need,
+                size_t item_size) {
+    if (need <= *capacity) return true;
+    size_t grown = *capacity + *capacity / 2;
+    if (grown < need) grown = need;
+    if (grown < 64) grown = 64;
+    if (grown > SIZE_MAX / item_size) return false;
+    void *block;
+    memcpy(&block, block_address, sizeof block);
+    block = allocator->realloc(block, grown * item_size, allocator->user);
+    if (!block) return false;
+    memcpy(block_address, &block, sizeof block);
+    *capacity = grown;
+    return true;
+}

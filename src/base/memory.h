@@ -1,0 +1,21 @@
+/* Memory through the caller's allocator. */
+#ifndef DP_BASE_MEMORY_H
+#define DP_BASE_MEMORY_H
+
+#include <drypoint/base.h>
+
+/* A copy with the defaults filled in; `allocator` may be NULL. */
+dp_allocator dp_allocator_resolve(const dp_allocator *allocator);
+
+void *dp_alloc(const dp_allocator *allocator, size_t size);
+void *dp_alloc_zeroed(const dp_allocator *allocator, size_t size);
+/* count * size, NULL where that overflows. */
+void *dp_alloc_array(const dp_allocator *allocator, size_t count, size_t size);
+void dp_free(const dp_allocator *allocator, void *block);
+
+/* Makes room for `need` items in *block (any object pointer's address), growing by at least half.
+ * False when memory is out: the block stays as it was. */
+bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capacity, size_t need,
+                size_t item_size);
+
+#endif

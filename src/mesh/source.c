@@ -1,0 +1,171 @@
+/* Polygon sources: the one interface between whoever has polygons and whoever wants them.
+ *
+ * Invariant: a batch that leaves dp_source_next is well-formed as a table (corner counts add up,
+ * firsts ascend); whether indices and coordinates make sense is for the consumer to check. */
+#include "mesh/source.h"
+
+#include "base/diag.h"
+
+#include <math.h>
+#include <string.h>
+
+dp_result dp_source_from_callbacks(const dp_source_callbacks *callbacks,
+                                   const dp_allocator *allocator, dp_source **out, dp_diag *diag) {
+    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_from_callbacks: out is NULL");
+    *out = NULL;
+    if (!callbacks || !callbacks->next)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_from_callbacks: next is NULL");
+    const dp_allocator memory = dp_allocator_resolve(allocator);
+    dp_source *const source = dp_alloc(&memory, sizeof *source);
+    if (!source) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a polygon source");
+    source->callbacks = *callbacks;
+    source->allocator = memory;
+    *out = source;
+    return DP_OK;
+}
+
+/* One batch of arrays, handed out once per rewind. */
+typedef struct arrays {
+    dp_batch batch;
+    dp_allocator allocator;
+    bool done;
+} arrays;
+
+static dp_result arrays_next(void *user, dp_batch *batch, dp_diag *diag) {
+    arrays *const self = user;
+    (void)diag;
+    if (!self->done) *batch = self->batch;
+    self->done = true;
+    return DP_OK;
+}
+
+static dp_result arrays_rewind(void *user, dp_diag *diag) {
+    (void)diag;
+    ((arrays *)user)->done = false;
+    return DP_OK;
+}
+
+static void arrays_destroy(void *user) {
+    arrays *const self = user;
+    const dp_allocator memory = self->allocator;
+    dp_free(&memory, self);
+}
+
+dp_result dp_source_from_arrays(const dp_batch *batch, const dp_allocator *allocator,
+                                dp_source **out, dp_diag *diag) {
+    if (!out || !batch || (batch->polygon_count && !batch->positions))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_from_arrays: arrays, positions or out is NULL");
+    *out = NULL;
+    const dp_allocator memory = dp_allocator_resolve(allocator);
+    arrays *const self = dp_alloc(&memory, sizeof *self);
+    if (!self) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a polygon source");
+    *self = (arrays){.batch = *batch, .allocator = memory};
+    self->batch.stable = true;
+    const dp_source_callbacks callbacks = {
+        .user = self, .next = arrays_next, .rewind = arrays_rewind, .destroy = arrays_destroy};
+    const dp_result result = dp_source_from_callbacks(&callbacks, &memory, out, diag);
+    if (result) dp_free(&memory, self);
+    return result;
+}
+
+/* A table whose counts contradict each other cannot be walked safely. */
+static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
+    if (!batch->polygon_count) return DP_OK;
+    if (!batch->positions || batch->vertex_count > UINT32_MAX)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "a batch has polygons but no usable positions");
+    if (!batch->firsts && batch->corner_count / 3 < batch->polygon_count)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "a batch of %zu triangles has only %zu corners",
+                       batch->polygon_count, batch->corner_count);
+    if (!batch->firsts) return DP_OK;
+    for (size_t i = 0; i < batch->polygon_count; i++)
+        if (batch->firsts[i] > batch->firsts[i + 1] || batch->firsts[i + 1] > batch->corner_count)
+            return dp_fail(diag, DP_ERR_ARGUMENT, "a batch's firsts do not ascend at polygon %zu", i);
+    return DP_OK;
+}
+
+dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag) {
+    if (!source || !batch) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_next: NULL argument");
+    dp_diag unused;
+    if (!diag) diag = &unused;
+    *batch = (dp_batch){0};
+    const dp_result result = source->callbacks.next(source->callbacks.user, batch, diag);
+    if (result) {
+        if (diag->result != result) dp_fail(diag, result, "the polygon source failed");
+        return result;
+    }
+    if (!batch->position_stride) batch->position_stride = 3 * sizeof(float);
+    return check_table(batch, diag);
+}
+
+dp_result dp_source_rewind(dp_source *source, dp_diag *diag) {
+    dp_diag unused;
+    if (!diag) diag = &unused;
+    if (!source || !source->callbacks.rewind)
+        return dp_fail(diag, DP_ERR_UNSUPPORTED, "this polygon source can be read only once");
+    return source->callbacks.rewind(source->callbacks.user, diag);
+}
+
+bool dp_source_rewindable(const dp_source *source) { return source && source->callbacks.rewind; }
+
+const char *dp_source_group_name(const dp_source *source, uint32_t group) {
+    if (!source || !source->callbacks.group_name) return NULL;
+    return source->callbacks.group_name(source->callbacks.user, group);
+}
+
+void dp_source_destroy(dp_source *source) {
+    if (!source) return;
+    const dp_allocator memory = source->allocator;
+    if (source->callbacks.destroy) source->callbacks.destroy(source->callbacks.user);
+    dp_free(&memory, source);
+}
+
+/* ------- extent ------- */
+
+static const float *corner(const dp_batch *batch, size_t c) {
+    const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
+    if (v >= batch->vertex_count) return NULL;
+    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+}
+
+static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *extent) {
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        if (!p) {
+            extent->bad_index++;
+            return;
+        }
+        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) {
+            extent->not_finite++;
+            return;
+        }
+    }
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        for (int k = 0; k < 3; k++) {
+            extent->min[k] = fminf(extent->min[k], p[k]);
+            extent->max[k] = fmaxf(extent->max[k], p[k]);
+        }
+    }
+}
+
+dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
+    if (!source || !extent) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
+    dp_extent sum = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0, 0, 0, 0};
+    for (;;) {
+        dp_batch batch;
+        const dp_result result = dp_source_next(source, &batch, diag);
+        if (result) return result;
+        if (!batch.polygon_count) break;
+        for (size_t i = 0; i < batch.polygon_count; i++) {
+            const size_t first = batch.firsts ? batch.firsts[i] : 3 * i;
+            const size_t last = batch.firsts ? batch.firsts[i + 1] : 3 * i + 3;
+            extend(&batch, first, last, &sum);
+            sum.corners += last - first;
+        }
+        sum.polygons += batch.polygon_count;
+        sum.vertices += batch.vertex_count;
+    }
+    if (sum.min[0] > sum.max[0]) memset(sum.min, 0, sizeof sum.min), memset(sum.max, 0, sizeof sum.max);
+    *extent = sum;
+    return dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
+}
