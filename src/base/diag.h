@@ -5,9 +5,9 @@
 #include <drypoint/base.h>
 
 #if defined(__GNUC__)
-#define DP_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define DP_PRINTF(text, rest) __attribute__((format(printf, text, rest)))
 #else
-#define DP_PRINTF(format, first)
+#define DP_PRINTF(text, rest)
 #endif
 
 /* Fills *diag (NULL allowed) and returns `result`, so that `return dp_fail(…)` reads well. */
