@@ -87,8 +87,9 @@ run_phase() {
     tsan) phase check-tsan "thread sanitizer" all -L 'unit|golden' ;;
     hostile) phase check-hostile "hostile build: tiny batches, bins and tiles" all -L 'unit|golden' ;;
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
+    accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)
-        echo "check: unknown phase $1 (gcc, clang, asan, tsan, hostile, fuzz)" >&2
+        echo "check: unknown phase $1 (gcc, accuracy, clang, asan, tsan, hostile, fuzz)" >&2
         exit 2
         ;;
     esac
