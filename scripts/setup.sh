@@ -70,7 +70,7 @@ echo "setup: installing$missing${root:+, as root through sudo}"
 # shellcheck disable=SC2086
 if ! apt install --no-install-recommends $missing >"$log" 2>&1; then
     tail -n 20 "$log" >&2
-    echo "setup: apt-get could not install:$missing" >&2
+    echo "setup: that did not work. As root, please run: apt-get install$missing" >&2
     exit 1
 fi
 
