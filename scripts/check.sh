@@ -46,7 +46,7 @@ show_failures() {
     local id
     sed -n 's/^ *[0-9]*\/[0-9]* *Test *#\([0-9]*\): .*\*\*\*.*/\1/p' "$1" | while read -r id; do
         grep -E "^ *[0-9]+/[0-9]+ +Test +#$id: " "$1"
-        grep "^$id: " "$1" | sed "s/^$id: /    /" | grep -Ev '^    (\[ *(OK|RUN) *\]|ok |Test command|Working Dir|Test timeout)' | tail -n 60
+        grep "^$id: " "$1" | sed "s/^$id: /    /" | grep -Ev '^    (\[ *(OK|RUN) *\]|ok |Test command|Working Dir|Test timeout|Environment var| [AULT]+SAN_OPTIONS)' | tail -n 60
     done
 }
 
