@@ -23,6 +23,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->polygons);
     dp_free(&memory, worker->points);
     dp_free(&memory, worker->edges);
+    dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);

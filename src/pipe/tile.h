@@ -34,8 +34,15 @@ typedef struct dp_edge_entry {
     uint32_t a, b;              /* tile polygons; b UINT32_MAX while alone */
     uint32_t edge_a, edge_b;    /* corner number within the polygon */
     uint32_t met;               /* how many polygons */
+    uint32_t more;              /* 1 + first of the meetings beyond b, 0: none */
     bool opposed;               /* b runs it from vb to va, as it should */
 } dp_edge_entry;
+
+/* A third or later polygon at an edge. */
+typedef struct dp_meeting {
+    uint32_t polygon, edge;
+    uint32_t next; /* 1 + meeting, 0: none */
+} dp_meeting;
 
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
@@ -70,12 +77,13 @@ struct dp_tile_worker {
     dp_tile_polygon *polygons;
     dp_point *points;
     dp_edge_entry *edges;
+    dp_meeting *meetings;
     uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t polygons_cap, points_cap, edges_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
-    uint32_t polygon_count, point_count, edge_count, slot_count, candidate_count, probe_count;
+    size_t polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
+    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
     size_t piece_count;
 
     uint32_t cell[DP_TILE * DP_TILE]; /* first probe of a pixel; valid where `row` has its bit */
