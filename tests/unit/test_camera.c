@@ -73,9 +73,9 @@ static void wrong_cameras_are_refused(void **state) {
     assert_int_equal(dp_camera_look_at(&camera, eye, eye, up), DP_ERR_ARGUMENT);
     const double lost[3] = {NAN, 0, 0};
     assert_int_equal(dp_camera_look_at(&camera, eye, lost, up), DP_ERR_ARGUMENT);
-    static const double bad[][4] = {{0, 1, 1, 2},   {180, 1, 1, 2},  {40, 0, 1, 2},       {40, 1, 0, 2},
-                                    {40, 1, -1, 2}, {40, 1, 2, 2},   {40, 1, 1, INFINITY}, {NAN, 1, 1, 2},
-                                    {40, NAN, 1, 2}};
+    static const double bad[][4] = {{0, 1, 1, 2},         {180, 1, 1, 2}, {40, 0, 1, 2},
+                                    {40, 1, 0, 2},        {40, 1, -1, 2}, {40, 1, 2, 2},
+                                    {40, 1, 1, INFINITY}, {NAN, 1, 1, 2}, {40, NAN, 1, 2}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_int_equal(dp_camera_perspective(&camera, bad[i][0], bad[i][1], bad[i][2], bad[i][3]),
                          DP_ERR_ARGUMENT);
@@ -85,12 +85,15 @@ static void wrong_cameras_are_refused(void **state) {
 
 static void a_fitted_box_is_seen_whole(void **state) {
     (void)state;
-    static const double directions[][3] = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {-3, 0.1, 2}};
+    static const double directions[][3] = {
+        {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {-3, 0.1, 2}};
     static const double aspects[] = {0, 0.3, 1, 3};
     for (int orthographic = 0; orthographic < 2; orthographic++)
         for (size_t d = 0; d < sizeof directions / sizeof *directions; d++)
             for (size_t a = 0; a < sizeof aspects / sizeof *aspects; a++) {
-                dp_fit fit = {.min = {-1, 2, 100}, .max = {3, 2.5f, 107}, .aspect = aspects[a],
+                dp_fit fit = {.min = {-1, 2, 100},
+                              .max = {3, 2.5f, 107},
+                              .aspect = aspects[a],
                               .orthographic = orthographic};
                 memcpy(fit.direction, directions[d], sizeof fit.direction);
                 dp_camera camera;
@@ -111,7 +114,8 @@ static void fitting_a_point_is_no_error(void **state) {
     const dp_fit fit = {.min = {1, 1, 1}, .max = {1, 1, 1}};
     dp_camera camera;
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
-    for (int i = 0; i < 16; i++) assert_true(isfinite(camera.view[i]) && isfinite(camera.projection[i]));
+    for (int i = 0; i < 16; i++)
+        assert_true(isfinite(camera.view[i]) && isfinite(camera.projection[i]));
 }
 
 static void near_and_far_enclose_the_box(void **state) {

@@ -14,8 +14,11 @@ static const float quad[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0};
 static const uint32_t two_triangles[] = {0, 1, 2, 0, 2, 3};
 
 static dp_batch quad_batch(void) {
-    return (dp_batch){.positions = quad, .vertex_count = 4, .indices = two_triangles,
-                      .corner_count = 6, .polygon_count = 2};
+    return (dp_batch){.positions = quad,
+                      .vertex_count = 4,
+                      .indices = two_triangles,
+                      .corner_count = 6,
+                      .polygon_count = 2};
 }
 
 static void arrays_come_once_per_rewind(void **state) {
@@ -43,8 +46,11 @@ static void extent_counts_and_skips_what_is_not_usable(void **state) {
     (void)state;
     static const float positions[] = {-1, 0, 0, 2, 0, 5, 2, 1, 0, NAN, 1, 0, 99, 99, 99};
     static const uint32_t indices[] = {0, 1, 2, /* */ 0, 1, 3, /* */ 0, 1, 7};
-    const dp_batch arrays = {.positions = positions, .vertex_count = 5, .indices = indices,
-                             .corner_count = 9, .polygon_count = 3};
+    const dp_batch arrays = {.positions = positions,
+                             .vertex_count = 5,
+                             .indices = indices,
+                             .corner_count = 9,
+                             .polygon_count = 3};
     dp_source *source;
     dp_extent extent;
     assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);

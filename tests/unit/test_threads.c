@@ -86,7 +86,8 @@ static void a_loop_sees_what_the_last_one_wrote(void **state) {
     const dp_allocator memory = dp_allocator_resolve(NULL);
     dp_threads *const threads = dp_threads_create(4, NULL, NULL, &memory);
     static chain c;
-    for (int i = 0; i < LOOPS; i++, c.from = !c.from) dp_parallel(threads, PIECES, copy_and_add, &c);
+    for (int i = 0; i < LOOPS; i++, c.from = !c.from)
+        dp_parallel(threads, PIECES, copy_and_add, &c);
     for (int i = 0; i < PIECES; i++) assert_int_equal(c.values[c.from][i], LOOPS);
     dp_threads_destroy(threads);
 }
@@ -110,7 +111,8 @@ static void crowd_loop(void *user, uint32_t count, void (*task)(void *arg, uint3
     pthread_t threads[4];
     crowd c = {.task = task, .arg = arg, .count = count};
     (*(int *)user)++;
-    for (int i = 0; i < 4; i++) assert_int_equal(pthread_create(&threads[i], NULL, crowd_main, &c), 0);
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, crowd_main, &c), 0);
     for (int i = 0; i < 4; i++) pthread_join(threads[i], NULL);
 }
 
