@@ -9,14 +9,13 @@
  * Does not handle: colours in the attribute bytes. */
 #include "io/readers.h"
 
-#include "base/hostile.h"
 #include "io/text.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 enum {
-    BATCH = DP_TUNED(8192, 2), /* triangles: 288 KiB of positions */
+    BATCH = 8192,    /* triangles: 288 KiB of positions */
     HEADER = 84,     /* bytes: title and count */
     RECORD = 50,     /* bytes: normal, corners, attribute */
     CORNERS_AT = 12, /* bytes: behind the normal */
