@@ -21,6 +21,19 @@ DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp
 DP_API dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width,
                                  uint32_t height, size_t stride, dp_diag *diag);
 
+/* The same, for whoever wants to stop it or to show how far it is. */
+typedef struct dp_io_picture {
+    const uint8_t *rgba;    /* [height][width][4], not premultiplied */
+    uint32_t width, height; /* px */
+    size_t stride;          /* bytes from row to row; 0 means 4 * width */
+    /* Called now and then, fraction in [0, 1]; a non-zero return stops with DP_ERR_CANCELLED, and
+     * the old file stays. NULL allowed. */
+    int (*progress)(void *user, double fraction);
+    void *user;
+} dp_io_picture;
+
+DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag);
+
 typedef enum dp_mesh_file {
     DP_MESH_FILE_AUTO = 0, /* by the name's ending */
     DP_MESH_FILE_PLY,      /* binary little endian */

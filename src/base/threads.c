@@ -1,0 +1,151 @@
+/* A pool of pthreads around one shared counter.
+ *
+ * Invariant: between two loops every worker sleeps on `wake`; a loop is announced by a new `round`
+ * and is over when `busy` is back at zero. Inside a loop workers share nothing but `next`.
+ * The pool does not nest: a task must not start another loop. */
+#include "base/threads.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+enum { MAX_THREADS = 256 };
+
+typedef struct worker {
+    dp_threads *threads;
+    pthread_t thread;
+    uint32_t index;
+} worker;
+
+struct dp_threads {
+    dp_allocator allocator;
+    uint32_t count;   /* workers, the caller (worker 0) included */
+    uint32_t started; /* threads that run: count - 1, or 0 with the application's loop */
+    dp_parallel_for *loop;
+    void *user;
+
+    pthread_mutex_t mutex;
+    pthread_cond_t wake, done;
+    uint64_t round;
+    uint32_t busy;
+    bool quit;
+
+    dp_task *task;
+    void *arg;
+    uint32_t total;
+    atomic_uint next;
+    atomic_uint claimed[MAX_THREADS]; /* worker numbers in use, for the application's loop */
+    worker workers[MAX_THREADS];
+};
+
+static void work(dp_threads *threads, uint32_t self) {
+    for (;;) {
+        const uint32_t index = atomic_fetch_add_explicit(&threads->next, 1, memory_order_relaxed);
+        if (index >= threads->total) return;
+        threads->task(threads->arg, index, self);
+    }
+}
+
+static void *thread_main(void *arg) {
+    worker *const self = arg;
+    dp_threads *const threads = self->threads;
+    uint64_t seen = 0;
+    pthread_mutex_lock(&threads->mutex);
+    for (;;) {
+        while (!threads->quit && threads->round == seen)
+            pthread_cond_wait(&threads->wake, &threads->mutex);
+        if (threads->quit) break;
+        seen = threads->round;
+        pthread_mutex_unlock(&threads->mutex);
+        work(threads, self->index);
+        pthread_mutex_lock(&threads->mutex);
+        if (--threads->busy == 0) pthread_cond_signal(&threads->done);
+    }
+    pthread_mutex_unlock(&threads->mutex);
+    return NULL;
+}
+
+static uint32_t processors(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > MAX_THREADS ? MAX_THREADS : (uint32_t)online;
+}
+
+dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
+                              const dp_allocator *allocator) {
+    if (!count) count = processors();
+    if (count > MAX_THREADS) count = MAX_THREADS;
+    dp_threads *const threads = dp_alloc_zeroed(allocator, sizeof *threads);
+    if (!threads) return NULL;
+    threads->allocator = *allocator;
+    threads->count = count;
+    threads->loop = loop;
+    threads->user = user;
+    pthread_mutex_init(&threads->mutex, NULL);
+    pthread_cond_init(&threads->wake, NULL);
+    pthread_cond_init(&threads->done, NULL);
+    for (uint32_t i = 1; i < count && !loop; i++) {
+        threads->workers[i] = (worker){.threads = threads, .index = i};
+        if (pthread_create(&threads->workers[i].thread, NULL, thread_main, &threads->workers[i])) {
+            dp_threads_destroy(threads);
+            return NULL;
+        }
+        threads->started++;
+    }
+    return threads;
+}
+
+void dp_threads_destroy(dp_threads *threads) {
+    if (!threads) return;
+    pthread_mutex_lock(&threads->mutex);
+    threads->quit = true;
+    pthread_cond_broadcast(&threads->wake);
+    pthread_mutex_unlock(&threads->mutex);
+    for (uint32_t i = 1; i <= threads->started; i++) pthread_join(threads->workers[i].thread, NULL);
+    pthread_cond_destroy(&threads->wake);
+    pthread_cond_destroy(&threads->done);
+    pthread_mutex_destroy(&threads->mutex);
+    const dp_allocator memory = threads->allocator;
+    dp_free(&memory, threads);
+}
+
+uint32_t dp_threads_count(const dp_threads *threads) { return threads->count; }
+
+/* Scratch memory is per worker, so the application's loop gets a free worker number per call; should
+ * it run more calls at once than it said, the extra ones wait for a number. */
+static uint32_t claim(dp_threads *threads) {
+    for (;;)
+        for (uint32_t i = 0; i < threads->count; i++)
+            if (!atomic_exchange_explicit(&threads->claimed[i], 1, memory_order_acquire)) return i;
+}
+
+static void foreign_task(void *arg, uint32_t index) {
+    dp_threads *const threads = arg;
+    const uint32_t self = claim(threads);
+    threads->task(threads->arg, index, self);
+    atomic_store_explicit(&threads->claimed[self], 0, memory_order_release);
+}
+
+void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg) {
+    if (!count) return;
+    threads->task = task;
+    threads->arg = arg;
+    threads->total = count;
+    if (threads->loop) {
+        threads->loop(threads->user, count, foreign_task, threads);
+        return;
+    }
+    atomic_store_explicit(&threads->next, 0, memory_order_relaxed);
+    const bool alone = count == 1 || !threads->started;
+    if (!alone) {
+        pthread_mutex_lock(&threads->mutex);
+        threads->busy = threads->started;
+        threads->round++;
+        pthread_cond_broadcast(&threads->wake);
+        pthread_mutex_unlock(&threads->mutex);
+    }
+    work(threads, 0);
+    if (alone) return;
+    pthread_mutex_lock(&threads->mutex);
+    while (threads->busy) pthread_cond_wait(&threads->done, &threads->mutex);
+    pthread_mutex_unlock(&threads->mutex);
+}

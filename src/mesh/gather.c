@@ -1,0 +1,259 @@
+/* Reading a source into one set of convex polygons.
+ *
+ * One stable batch of sound polygons is used where it lies: nothing is copied. Everything else is
+ * appended to a store that the context keeps from frame to frame. A diagonal that splitting adds has
+ * edge flag 0, so that it never draws. */
+#include "mesh/polygons.h"
+
+#include "base/diag.h"
+
+#include <string.h>
+
+/* Corner pointers of one polygon, and scratch to split it; grows to the largest polygon. */
+typedef struct scratch {
+    const float **at;
+    uint32_t *links;
+    uint32_t (*triangles)[3];
+    size_t at_cap, links_cap, triangles_cap;
+} scratch;
+
+typedef struct gatherer {
+    dp_polygon_store *store;
+    const dp_allocator *memory;
+    dp_stats *stats;
+    dp_diag *diag;
+    scratch scratch;
+    bool indexed, has_firsts, has_flags, has_groups, has_source;
+    uint64_t handed_out; /* polygons of earlier batches */
+} gatherer;
+
+static void free_scratch(gatherer *g) {
+    dp_free(g->memory, g->scratch.at);
+    dp_free(g->memory, g->scratch.links);
+    dp_free(g->memory, g->scratch.triangles);
+}
+
+void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator) {
+    dp_free(allocator, store->positions);
+    dp_free(allocator, store->corners);
+    dp_free(allocator, store->firsts);
+    dp_free(allocator, store->source_polygon);
+    dp_free(allocator, store->edge_flags);
+    dp_free(allocator, store->groups);
+    *store = (dp_polygon_store){0};
+}
+
+static dp_result out_of_memory(gatherer *g) {
+    return dp_fail(g->diag, DP_ERR_MEMORY, "out of memory for %zu polygons", g->store->polygons);
+}
+
+static uint32_t batch_vertex(const dp_batch *batch, size_t corner) {
+    return batch->indices ? batch->indices[corner] : (uint32_t)corner;
+}
+
+static const float *batch_position(const dp_batch *batch, uint32_t vertex) {
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         (size_t)vertex * batch->position_stride);
+}
+
+/* The corners' positions; false where an index is out of range (binning will drop the polygon). */
+static bool locate(const dp_batch *batch, size_t first, size_t n, const float **at) {
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t vertex = batch_vertex(batch, first + i);
+        if (vertex >= batch->vertex_count) return false;
+        at[i] = batch_position(batch, vertex);
+    }
+    return true;
+}
+
+static bool reserve_scratch(gatherer *g, size_t n) {
+    scratch *const s = &g->scratch;
+    return dp_reserve(g->memory, &s->at, &s->at_cap, n, sizeof *s->at) &&
+           dp_reserve(g->memory, &s->links, &s->links_cap, n, sizeof *s->links) &&
+           dp_reserve(g->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
+}
+
+/* True when the pipe can take the polygons of a batch as they are. */
+static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
+    *result = DP_OK;
+    if (batch->polygon_count > UINT32_MAX / 4 || !batch->firsts) return batch->polygon_count <= UINT32_MAX / 4;
+    if (batch->corner_count > UINT32_MAX) return false;
+    for (size_t i = 0; i < batch->polygon_count; i++) {
+        const size_t n = batch->firsts[i + 1] - batch->firsts[i];
+        if (n < 3) return false;
+        if (n == 3) continue;
+        if (!reserve_scratch(g, n)) {
+            *result = out_of_memory(g);
+            return false;
+        }
+        if (locate(batch, batch->firsts[i], n, g->scratch.at) &&
+            !dp_is_convex_planar(g->scratch.at, (uint32_t)n))
+            return false;
+    }
+    return true;
+}
+
+static void use_as_is(const dp_batch *batch, dp_polygons *out, dp_stats *stats) {
+    *out = (dp_polygons){.positions = batch->positions,
+                         .stride = batch->position_stride,
+                         .vertex_count = (uint32_t)batch->vertex_count,
+                         .corners = batch->indices,
+                         .firsts = batch->firsts,
+                         .edge_flags = batch->edge_flags,
+                         .groups = batch->groups,
+                         .count = (uint32_t)batch->polygon_count};
+    stats->polygons = batch->polygon_count;
+    const uint64_t corners = batch->firsts ? batch->firsts[batch->polygon_count] - batch->firsts[0]
+                                           : 3 * (uint64_t)batch->polygon_count;
+    stats->triangles = corners - 2 * stats->polygons;
+}
+
+/* ------- appending to the store ------- */
+
+static bool reserve_polygon(gatherer *g, size_t corners) {
+    dp_polygon_store *const s = g->store;
+    const size_t n = s->polygons + 1, c = s->corner_count + corners;
+    return dp_reserve(g->memory, &s->corners, &s->corners_cap, c, sizeof *s->corners) &&
+           dp_reserve(g->memory, &s->edge_flags, &s->flags_cap, c, 1) &&
+           dp_reserve(g->memory, &s->firsts, &s->firsts_cap, n + 1, sizeof *s->firsts) &&
+           dp_reserve(g->memory, &s->source_polygon, &s->source_cap, n, sizeof *s->source_polygon) &&
+           dp_reserve(g->memory, &s->groups, &s->groups_cap, n, sizeof *s->groups);
+}
+
+static void begin_polygon(gatherer *g, const dp_batch *batch, size_t i) {
+    dp_polygon_store *const s = g->store;
+    s->firsts[s->polygons] = (uint32_t)s->corner_count;
+    s->source_polygon[s->polygons] = (uint32_t)(g->handed_out + i);
+    s->groups[s->polygons] = batch->groups ? batch->groups[i] : 0;
+    if (s->source_polygon[s->polygons] != s->polygons) g->has_source = true;
+    s->polygons++;
+}
+
+static void add_corner(gatherer *g, uint32_t base, const dp_batch *batch, size_t corner, bool flag) {
+    dp_polygon_store *const s = g->store;
+    const uint32_t vertex = batch_vertex(batch, corner);
+    s->corners[s->corner_count] = vertex < batch->vertex_count ? base + vertex : UINT32_MAX;
+    s->edge_flags[s->corner_count] = flag;
+    if (!flag) g->has_flags = true;
+    s->corner_count++;
+}
+
+static bool flag_of(const dp_batch *batch, size_t corner) {
+    return !batch->edge_flags || batch->edge_flags[corner];
+}
+
+static dp_result append_whole(gatherer *g, const dp_batch *batch, size_t i, size_t first, size_t n,
+                              uint32_t base) {
+    if (!reserve_polygon(g, n)) return out_of_memory(g);
+    begin_polygon(g, batch, i);
+    for (size_t k = 0; k < n; k++) add_corner(g, base, batch, first + k, flag_of(batch, first + k));
+    if (n != 3) g->has_firsts = true;
+    return DP_OK;
+}
+
+static dp_result append_split(gatherer *g, const dp_batch *batch, size_t i, size_t first, size_t n,
+                              uint32_t base) {
+    const uint32_t count =
+        dp_split_polygon(g->scratch.at, (uint32_t)n, g->scratch.links, g->scratch.triangles);
+    g->stats->split++;
+    for (uint32_t t = 0; t < count; t++) {
+        if (!reserve_polygon(g, 3)) return out_of_memory(g);
+        begin_polygon(g, batch, i);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t from = g->scratch.triangles[t][k], to = g->scratch.triangles[t][(k + 1) % 3];
+            const bool outline = to == (from + 1) % n;
+            add_corner(g, base, batch, first + from, outline && flag_of(batch, first + from));
+        }
+    }
+    return DP_OK;
+}
+
+static dp_result append_polygon(gatherer *g, const dp_batch *batch, size_t i, uint32_t base) {
+    const size_t first = batch->firsts ? batch->firsts[i] : 3 * i;
+    const size_t n = batch->firsts ? batch->firsts[i + 1] - first : 3;
+    if (n < 3) {
+        g->stats->dropped_corners++;
+        return DP_OK;
+    }
+    g->stats->triangles += n - 2;
+    if (n == 3) return append_whole(g, batch, i, first, n, base);
+    if (!reserve_scratch(g, n)) return out_of_memory(g);
+    const bool known = locate(batch, first, n, g->scratch.at);
+    if (!known || dp_is_convex_planar(g->scratch.at, (uint32_t)n))
+        return append_whole(g, batch, i, first, n, base);
+    return append_split(g, batch, i, first, n, base);
+}
+
+static dp_result append_batch(gatherer *g, const dp_batch *batch) {
+    dp_polygon_store *const s = g->store;
+    const size_t base = s->vertices;
+    if (base + batch->vertex_count >= UINT32_MAX ||
+        s->corner_count + batch->corner_count >= UINT32_MAX / 2 ||
+        g->handed_out + batch->polygon_count >= UINT32_MAX / 4)
+        return dp_fail(g->diag, DP_ERR_LIMIT, "more than %u vertices, corners or polygons",
+                       UINT32_MAX / 4);
+    if (!dp_reserve(g->memory, &s->positions, &s->positions_cap, 3 * (base + batch->vertex_count),
+                    sizeof *s->positions))
+        return out_of_memory(g);
+    for (size_t v = 0; v < batch->vertex_count; v++)
+        memcpy(s->positions + 3 * (base + v), batch_position(batch, (uint32_t)v), 3 * sizeof(float));
+    s->vertices += batch->vertex_count;
+    if (batch->groups) g->has_groups = true;
+    for (size_t i = 0; i < batch->polygon_count; i++) {
+        const dp_result result = append_polygon(g, batch, i, (uint32_t)base);
+        if (result) return result;
+    }
+    g->handed_out += batch->polygon_count;
+    g->stats->polygons += batch->polygon_count;
+    return DP_OK;
+}
+
+static void use_store(const gatherer *g, dp_polygons *out) {
+    const dp_polygon_store *const s = g->store;
+    if (s->firsts) s->firsts[s->polygons] = (uint32_t)s->corner_count;
+    *out = (dp_polygons){.positions = s->positions,
+                         .stride = 3 * sizeof(float),
+                         .vertex_count = (uint32_t)s->vertices,
+                         .corners = s->corners,
+                         .firsts = g->has_firsts ? s->firsts : NULL,
+                         .edge_flags = g->has_flags ? s->edge_flags : NULL,
+                         .source_polygon = g->has_source ? s->source_polygon : NULL,
+                         .groups = g->has_groups ? s->groups : NULL,
+                         .count = (uint32_t)s->polygons};
+}
+
+static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
+    dp_batch batch, next;
+    dp_result result = dp_source_next(source, &batch, g->diag);
+    if (result) return result;
+    const bool stable = batch.stable && batch.polygon_count;
+    if (stable) {
+        const dp_batch first = batch;
+        if ((result = dp_source_next(source, &next, g->diag))) return result;
+        if (!next.polygon_count && is_sound(g, &first, &result)) {
+            use_as_is(&first, out, g->stats);
+            return DP_OK;
+        }
+        if (result || (result = append_batch(g, &first))) return result;
+        batch = next;
+    }
+    while (batch.polygon_count) {
+        if ((result = append_batch(g, &batch))) return result;
+        if ((result = dp_source_next(source, &batch, g->diag))) return result;
+    }
+    use_store(g, out);
+    return DP_OK;
+}
+
+dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocator *allocator,
+                    dp_polygons *out, dp_stats *stats, dp_diag *diag) {
+    if (dp_source_rewindable(source)) {
+        const dp_result result = dp_source_rewind(source, diag);
+        if (result) return result;
+    }
+    store->vertices = store->corner_count = store->polygons = 0;
+    gatherer g = {.store = store, .memory = allocator, .stats = stats, .diag = diag};
+    const dp_result result = gather(&g, source, out);
+    free_scratch(&g);
+    return result;
+}

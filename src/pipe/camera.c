@@ -1,0 +1,117 @@
+/* Cameras: look-at, projections, and fitting a box into the picture (OpenGL's conventions). */
+#include <drypoint/camera.h>
+
+#include "base/vec.h"
+
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+static bool finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
+
+/* Any axis that is not nearly parallel to `forward`; y first, since models mostly stand on y. */
+static dp_vec3 usable_up(dp_vec3 forward, dp_vec3 up) {
+    const dp_vec3 choices[3] = {up, {0, 0, forward.y > 0 ? 1 : -1}, {0, 1, 0}};
+    for (int i = 0; i < 3; i++)
+        if (dp_length(dp_cross(forward, dp_unit(choices[i]))) > 1e-6) return choices[i];
+    return dp_v3(1, 0, 0);
+}
+
+dp_result dp_camera_look_at(dp_camera *camera, const double eye[3], const double target[3],
+                            const double up[3]) {
+    if (!camera || !eye || !target || !up || !finite3(eye) || !finite3(target) || !finite3(up))
+        return DP_ERR_ARGUMENT;
+    const dp_vec3 from = dp_v3(eye[0], eye[1], eye[2]);
+    const dp_vec3 line = dp_sub(dp_v3(target[0], target[1], target[2]), from);
+    if (!(dp_length(line) > 0)) return DP_ERR_ARGUMENT;
+    const dp_vec3 f = dp_unit(line);
+    const dp_vec3 r = dp_unit(dp_cross(f, usable_up(f, dp_v3(up[0], up[1], up[2]))));
+    const dp_vec3 u = dp_cross(r, f);
+    const double view[16] = {r.x, u.x, -f.x, 0, r.y, u.y, -f.y, 0, r.z, u.z, -f.z, 0,
+                             -dp_dot(r, from), -dp_dot(u, from), dp_dot(f, from), 1};
+    memcpy(camera->view, view, sizeof view);
+    return DP_OK;
+}
+
+dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect, double near_z,
+                                double far_z) {
+    if (!camera || !(fov_y > 0 && fov_y < 180) || !(aspect > 0) || !(near_z > 0) ||
+        !(far_z > near_z) || !isfinite(far_z) || !isfinite(aspect))
+        return DP_ERR_ARGUMENT;
+    const double f = 1 / tan(fov_y * PI / 360);
+    const double m[16] = {f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, -(far_z + near_z) / (far_z - near_z), -1,
+                          0, 0, -2 * far_z * near_z / (far_z - near_z), 0};
+    memcpy(camera->projection, m, sizeof m);
+    return DP_OK;
+}
+
+dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect, double near_z,
+                                 double far_z) {
+    if (!camera || !(height > 0) || !isfinite(height) || !(aspect > 0) || !isfinite(aspect) ||
+        !(far_z > near_z) || !isfinite(far_z - near_z))
+        return DP_ERR_ARGUMENT;
+    const double depth = far_z - near_z;
+    const double m[16] = {2 / (height * aspect), 0, 0, 0, 0, 2 / height, 0, 0, 0, 0, -2 / depth, 0,
+                          0, 0, -(far_z + near_z) / depth, 1};
+    memcpy(camera->projection, m, sizeof m);
+    return DP_OK;
+}
+
+/* Distance of a point along the line of sight, in front of the eye positive. */
+static double distance_along(const dp_camera *camera, double x, double y, double z) {
+    const double *const v = camera->view;
+    return -(v[2] * x + v[6] * y + v[10] * z + v[14]);
+}
+
+void dp_camera_near_far(const dp_camera *camera, const float min[3], const float max[3],
+                        double *near_z, double *far_z) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (int i = 0; i < 8; i++) {
+        const double d = distance_along(camera, i & 1 ? max[0] : min[0], i & 2 ? max[1] : min[1],
+                                        i & 4 ? max[2] : min[2]);
+        lo = fmin(lo, d);
+        hi = fmax(hi, d);
+    }
+    if (!(hi > 0)) hi = 1; /* all of it is behind the eye: any range draws nothing */
+    *far_z = hi * 1.01;
+    *near_z = fmax(lo * 0.99, *far_z * 1e-4);
+    if (*near_z >= *far_z) *near_z = *far_z * 0.5;
+}
+
+static dp_vec3 or_default(const double v[3], dp_vec3 other) {
+    const dp_vec3 given = dp_v3(v[0], v[1], v[2]);
+    return dp_length(given) > 0 ? given : other;
+}
+
+dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
+    if (!camera || !fit || !finite3(fit->direction) || !finite3(fit->up)) return DP_ERR_ARGUMENT;
+    const dp_vec3 min = dp_v3f(fit->min), max = dp_v3f(fit->max);
+    const dp_vec3 centre = dp_scale(dp_add(min, max), 0.5);
+    double radius = dp_length(dp_sub(max, min)) / 2;
+    if (!isfinite(radius)) return DP_ERR_ARGUMENT;
+    if (!(radius > 0)) radius = 1;
+    const double fov = fit->fov_y != 0 ? fit->fov_y : 35;
+    const double aspect = fit->aspect != 0 ? fit->aspect : 4.0 / 3.0;
+    const double zoom = fit->zoom != 0 ? fit->zoom : 1;
+    if (!(fov > 0 && fov < 180) || !(aspect > 0) || !(zoom > 0)) return DP_ERR_ARGUMENT;
+
+    const dp_vec3 towards = dp_unit(or_default(fit->direction, dp_v3(1, 0.6, 1)));
+    const dp_vec3 up = or_default(fit->up, dp_v3(0, 1, 0));
+    const double half_y = fov * PI / 360;
+    const double half = fmin(half_y, atan(tan(half_y) * aspect));
+    const double distance = radius / sin(half);
+    const dp_vec3 eye = dp_mad(centre, towards, distance);
+    const dp_result result = dp_camera_look_at(camera, (const double[3]){eye.x, eye.y, eye.z},
+                                               (const double[3]){centre.x, centre.y, centre.z},
+                                               (const double[3]){up.x, up.y, up.z});
+    if (result) return result;
+    if (fit->orthographic) {
+        const double fitted = 2 * radius / fmin(1, aspect);
+        return dp_camera_orthographic(camera, (fit->height > 0 ? fit->height : fitted) / zoom, aspect,
+                                      distance - 1.01 * radius, distance + 1.01 * radius);
+    }
+    /* Zoom narrows the field of view rather than moving the eye: the perspective stays. */
+    const double zoomed = 2 * atan(tan(half_y) / zoom) * 180 / PI;
+    const double near_z = fmax(distance - 1.01 * radius, 1e-4 * distance);
+    return dp_camera_perspective(camera, zoomed, aspect, near_z, distance + 1.01 * radius);
+}

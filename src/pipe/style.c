@@ -1,0 +1,69 @@
+/* Styles: every default is filled in here, and nowhere else. */
+#include <drypoint/style.h>
+
+#include "base/diag.h"
+
+#include <math.h>
+
+static const char *const line_names[DP_LINE_COUNT] = {"silhouette", "ridge", "valley",
+                                                      "intersection", "border"};
+
+const char *dp_line_name(dp_line line) {
+    return (unsigned)line < DP_LINE_COUNT ? line_names[line] : "unknown";
+}
+
+static dp_color color_or(dp_color color, dp_color other) { return color ? color : other; }
+
+static dp_result resolve_line(dp_line_style *line, dp_line which, dp_diag *diag) {
+    if (line->width == 0) line->width = 2;
+    if (!(line->width >= 0.5f && line->width <= 64))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the %s width is %g px; it must be 0.5 to 64",
+                       dp_line_name(which), (double)line->width);
+    line->color = color_or(line->color, DP_RGB(0, 0, 0));
+    return DP_OK;
+}
+
+static dp_result resolve_angle(float *angle, float other, const char *name, dp_diag *diag) {
+    if (*angle == 0) *angle = other;
+    if (!(*angle > 0 && *angle < 360))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the %s angle is %g degrees; it must be between 0 and 360",
+                       name, (double)*angle);
+    return DP_OK;
+}
+
+/* Only the paper's own test works with one pass; the plane test needs the finished depth. */
+static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
+    const int needed = style->between == DP_BETWEEN_PLANE ? 2 : style->between == DP_BETWEEN_STENCIL ? 3 : 1;
+    if (style->passes == 0) style->passes = needed;
+    if (style->passes == 1 && style->ink == DP_INK_QUADS && style->between != DP_BETWEEN_INTERVAL)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs between=interval");
+    if (style->passes < 1 || style->passes > 3)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
+    return DP_OK;
+}
+
+dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag) {
+    if (!resolved) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_style_resolve: resolved is NULL");
+    dp_style full = style ? *style : (dp_style){0};
+    if (!full.lines) full.lines = DP_ALL_LINES;
+    full.lines &= DP_ALL_LINES;
+    if (!full.lines) full.lines = DP_NO_LINES; /* stays so when resolved twice */
+    for (int i = 0; i < DP_LINE_COUNT; i++) {
+        const dp_result result = resolve_line(&full.line[i], (dp_line)i, diag);
+        if (result) return result;
+    }
+    dp_result result = resolve_angle(&full.ridge_angle, 150, "ridge", diag);
+    if (!result) result = resolve_angle(&full.valley_angle, 210, "valley", diag);
+    if (!result) result = resolve_passes(&full, diag);
+    if (result) return result;
+    if ((unsigned)full.method > DP_METHOD_PAPER || (unsigned)full.between > DP_BETWEEN_STENCIL ||
+        (unsigned)full.ink > DP_INK_QUADS)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "method, between or ink is not one of its values");
+    if (full.between_offset == 0) full.between_offset = 1;
+    if (!(full.between_offset > 0) || !isfinite(full.between_offset))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");
+    full.paper = color_or(full.paper, DP_RGB(255, 255, 255));
+    full.surface = color_or(full.surface, DP_RGB(255, 255, 255));
+    *resolved = full;
+    return DP_OK;
+}

@@ -1,0 +1,170 @@
+/* Writes a picture as PNG, fast: a drawing is mostly flat paper, so the cheapest compression already
+ * makes it small. What all pixels share is left out: the colour when all are gray, the alpha when all
+ * are opaque, which makes less to compress and smaller files.
+ *
+ * libpng reports errors by longjmp: it stays within encode(), and everything that must survive it
+ * lives in the encoder, not in local variables.
+ *
+ * Not here: palettes, 16 bits, interlacing, colour profiles. */
+#include <drypoint/io.h>
+
+#include "base/diag.h"
+#include "write/file.h"
+
+#include <png.h>
+#include <stdlib.h>
+#include <zlib.h>
+
+enum {
+    LEVEL = 1,            /* of zlib: higher levels take much longer and gain little on drawings */
+    ROWS_PER_REPORT = 64
+};
+
+typedef struct encoder {
+    const dp_io_picture *picture;
+    dp_output output;
+    dp_diag diag;
+    dp_result result;
+    png_structp png;
+    png_infop info;
+    uint8_t *row;
+    bool gray, opaque;
+} encoder;
+
+static const uint8_t *row_of(const dp_io_picture *picture, uint32_t y) {
+    const size_t stride = picture->stride ? picture->stride : (size_t)4 * picture->width;
+    return picture->rgba + y * stride;
+}
+
+/* ---- libpng's callbacks ---- */
+
+static void on_error(png_structp png, png_const_charp message) {
+    encoder *const self = png_get_error_ptr(png);
+    if (!self->result) self->result = dp_fail(&self->diag, DP_ERR_IO, "libpng: %s", message);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message) {
+    (void)png;
+    (void)message;
+}
+
+static void on_write(png_structp png, png_bytep bytes, size_t size) {
+    encoder *const self = png_get_io_ptr(png);
+    self->result = dp_output_write(&self->output, bytes, size, &self->diag);
+    if (self->result) png_error(png, "write");
+}
+
+static void on_flush(png_structp png) { (void)png; }
+
+/* ---- pixels ---- */
+
+/* Bitwise sums over a row at a time keep the loop free of branches. */
+static void look_for_colour(encoder *self) {
+    const dp_io_picture *const p = self->picture;
+    self->gray = self->opaque = true;
+    for (uint32_t y = 0; y < p->height && (self->gray || self->opaque); y++) {
+        const uint8_t *const row = row_of(p, y);
+        uint8_t coloured = 0, alpha = 0xFF;
+        for (size_t x = 0; x < (size_t)4 * p->width; x += 4) {
+            coloured |= (uint8_t)((row[x] ^ row[x + 1]) | (row[x] ^ row[x + 2]));
+            alpha &= row[x + 3];
+        }
+        if (coloured) self->gray = false;
+        if (alpha != 0xFF) self->opaque = false;
+    }
+}
+
+/* The row without what is left out. */
+static const uint8_t *pack_row(const encoder *self, const uint8_t *rgba) {
+    const size_t n = self->picture->width;
+    uint8_t *const to = self->row;
+    if (!self->gray && !self->opaque) return rgba;
+    if (self->gray && self->opaque)
+        for (size_t x = 0; x < n; x++) to[x] = rgba[4 * x];
+    else if (self->gray)
+        for (size_t x = 0; x < n; x++) to[2 * x] = rgba[4 * x], to[2 * x + 1] = rgba[4 * x + 3];
+    else
+        for (size_t x = 0; x < n; x++)
+            to[3 * x] = rgba[4 * x], to[3 * x + 1] = rgba[4 * x + 1], to[3 * x + 2] = rgba[4 * x + 2];
+    return to;
+}
+
+/* ---- the file ---- */
+
+static int colour_type(const encoder *self) {
+    if (self->gray) return self->opaque ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_GRAY_ALPHA;
+    return self->opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;
+}
+
+static void write_header(encoder *self) {
+    png_set_write_fn(self->png, self, on_write, on_flush);
+    png_set_compression_level(self->png, LEVEL);
+    /* No filter: flat paper is already runs of equal bytes, and lines are too thin to predict. */
+    png_set_filter(self->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_compression_buffer_size(self->png, 1 << 16);
+    png_set_IHDR(self->png, self->info, self->picture->width, self->picture->height, 8,
+                 colour_type(self), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(self->png, self->info);
+}
+
+static void write_rows(encoder *self) {
+    const dp_io_picture *const p = self->picture;
+    for (uint32_t y = 0; y < p->height; y++) {
+        if (p->progress && y % ROWS_PER_REPORT == 0 && p->progress(p->user, (double)y / p->height)) {
+            self->result = dp_fail(&self->diag, DP_ERR_CANCELLED, "writing was stopped");
+            png_error(self->png, "cancelled");
+        }
+        png_write_row(self->png, pack_row(self, row_of(p, y)));
+    }
+}
+
+/* Everything that may longjmp. */
+static void encode(encoder *self) {
+    if (setjmp(png_jmpbuf(self->png))) return;
+    write_header(self);
+    write_rows(self);
+    png_write_end(self->png, self->info);
+}
+
+static dp_result prepare(encoder *self, const char *path) {
+    dp_diag *const diag = &self->diag;
+    self->row = malloc((size_t)4 * self->picture->width);
+    self->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, self, on_error, on_warning);
+    if (self->png) self->info = png_create_info_struct(self->png);
+    if (!self->row || !self->info) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a PNG");
+    png_set_user_limits(self->png, self->picture->width, self->picture->height);
+    look_for_colour(self);
+    return dp_output_open(&self->output, path, diag);
+}
+
+static dp_result write_picture(encoder *self, const char *path) {
+    const dp_result unprepared = prepare(self, path);
+    if (unprepared) return unprepared;
+    encode(self);
+    if (self->result) dp_output_abandon(&self->output);
+    else self->result = dp_output_commit(&self->output, &self->diag);
+    return self->result;
+}
+
+dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag) {
+    if (!path || !picture || !picture->rgba || !picture->width || !picture->height)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_write_picture: nothing to write, or nowhere");
+    if (picture->width > PNG_UINT_31_MAX / 4 || picture->height > PNG_UINT_31_MAX)
+        return dp_fail(diag, DP_ERR_LIMIT, "a PNG cannot be %u x %u pixels large", picture->width,
+                       picture->height);
+    encoder self = {.picture = picture};
+    const dp_result result = write_picture(&self, path);
+    png_destroy_write_struct(&self.png, &self.info);
+    free(self.row);
+    if (result && diag) *diag = self.diag;
+    return result;
+}
+
+dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width, uint32_t height,
+                          size_t stride, dp_diag *diag) {
+    const dp_io_picture picture = {
+        .rgba = rgba, .width = width, .height = height, .stride = stride};
+    return dp_io_write_picture(path, &picture, diag);
+}
