@@ -1,0 +1,78 @@
+# A thin front for people: CMake does the building. `make help` lists what there is.
+BUILD   := build
+PREFIX  ?= /usr/local
+DESTDIR ?=
+JOBS    ?= $(shell nproc 2>/dev/null || echo 1)
+export DESTDIR JOBS
+
+# The C sources that are ours, for the formatter.
+SOURCES  = $$(git ls-files '*.c' '*.h')
+
+all: $(BUILD)/CMakeCache.txt
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+$(BUILD)/CMakeCache.txt:
+	@cmake --preset release $$(scripts/generator.sh)
+
+help:
+	@echo 'make            build build/drypoint and build/libdrypoint.{a,so}'
+	@echo 'make demo       install what is missing, build, and draw demo.png'
+	@echo 'make check      install what is missing, build in all ways, run all tests'
+	@echo 'make test       build and run the tests once, without sanitizers and fuzzers'
+	@echo 'make sanitize   run the tests under the sanitizers and in the hostile build'
+	@echo 'make fuzz       run every fuzzer for long: MINUTES=10 each'
+	@echo 'make accuracy   score pictures against exact lines'
+	@echo 'make bench      time frames of generated models'
+	@echo 'make gallery    draw the pictures of docs/gallery again'
+	@echo 'make install    install below PREFIX=/usr/local'
+	@echo 'make setup      only install what is missing to build'
+	@echo 'make format     format the C sources; make format-check only looks'
+	@echo 'make clean      remove the build directory'
+
+setup:
+	@scripts/setup.sh build
+
+setup-check:
+	@scripts/setup.sh check
+
+demo: setup
+	@$(MAKE) --no-print-directory all
+	@scripts/demo.sh $(BUILD)/drypoint
+
+check check-all: setup-check
+	@scripts/check.sh
+
+test: setup-check
+	@scripts/check.sh gcc
+
+sanitize: setup-check
+	@scripts/check.sh asan tsan hostile
+
+fuzz: setup-check
+	@scripts/fuzz.sh
+
+accuracy: setup-check
+	@scripts/accuracy.sh
+
+bench: setup
+	@$(MAKE) --no-print-directory all
+	@scripts/bench.sh $(BUILD)/drypoint
+
+gallery: setup
+	@$(MAKE) --no-print-directory all
+	@scripts/gallery.sh $(BUILD)/drypoint
+
+install: all
+	@cmake --install $(BUILD) --prefix "$(PREFIX)"
+
+format:
+	@clang-format -i $(SOURCES)
+
+format-check:
+	@clang-format --dry-run -Werror $(SOURCES)
+
+clean:
+	rm -rf $(BUILD)
+
+.PHONY: all help setup setup-check demo check check-all test sanitize fuzz accuracy bench gallery \
+        install format format-check clean

@@ -1,0 +1,71 @@
+# What `cmake --install` puts where: headers, libraries, the program, its manual page, and what
+# find_package(drypoint) and pkg-config need.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/drypoint)
+
+install(DIRECTORY include/drypoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+# One export set per component, so that the core can be used where libpng and Assimp are absent.
+foreach(component drypoint drypoint_io)
+  foreach(library ${component} ${component}_shared)
+    if(TARGET ${library})
+      install(TARGETS ${library} EXPORT ${component}Targets
+              ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    endif()
+  endforeach()
+  if(TARGET ${component})
+    install(EXPORT ${component}Targets NAMESPACE drypoint:: DESTINATION ${package_dir})
+  endif()
+endforeach()
+set_target_properties(drypoint PROPERTIES EXPORT_NAME static)
+if(TARGET drypoint_shared)
+  set_target_properties(drypoint_shared PROPERTIES EXPORT_NAME shared)
+endif()
+if(TARGET drypoint_io)
+  set_target_properties(drypoint_io PROPERTIES EXPORT_NAME io_static)
+endif()
+if(TARGET drypoint_io_shared)
+  set_target_properties(drypoint_io_shared PROPERTIES EXPORT_NAME io_shared)
+endif()
+
+configure_package_config_file(cmake/drypointConfig.cmake.in ${PROJECT_BINARY_DIR}/cmake/drypointConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/drypointConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cmake/drypointConfig.cmake
+              ${PROJECT_BINARY_DIR}/cmake/drypointConfigVersion.cmake
+              cmake/DrypointAssimp.cmake
+        DESTINATION ${package_dir})
+
+# Directories below the prefix are written relative to it, so that `pkg-config --define-prefix` works.
+foreach(kind LIBDIR INCLUDEDIR)
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${kind}}")
+    set(pc_${kind} "${CMAKE_INSTALL_${kind}}")
+  else()
+    set(pc_${kind} "\${prefix}/${CMAKE_INSTALL_${kind}}")
+  endif()
+endforeach()
+set(prefix "@prefix@") # the prefix may still change at install time: filled in then
+set(pc_modules drypoint)
+if(TARGET drypoint_io)
+  list(APPEND pc_modules drypoint-io)
+endif()
+foreach(module ${pc_modules})
+  configure_file(cmake/${module}.pc.in ${PROJECT_BINARY_DIR}/cmake/${module}.pc.in @ONLY)
+  install(CODE "
+    set(prefix \"\${CMAKE_INSTALL_PREFIX}\")
+    configure_file(\"${PROJECT_BINARY_DIR}/cmake/${module}.pc.in\"
+                   \"${PROJECT_BINARY_DIR}/cmake/${module}.pc\" @ONLY)")
+  install(FILES ${PROJECT_BINARY_DIR}/cmake/${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
+
+if(TARGET drypoint_tool)
+  install(TARGETS drypoint_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+if(EXISTS ${PROJECT_SOURCE_DIR}/docs/man/drypoint.1)
+  install(FILES docs/man/drypoint.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
+if(EXISTS ${PROJECT_SOURCE_DIR}/LICENSE)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endif()

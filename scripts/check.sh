@@ -1,0 +1,102 @@
+#!/bin/bash
+# check.sh [PHASE...]: builds and tests in several ways, and closes with the line `N passed, N failed`.
+#
+# One phase is one preset of CMakePresets.json and the tests that say something new there. Counted are single
+# tests, not programs: a cmocka program that runs nine tests counts nine; a program that crashes, hangs
+# or fails without saying which test it was counts as one failure; so does a phase that does not build.
+# A failing phase shows what failed and the others still run.
+set -u
+cd "$(dirname "$0")/.." || exit
+jobs=${JOBS:-$(nproc)}
+logs=build/check-logs
+mkdir -p "$logs"
+passed=0 failed=0
+width=46
+
+# count FILE: "passed failed" of a log of `ctest -V`, whose lines begin with the test's number.
+count() {
+    awk '
+    match($0, /^ *[0-9]+\/[0-9]+ +Test +#[0-9]+: /) { # its result
+        split($0, part, "#"); id = part[2] + 0
+        result[id] = ($0 ~ /\.\.\.+ +Passed +[0-9.]+ sec/) ? "passed" : "failed"
+        if ($0 ~ /\*\*\*(Exception|Timeout)/) bad[id]++
+        next
+    }
+    match($0, /^[0-9]+: /) {
+        id = $1 + 0
+        text = substr($0, RLENGTH + 1)
+        if (text ~ /^\[ +OK \] /) ok[id]++
+        else if (text ~ /^ok /) ok[id]++
+        else if (text ~ /^not ok /) bad[id]++
+        else if (match(text, /^\[ +FAILED +\] [0-9]+ test\(s\)/)) { split(text, part, "]"); bad[id] += part[2] }
+    }
+    END {
+        for (id in result) {
+            good = ok[id] + 0; wrong = bad[id] + 0
+            if (result[id] == "failed" && !wrong) wrong = 1
+            if (result[id] == "passed" && !good) good = 1
+            p += good; f += wrong
+        }
+        print p + 0, f + 0
+    }' "$1"
+}
+
+# What the failed tests of a log printed, each at most 60 lines.
+show_failures() {
+    local id
+    sed -n 's/^ *[0-9]*\/[0-9]* *Test *#\([0-9]*\): .*\*\*\*.*/\1/p' "$1" | while read -r id; do
+        grep -E "^ *[0-9]+/[0-9]+ +Test +#$id: " "$1"
+        grep "^$id: " "$1" | sed "s/^$id: /    /" | grep -Ev '^    (\[ *(OK|RUN) *\]|ok |Test command|Working Dir|Test timeout|Environment var| [AULT]+SAN_OPTIONS)' | tail -n 60
+    done
+}
+
+# phase NAME TITLE TARGET CTEST-ARGUMENTS...: configures and builds a preset, then runs its tests.
+phase() {
+    local name=$1 title=$2 target=$3
+    shift 3
+    local log=$logs/$name.log start=$SECONDS good wrong
+    printf "%-${width}s" "$title"
+    # shellcheck disable=SC2046
+    if ! { cmake --preset "$name" $([ -e "build/$name/CMakeCache.txt" ] || scripts/generator.sh) &&
+        cmake --build "build/$name" --parallel "$jobs" --target "$target"; } >"$log.build" 2>&1; then
+        failed=$((failed + 1))
+        printf 'does not build (%s)\n' "$log.build"
+        grep -E -A3 '(error|Error|warning):|undefined reference|^CMake Error' "$log.build" |
+            head -n 40 | sed 's/^/    /'
+        return
+    fi
+    ctest --test-dir "build/$name" -V --no-tests=error --parallel "$jobs" "$@" >"$log" 2>&1
+    local status=$?
+    read -r good wrong <<<"$(count "$log")"
+    if [ "$status" -ne 0 ] && [ "$wrong" -eq 0 ]; then wrong=1; fi
+    passed=$((passed + good)) failed=$((failed + wrong))
+    printf '%5d passed' "$good"
+    [ "$wrong" -eq 0 ] || printf ', %d failed (%s)' "$wrong" "$log"
+    printf '  %d s\n' $((SECONDS - start))
+    if [ "$wrong" -ne 0 ]; then
+        show_failures "$log" | sed 's/^/    /'
+        grep -q 'Test *#' "$log" || tail -n 5 "$log" | sed 's/^/    /'
+    fi
+}
+
+run_phase() {
+    case $1 in
+    gcc) phase check-gcc "gcc, release, -Werror: all tests" all ;;
+    clang) phase check-clang "clang, release, -Werror" all -L 'unit|golden|header|fuzz' ;;
+    asan) phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy' ;;
+    tsan) phase check-tsan "thread sanitizer" all -L 'unit|golden' ;;
+    hostile) phase check-hostile "hostile build: tiny batches, bins and tiles" all -L 'unit|golden' ;;
+    fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
+    accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
+    *)
+        echo "check: unknown phase $1 (gcc, accuracy, clang, asan, tsan, hostile, fuzz)" >&2
+        exit 2
+        ;;
+    esac
+}
+
+[ $# -gt 0 ] || set -- gcc clang asan tsan hostile fuzz
+for name; do run_phase "$name"; done
+echo
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,81 @@
+#!/bin/sh
+# setup.sh [build|check]: installs what is missing to build, or also to run all checks.
+#
+# What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
+# rest comes from Debian's packages, with sudo when not root.
+set -eu
+
+have() { command -v "$1" >/dev/null 2>&1; }
+module() { have pkg-config && pkg-config --exists "$1" 2>/dev/null; }
+recent_cmake() {
+    have cmake || return 1
+    version=$(cmake --version | sed -n 's/^cmake version \([0-9]*\)\.\([0-9]*\).*/\1 \2/p')
+    # shellcheck disable=SC2086
+    set -- $version
+    [ "$1" -gt 3 ] || { [ "$1" -eq 3 ] && [ "$2" -ge 21 ]; }
+}
+fuzzer_runtime() {
+    have clang || return 1
+    echo 'int LLVMFuzzerTestOneInput(const char *d, long n) { return d && n < 0; }' |
+        clang -fsanitize=fuzzer,address,undefined -x c - -o /dev/null 2>/dev/null
+}
+# The compiler-rt package carries the version of clang that the distribution calls its own.
+compiler_rt() {
+    version=$(apt-cache depends clang 2>/dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p' | head -n 1)
+    echo "libclang-rt-${version:-14}-dev"
+}
+
+find_missing() {
+    missing=
+    { have cc && have c++ && have make; } || missing="$missing build-essential"
+    recent_cmake || missing="$missing cmake"
+    have ninja || missing="$missing ninja-build"
+    have pkg-config || missing="$missing pkg-config"
+    module libpng || missing="$missing libpng-dev"
+    module assimp || missing="$missing libassimp-dev"
+    [ "${1:-build}" = check ] || return 0
+    module cmocka || missing="$missing libcmocka-dev"
+    have clang || missing="$missing clang"
+    fuzzer_runtime || missing="$missing $(compiler_rt)"
+}
+
+find_missing "$@"
+[ -n "$missing" ] || exit 0
+
+if ! have apt-get; then
+    echo "setup: this machine lacks what these Debian packages hold:$missing" >&2
+    echo "setup: there is no apt-get here; install the same by its own package manager." >&2
+    exit 1
+fi
+root=
+if [ "$(id -u)" -ne 0 ]; then
+    if ! have sudo; then
+        echo "setup: as root, please run: apt-get install$missing" >&2
+        exit 1
+    fi
+    root="sudo"
+    [ -t 0 ] || root="sudo -n" # nobody there to give a password
+fi
+apt() { $root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0 "$@"; }
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+echo "setup: reading the package lists${root:+, as root through sudo}"
+apt update >"$log" 2>&1 || {
+    echo "setup: apt-get update failed; going on with the lists that are here" >&2
+    tail -n 3 "$log" >&2
+}
+find_missing "$@" # the lists may name another compiler-rt
+echo "setup: installing$missing${root:+, as root through sudo}"
+# shellcheck disable=SC2086
+if ! apt install --no-install-recommends $missing >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    echo "setup: that did not work. As root, please run: apt-get install$missing" >&2
+    exit 1
+fi
+
+find_missing "$@"
+if [ -n "$missing" ]; then
+    echo "setup: still missing after the installation:$missing" >&2
+    exit 1
+fi

@@ -1,0 +1,178 @@
+/* An indexed mesh that grows as a file is read, then the source of it.
+ *
+ * Invariant: firsts and groups exist from the first polygon on that needs them, and then for all;
+ * closed <= corner_count is where the open polygon begins. Arrays are cut to size at the end.
+ *
+ * Does not handle: checking indices and coordinates (the engine drops what is bad, and counts it);
+ * more than 2^32 - 1 vertices or corners. */
+#include "io/builder.h"
+
+#include "base/diag.h"
+
+#include <string.h>
+
+void dp_builder_init(dp_builder *builder, const dp_allocator *allocator) {
+    *builder = (dp_builder){.allocator = *allocator, .names = {.allocator = *allocator}};
+}
+
+void dp_builder_destroy(dp_builder *builder) {
+    dp_free(&builder->allocator, builder->positions);
+    dp_free(&builder->allocator, builder->indices);
+    dp_free(&builder->allocator, builder->firsts);
+    dp_free(&builder->allocator, builder->groups);
+    dp_groups_destroy(&builder->names);
+}
+
+bool dp_builder_expect_vertices(dp_builder *builder, size_t count) {
+    return dp_reserve(&builder->allocator, &builder->positions, &builder->vertex_capacity, count,
+                      3 * sizeof(float));
+}
+
+bool dp_builder_expect_corners(dp_builder *builder, size_t count) {
+    return dp_reserve(&builder->allocator, &builder->indices, &builder->corner_capacity, count,
+                      sizeof(uint32_t));
+}
+
+bool dp_builder_grow_vertices(dp_builder *builder) {
+    return builder->vertex_count < UINT32_MAX &&
+           dp_builder_expect_vertices(builder, builder->vertex_count + 1);
+}
+
+bool dp_builder_grow_corners(dp_builder *builder) {
+    return builder->corner_count < UINT32_MAX &&
+           dp_builder_expect_corners(builder, builder->corner_count + 1);
+}
+
+/* firsts for the triangles so far. */
+static bool start_firsts(dp_builder *builder) {
+    if (!dp_reserve(&builder->allocator, &builder->firsts, &builder->first_capacity,
+                    builder->polygon_count + 2, sizeof *builder->firsts))
+        return false;
+    for (size_t i = 0; i <= builder->polygon_count; i++) builder->firsts[i] = (uint32_t)(3 * i);
+    return true;
+}
+
+static bool start_groups(dp_builder *builder) {
+    if (!dp_reserve(&builder->allocator, &builder->groups, &builder->group_capacity,
+                    builder->polygon_count + 1, sizeof *builder->groups))
+        return false;
+    memset(builder->groups, 0, builder->polygon_count * sizeof *builder->groups);
+    return true;
+}
+
+bool dp_builder_close_unusual(dp_builder *builder, uint16_t group) {
+    if (!builder->firsts && builder->corner_count != builder->closed + 3 && !start_firsts(builder))
+        return false;
+    if (!builder->groups && group && !start_groups(builder)) return false;
+    const size_t polygon = builder->polygon_count;
+    if (builder->firsts) {
+        if (!dp_reserve(&builder->allocator, &builder->firsts, &builder->first_capacity,
+                        polygon + 2, sizeof *builder->firsts))
+            return false;
+        builder->firsts[polygon + 1] = (uint32_t)builder->corner_count;
+    }
+    if (builder->groups) {
+        if (!dp_reserve(&builder->allocator, &builder->groups, &builder->group_capacity,
+                        polygon + 1, sizeof *builder->groups))
+            return false;
+        builder->groups[polygon] = group;
+    }
+    builder->polygon_count++;
+    builder->closed = builder->corner_count;
+    return true;
+}
+
+dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag) {
+    if (builder->vertex_count >= UINT32_MAX || builder->corner_count >= UINT32_MAX)
+        return dp_fail(
+            diag, DP_ERR_LIMIT,
+            "more than 4294967295 vertices or corners: split the model into several files");
+    return dp_fail(diag, DP_ERR_MEMORY, "out of memory after %zu vertices and %zu polygons",
+                   builder->vertex_count, builder->polygon_count);
+}
+
+/* The source. */
+typedef struct mesh {
+    dp_builder built;
+    bool done;
+} mesh;
+
+static dp_result mesh_next(void *user, dp_batch *batch, dp_diag *diag) {
+    mesh *const self = user;
+    const dp_builder *const built = &self->built;
+    (void)diag;
+    if (self->done) return DP_OK;
+    self->done = true;
+    *batch = (dp_batch){.positions = built->positions,
+                        .vertex_count = built->vertex_count,
+                        .indices = built->indices,
+                        .corner_count = built->closed,
+                        .firsts = built->firsts,
+                        .polygon_count = built->polygon_count,
+                        .groups = built->groups,
+                        .stable = true};
+    return DP_OK;
+}
+
+static dp_result mesh_rewind(void *user, dp_diag *diag) {
+    (void)diag;
+    ((mesh *)user)->done = false;
+    return DP_OK;
+}
+
+static const char *mesh_group_name(void *user, uint32_t group) {
+    return dp_groups_name(&((mesh *)user)->built.names, group);
+}
+
+static void mesh_destroy(void *user) {
+    mesh *const self = user;
+    const dp_allocator memory = self->built.allocator;
+    dp_builder_destroy(&self->built);
+    dp_free(&memory, self);
+}
+
+/* Gives back what growing took too much. Where that fails the larger block serves as well. */
+static void shrink(const dp_allocator *allocator, void *block_address, size_t capacity,
+                   size_t count, size_t item_size) {
+    if (!count || count == capacity) return;
+    void *block;
+    memcpy(&block, block_address, sizeof block);
+    block = allocator->realloc(block, count * item_size, allocator->user);
+    if (block) memcpy(block_address, &block, sizeof block);
+}
+
+static void shrink_all(dp_builder *b) {
+    shrink(&b->allocator, &b->positions, b->vertex_capacity, b->vertex_count, 3 * sizeof(float));
+    shrink(&b->allocator, &b->indices, b->corner_capacity, b->corner_count, sizeof *b->indices);
+    if (b->firsts)
+        shrink(&b->allocator, &b->firsts, b->first_capacity, b->polygon_count + 1,
+               sizeof *b->firsts);
+    if (b->groups)
+        shrink(&b->allocator, &b->groups, b->group_capacity, b->polygon_count, sizeof *b->groups);
+}
+
+dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag) {
+    if (!builder->polygon_count)
+        return dp_fail(diag, DP_ERR_FORMAT,
+                       "no polygons, only %zu points: there is nothing to draw, export the model "
+                       "with its faces",
+                       builder->vertex_count);
+    /* Polygons without any vertex are for the engine to drop, but a batch needs an array. */
+    if (!builder->positions && !dp_builder_expect_vertices(builder, 1))
+        return dp_builder_fail(builder, diag);
+    mesh *const self = dp_alloc(&builder->allocator, sizeof *self);
+    if (!self) return dp_builder_fail(builder, diag);
+    shrink_all(builder);
+    *self = (mesh){.built = *builder};
+    const dp_source_callbacks callbacks = {.user = self,
+                                           .next = mesh_next,
+                                           .rewind = mesh_rewind,
+                                           .destroy = mesh_destroy,
+                                           .group_name = mesh_group_name};
+    const dp_result result = dp_source_from_callbacks(&callbacks, &builder->allocator, out, diag);
+    if (result)
+        dp_free(&builder->allocator, self);
+    else
+        dp_builder_init(builder, &self->built.allocator);
+    return result;
+}

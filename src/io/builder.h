@@ -1,0 +1,68 @@
+/* The polygons of an indexed file, as they are read, and the source made of them. */
+#ifndef DP_IO_BUILDER_H
+#define DP_IO_BUILDER_H
+
+#include "io/groups.h"
+#include <drypoint/source.h>
+
+typedef struct dp_builder {
+    dp_allocator allocator;
+    float *positions; /* [vertex_count][3] */
+    size_t vertex_count, vertex_capacity;
+    uint32_t *indices; /* [corner_count] */
+    size_t corner_count, corner_capacity;
+    uint32_t *firsts; /* [polygon_count + 1]; NULL while all polygons are triangles */
+    size_t first_capacity;
+    uint16_t *groups; /* [polygon_count]; NULL while all polygons are in group 0 */
+    size_t group_capacity;
+    size_t polygon_count;
+    size_t closed; /* corners of the polygons that are closed */
+    dp_groups names;
+} dp_builder;
+
+void dp_builder_init(dp_builder *builder, const dp_allocator *allocator);
+void dp_builder_destroy(dp_builder *builder);
+
+/* Room that is likely to be needed. False when memory is out. */
+bool dp_builder_expect_vertices(dp_builder *builder, size_t count);
+bool dp_builder_expect_corners(dp_builder *builder, size_t count);
+
+/* For the three below. */
+bool dp_builder_grow_vertices(dp_builder *builder);
+bool dp_builder_grow_corners(dp_builder *builder);
+bool dp_builder_close_unusual(dp_builder *builder, uint16_t group);
+
+/* Room for one more vertex's x, y, z; NULL when memory is out or too many came: dp_builder_fail. */
+static inline float *dp_builder_vertex(dp_builder *builder) {
+    if (builder->vertex_count == builder->vertex_capacity && !dp_builder_grow_vertices(builder))
+        return NULL;
+    return builder->positions + 3 * builder->vertex_count++;
+}
+
+/* One more corner of the open polygon. What no uint32_t can name becomes UINT32_MAX, which is out
+ * of range too, so that the engine drops and counts the polygon. False: dp_builder_fail. */
+static inline bool dp_builder_corner(dp_builder *builder, int64_t vertex) {
+    if (builder->corner_count == builder->corner_capacity && !dp_builder_grow_corners(builder))
+        return false;
+    const bool fits = vertex >= 0 && vertex < UINT32_MAX;
+    builder->indices[builder->corner_count++] = fits ? (uint32_t)vertex : UINT32_MAX;
+    return true;
+}
+
+/* Makes a polygon of the corners since the last one. False: dp_builder_fail. */
+static inline bool dp_builder_close(dp_builder *builder, uint16_t group) {
+    if (builder->firsts || builder->groups || group || builder->corner_count != builder->closed + 3)
+        return dp_builder_close_unusual(builder, group);
+    builder->polygon_count++;
+    builder->closed += 3;
+    return true;
+}
+
+/* Says why the last call returned NULL or false: DP_ERR_LIMIT or DP_ERR_MEMORY. */
+dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag);
+
+/* A source of one stable batch. Takes the builder's arrays on success; the builder stays to be
+ * destroyed. Fails where there is no polygon. */
+dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag);
+
+#endif

@@ -1,0 +1,225 @@
+/* Which format a stream is in: by its first bytes, and only then by its name.
+ *
+ * Looks at the window as it lies there and consumes nothing but a byte order mark. An STL file of
+ * the binary kind has no mark of its own (and may begin with "solid"): what gives it away is its
+ * size, and in a pipe, where the size is unknown, triangles that make sense.
+ *
+ * Does not handle: UTF-16; compressed files, which are named in the message. */
+#include "io/readers.h"
+
+#include "base/diag.h"
+#include "io/text.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    STL_HEADER = 84, /* bytes: a title, then the number of triangles */
+    STL_RECORD = 50, /* bytes: normal, three corners, an attribute */
+    STL_PROBES = 16  /* records to look at in a pipe */
+};
+
+static size_t here(const dp_stream *stream) { return (size_t)(stream->end - stream->cursor); }
+
+static bool is_letter(uint8_t byte) { return (byte | 0x20) >= 'a' && (byte | 0x20) <= 'z'; }
+
+static const uint8_t *skip_spaces(const uint8_t *p) {
+    while (*p == ' ' || (*p >= '\t' && *p <= '\r')) p++;
+    return p;
+}
+
+static const uint8_t *skip_line(const uint8_t *p, const uint8_t *end) {
+    while (p < end && *p != '\n' && *p != '\r') p++;
+    return p;
+}
+
+/* To the first word that is no comment. */
+static const uint8_t *skip_comments(const uint8_t *p, const uint8_t *end) {
+    for (p = skip_spaces(p); *p == '#'; p = skip_spaces(p)) p = skip_line(p, end);
+    return p;
+}
+
+static bool begins(const dp_stream *stream, const char *magic, size_t size) {
+    return here(stream) >= size && memcmp(stream->cursor, magic, size) == 0;
+}
+
+static bool is_ply(const dp_stream *stream) {
+    return begins(stream, "ply", 3) && (stream->cursor[3] == '\n' || stream->cursor[3] == '\r' ||
+                                        stream->cursor[3] == ' ' || stream->cursor[3] == '\t');
+}
+
+/* [ST][C][N][4][n]OFF, alone or with the counts behind it ("OFF490 518 0" is common). */
+static bool is_off(const dp_stream *stream) {
+    const uint8_t *p = skip_comments(stream->cursor, stream->end);
+    if (p[0] == 'S' && p[1] == 'T') p += 2;
+    p += *p == 'C';
+    p += *p == 'N';
+    p += *p == '4';
+    p += *p == 'n';
+    return p[0] == 'O' && p[1] == 'F' && p[2] == 'F' && !is_letter(p[3]) && p[3] != '_';
+}
+
+static bool is_solid(const dp_stream *stream) {
+    static const char word[] = "solid";
+    const uint8_t *p = skip_spaces(stream->cursor);
+    for (size_t i = 0; i < 5; i++)
+        if ((p[i] | 0x20) != word[i]) return false;
+    return !is_letter(p[5]);
+}
+
+/* The first word of a line is one that OBJ knows; *vertex: it begins a vertex with a number. */
+static bool is_obj_word(const uint8_t *p, bool *vertex) {
+    static const char *const words[] = {"v", "vn", "vt", "vp", "f",      "g",
+                                        "o", "s",  "l",  "p",  "usemtl", "mtllib"};
+    size_t length = 0;
+    while (p[length] > ' ') length++;
+    const uint8_t *number = p + length;
+    while (*number == ' ' || *number == '\t') number++;
+    *vertex =
+        length == 1 && *p == 'v' &&
+        (*number == '-' || *number == '+' || *number == '.' || (*number >= '0' && *number <= '9'));
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == length && memcmp(words[i], p, length) == 0)
+            return *vertex || length > 1 || *p != 'v'; /* a bare "v" opens a NFF file */
+    return false;
+}
+
+/* Only OBJ's words, up to the first vertex. */
+static bool is_obj(const dp_stream *stream) {
+    bool vertex = false, any = false;
+    const uint8_t *p = skip_comments(stream->cursor, stream->end);
+    while (!vertex && p < stream->end) {
+        if (!is_obj_word(p, &vertex)) return false;
+        any = true;
+        p = skip_comments(skip_line(p, stream->end), stream->end);
+    }
+    return any;
+}
+
+static uint32_t little32(const uint8_t *p) {
+    return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+static bool is_text(const uint8_t *p, size_t size) {
+    for (size_t i = 0; i < size; i++)
+        if (p[i] < ' ' && !(p[i] >= '\t' && p[i] <= '\r')) return false;
+    return true;
+}
+
+/* Coordinates that a model may have: 1e18 is the square root of what float holds. */
+static bool sane_record(const uint8_t *record) {
+    for (size_t i = 0; i < 12; i++) {
+        const uint32_t bits = little32(record + 4 * i);
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        if (!(fabsf(value) < 1e18f)) return false;
+        if (value != 0 && fabsf(value) < 1e-30f) return false;
+    }
+    return true;
+}
+
+static bool sane_records(const dp_stream *stream, uint32_t count) {
+    const size_t whole = (here(stream) - STL_HEADER) / STL_RECORD;
+    size_t probes = count < STL_PROBES ? count : STL_PROBES;
+    if (probes > whole) probes = whole;
+    for (size_t i = 0; i < probes; i++)
+        if (!sane_record(stream->cursor + STL_HEADER + STL_RECORD * i)) return false;
+    return probes > 0;
+}
+
+/* Sizes decide where they are known; a title that is text and a text behind it mean ASCII. */
+static bool is_binary_stl(const dp_stream *stream) {
+    if (here(stream) < STL_HEADER) return false;
+    const uint32_t count = little32(stream->cursor + STL_HEADER - 4);
+    const uint64_t size = STL_HEADER + (uint64_t)STL_RECORD * count;
+    const uint64_t known = stream->size != DP_STREAM_UNKNOWN ? stream->size
+                           : stream->at_end                  ? stream->loaded
+                                                             : 0;
+    if (known) return size == known && count;
+    const size_t looked = here(stream) < 512 ? here(stream) : 512;
+    return !is_text(stream->cursor, looked) && sane_records(stream, count);
+}
+
+bool dp_detect_binary_stl(dp_stream *stream) {
+    dp_stream_have(stream, DP_STREAM_AHEAD);
+    if (is_binary_stl(stream)) return true;
+    const size_t looked = here(stream) < 512 ? here(stream) : 512;
+    return !is_solid(stream) || !is_text(stream->cursor, looked);
+}
+
+/* By the last dot of the name; any case. */
+static bool by_name(const char *name, dp_file_format *format) {
+    static const struct {
+        const char *ending;
+        dp_file_format format;
+    } endings[] = {{".stl", DP_FORMAT_STL},
+                   {".ply", DP_FORMAT_PLY},
+                   {".obj", DP_FORMAT_OBJ},
+                   {".off", DP_FORMAT_OFF}};
+    const char *const dot = name ? strrchr(name, '.') : NULL;
+    if (!dot || strlen(dot) != 4) return false;
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        size_t same = 0;
+        while (same < 4 && (dot[same] | 0x20) == (endings[i].ending[same] | 0x20)) same++;
+        if (same < 4) continue;
+        *format = endings[i].format;
+        return true;
+    }
+    return false;
+}
+
+/* Well-known files whose name may say something else. */
+static const char *foreign(const dp_stream *stream) {
+    static const struct {
+        const char *magic;
+        size_t size;
+        const char *advice;
+    } table[] = {
+        {"\x1f\x8b", 2, "compressed with gzip: unpack it first"},
+        {"BZh", 3, "compressed with bzip2: unpack it first"},
+        {"\xfd"
+         "7zXZ",
+         5, "compressed with xz: unpack it first"},
+        {"\x28\xb5\x2f\xfd", 4, "compressed with zstd: unpack it first"},
+        {"PK\x03\x04", 4, "a zip archive (3MF, say): convert it to STL, PLY, OBJ or OFF"},
+        {"glTF", 4, "a binary glTF file: convert it to STL, PLY, OBJ or OFF"},
+        {"Kaydara FBX", 11, "an FBX file: convert it to STL, PLY, OBJ or OFF"},
+        {"BLENDER", 7, "a Blender file: export it as STL, PLY, OBJ or OFF"},
+        {"\x89PNG", 4, "a picture (PNG), not a model"},
+        {"\xff\xd8\xff", 3, "a picture (JPEG), not a model"},
+        {"\xff\xfe", 2, "text in UTF-16: save it as UTF-8"},
+        {"\xfe\xff", 2, "text in UTF-16: save it as UTF-8"},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (begins(stream, table[i].magic, table[i].size)) return table[i].advice;
+    return NULL;
+}
+
+static bool by_content(const dp_stream *stream, dp_file_format *format) {
+    *format = DP_FORMAT_AUTO;
+    if (is_ply(stream))
+        *format = DP_FORMAT_PLY;
+    else if (is_binary_stl(stream))
+        *format = DP_FORMAT_STL;
+    else if (is_off(stream))
+        *format = DP_FORMAT_OFF;
+    else if (is_solid(stream))
+        *format = DP_FORMAT_STL;
+    else if (is_obj(stream))
+        *format = DP_FORMAT_OBJ;
+    return *format != DP_FORMAT_AUTO;
+}
+
+dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag) {
+    const bool any = dp_stream_have(stream, 1);
+    if (stream->result) return dp_stream_fail(stream, diag);
+    if (!any) return dp_fail(diag, DP_ERR_FORMAT, "the file is empty: export the model again");
+    dp_text_skip_mark(stream);
+    if (by_content(stream, format)) return DP_OK;
+    const char *const advice = foreign(stream);
+    if (advice) return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s", advice);
+    if (by_name(name, format)) return DP_OK;
+    return dp_fail(diag, DP_ERR_UNSUPPORTED,
+                   "not in a known format: STL, PLY, OBJ and OFF are read; convert it to one of "
+                   "them, or name the format if it is one");
+}

@@ -1,0 +1,14 @@
+/* Text to float and integer, independent of the locale. */
+#ifndef DP_IO_NUMBER_H
+#define DP_IO_NUMBER_H
+
+#include <stdint.h>
+
+/* Both read a number at `text`, which some byte that is no part of a number ends (0, say), and
+ * return the first byte behind it, or NULL where no number stands. Floats are rounded correctly;
+ * "inf", "nan" and the "1.#IND" of old compilers are numbers too. Integers stop at the ends of
+ * int64_t. */
+const uint8_t *dp_number_float(const uint8_t *text, float *value);
+const uint8_t *dp_number_int(const uint8_t *text, int64_t *value);
+
+#endif

@@ -1,0 +1,112 @@
+/* OFF: counts, vertices, faces; read whole.
+ *
+ * COFF, NOFF, STOFF and their combinations put colours, normals and texture coordinates behind the
+ * position, and any file may put a colour behind a face: both are on the same line, so what is left
+ * of a vertex's or face's line is passed over. '#' begins a comment. The keyword may be missing.
+ *
+ * Does not handle: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF). */
+#include "io/readers.h"
+
+#include "io/text.h"
+
+#include <inttypes.h>
+
+typedef struct off {
+    dp_stream *stream;
+    dp_builder *builder;
+    dp_diag *diag;
+    int64_t vertices, faces; /* announced */
+} off;
+
+/* To the next word that is not in a comment. */
+static bool next_word(dp_stream *stream) {
+    while (dp_text_space(stream)) {
+        if (*stream->cursor != '#') return true;
+        dp_text_skip_line(stream);
+    }
+    return false;
+}
+
+/* The letters of [ST][C][N][4][n]OFF, whose counts may follow without a blank. */
+static dp_result read_keyword(off *self) {
+    dp_stream *const stream = self->stream;
+    bool dimensions = false;
+    if (!next_word(stream)) return dp_text_expected(stream, self->diag, "the counts");
+    for (const uint8_t *p; p = stream->cursor, (*p | 0x20) >= 'a' && (*p | 0x20) <= 'z';
+         stream->cursor++)
+        dimensions |= *p == 'n';
+    if (*stream->cursor == '4' && stream->cursor[1] == 'O') dimensions = true;
+    if (dimensions)
+        return dp_fail_line(self->diag, DP_ERR_UNSUPPORTED, stream->line,
+                            "OFF with other than three coordinates: export it as plain OFF");
+    next_word(stream);
+    if (!dp_text_match(stream, "binary")) return DP_OK;
+    return dp_fail_line(self->diag, DP_ERR_UNSUPPORTED, stream->line,
+                        "binary OFF: export it as ASCII OFF, PLY or STL");
+}
+
+static dp_result read_count(off *self, const char *what, int64_t *count) {
+    next_word(self->stream);
+    if (!dp_text_int(self->stream, count) || *count < 0)
+        return dp_text_expected(self->stream, self->diag, "the number of %s", what);
+    return DP_OK;
+}
+
+static dp_result read_vertex(off *self, int64_t vertex) {
+    float *const to = dp_builder_vertex(self->builder);
+    if (!to) return dp_builder_fail(self->builder, self->diag);
+    for (int k = 0; k < 3; k++) {
+        next_word(self->stream);
+        if (!dp_text_float(self->stream, &to[k]))
+            return dp_text_expected(self->stream, self->diag,
+                                    "%c of vertex %" PRId64 " of %" PRId64, 'x' + k, vertex,
+                                    self->vertices);
+    }
+    dp_text_skip_line(self->stream);
+    return DP_OK;
+}
+
+static dp_result read_face(off *self, int64_t face) {
+    int64_t corners, index;
+    next_word(self->stream);
+    if (!dp_text_int(self->stream, &corners) || corners < 0)
+        return dp_text_expected(self->stream, self->diag,
+                                "the number of corners of face %" PRId64 " of %" PRId64, face,
+                                self->faces);
+    for (int64_t c = 0; c < corners; c++) {
+        next_word(self->stream);
+        if (!dp_text_int(self->stream, &index))
+            return dp_text_expected(self->stream, self->diag,
+                                    "a vertex number of face %" PRId64 " of %" PRId64, face,
+                                    self->faces);
+        if (!dp_builder_corner(self->builder, index))
+            return dp_builder_fail(self->builder, self->diag);
+    }
+    dp_text_skip_line(self->stream);
+    if (!dp_builder_close(self->builder, 0)) return dp_builder_fail(self->builder, self->diag);
+    return DP_OK;
+}
+
+/* Keyword, vertices, faces; the edges' count is often missing and never needed. */
+static dp_result read_header(off *self) {
+    dp_result result = read_keyword(self);
+    if (!result) result = read_count(self, "vertices", &self->vertices);
+    if (!result) result = read_count(self, "faces", &self->faces);
+    if (result) return result;
+    dp_text_skip_line(self->stream);
+    const size_t vertices = dp_stream_hint(self->stream, (uint64_t)self->vertices, 6);
+    const size_t triangles = dp_stream_hint(self->stream, (uint64_t)self->faces, 8);
+    if (dp_builder_expect_vertices(self->builder, vertices) &&
+        dp_builder_expect_corners(self->builder, 3 * triangles))
+        return DP_OK;
+    return dp_builder_fail(self->builder, self->diag);
+}
+
+dp_result dp_read_off(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
+    off self = {.stream = stream, .builder = builder, .diag = diag};
+    dp_text_skip_mark(stream);
+    dp_result result = read_header(&self);
+    for (int64_t i = 0; i < self.vertices && !result; i++) result = read_vertex(&self, i);
+    for (int64_t i = 0; i < self.faces && !result; i++) result = read_face(&self, i);
+    return result;
+}

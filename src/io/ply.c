@@ -1,0 +1,269 @@
+/* PLY behind its header: vertices, faces and strips of triangles, read whole.
+ *
+ * One walk over elements and properties serves ASCII and both byte orders; only the three functions
+ * that take a scalar tell them apart. ASCII values may be spread over lines at will.
+ * Strips: -1 begins a new one, every other triangle is turned, and triangles without three
+ * different corners, which only lead from one strip to the next, are left out.
+ *
+ * Announced counts are walked, never allocated for beyond what the file's size allows.
+ *
+ * Does not handle: polygons given by edges; material and colour of faces. */
+#include "io/ply.h"
+
+#include "io/readers.h"
+#include "io/text.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+typedef struct ply {
+    dp_stream *stream;
+    dp_builder *builder;
+    dp_diag *diag;
+    dp_ply_header header;
+    const dp_ply_element *element; /* being read */
+    uint64_t item;                 /* its number */
+} ply;
+
+/* ------- scalars ------- */
+
+static const uint8_t size_of_type[] = {1, 1, 2, 2, 4, 4, 4, 8};
+
+/* The scalar's bytes as a number, whatever the machine's own order; NULL at the file's end. */
+static inline bool take_bits(ply *self, dp_ply_type type, uint64_t *bits) {
+    dp_stream *const stream = self->stream;
+    const size_t size = size_of_type[type];
+    if (!dp_stream_have(stream, size)) return false;
+    const uint8_t *const p = stream->cursor;
+    uint64_t value = 0;
+    if (self->header.encoding == DP_PLY_LITTLE)
+        for (size_t i = size; i > 0; i--) value = value << 8 | p[i - 1];
+    else
+        for (size_t i = 0; i < size; i++) value = value << 8 | p[i];
+    stream->cursor += size;
+    *bits = value;
+    return true;
+}
+
+static inline float float_of_bits(uint64_t bits, dp_ply_type type) {
+    double wide;
+    float value;
+    const uint32_t low = (uint32_t)bits;
+    switch (type) {
+    case DP_PLY_INT8:
+        return (float)(int8_t)bits;
+    case DP_PLY_INT16:
+        return (float)(int16_t)bits;
+    case DP_PLY_INT32:
+        return (float)(int32_t)low;
+    case DP_PLY_FLOAT32:
+        return memcpy(&value, &low, sizeof low), value;
+    case DP_PLY_FLOAT64:
+        return memcpy(&wide, &bits, sizeof bits), (float)wide;
+    case DP_PLY_UINT8:
+    case DP_PLY_UINT16:
+    case DP_PLY_UINT32:
+        break;
+    }
+    return (float)low;
+}
+
+static bool next_float(ply *self, dp_ply_type type, float *value) {
+    if (self->header.encoding == DP_PLY_ASCII)
+        return dp_text_space(self->stream) && dp_text_float(self->stream, value);
+    uint64_t bits;
+    if (!take_bits(self, type, &bits)) return false;
+    *value = float_of_bits(bits, type);
+    return true;
+}
+
+/* Vertex numbers and list lengths may be of any type; a fraction is none. */
+static int64_t int_of_double(double value) {
+    if (!(value > -1e15 && value < 1e15) || value != (double)(int64_t)value) return UINT32_MAX;
+    return (int64_t)value;
+}
+
+static inline int64_t int_of_bits(uint64_t bits, dp_ply_type type) {
+    double wide;
+    switch (type) {
+    case DP_PLY_INT8:
+        return (int8_t)bits;
+    case DP_PLY_INT16:
+        return (int16_t)bits;
+    case DP_PLY_INT32:
+        return (int32_t)(uint32_t)bits;
+    case DP_PLY_FLOAT32:
+        return int_of_double((double)float_of_bits(bits, type));
+    case DP_PLY_FLOAT64:
+        return memcpy(&wide, &bits, sizeof bits), int_of_double(wide);
+    case DP_PLY_UINT8:
+    case DP_PLY_UINT16:
+    case DP_PLY_UINT32:
+        break;
+    }
+    return (int64_t)bits;
+}
+
+static inline bool next_int(ply *self, dp_ply_type type, int64_t *value) {
+    if (self->header.encoding != DP_PLY_ASCII) {
+        uint64_t bits;
+        if (!take_bits(self, type, &bits)) return false;
+        *value = int_of_bits(bits, type);
+        return true;
+    }
+    if (!dp_text_space(self->stream)) return false;
+    if (type < DP_PLY_FLOAT32) return dp_text_int(self->stream, value);
+    float number;
+    if (!dp_text_float(self->stream, &number)) return false;
+    *value = int_of_double((double)number);
+    return true;
+}
+
+static bool skip_scalars(ply *self, dp_ply_type type, uint64_t count) {
+    if (self->header.encoding != DP_PLY_ASCII)
+        return dp_stream_skip(self->stream, count * size_of_type[type]);
+    for (; count; count--) {
+        if (!dp_text_space(self->stream)) return false;
+        dp_text_skip_word(self->stream);
+    }
+    return true;
+}
+
+/* ------- elements ------- */
+
+static dp_result expected(ply *self, const char *what) {
+    const char *const kind = dp_ply_kind_name(self->element->kind);
+    if (self->header.encoding == DP_PLY_ASCII)
+        return dp_text_expected(self->stream, self->diag, "%s of %s %" PRIu64 " of %" PRIu64, what,
+                                kind, self->item, self->element->count);
+    if (self->stream->result) return dp_stream_fail(self->stream, self->diag);
+    return dp_fail_offset(self->diag, DP_ERR_FORMAT, self->stream->loaded,
+                          "the file ends in %s %" PRIu64 " of %" PRIu64
+                          ": it is cut short, copy or export it again",
+                          kind, self->item, self->element->count);
+}
+
+static dp_result read_length(ply *self, const dp_ply_property *property, int64_t *length) {
+    const uint64_t offset = dp_stream_offset(self->stream);
+    if (!next_int(self, property->count, length)) return expected(self, "a list's length");
+    if (*length >= 0 && (property->count < DP_PLY_FLOAT32 || *length < UINT32_MAX)) return DP_OK;
+    if (self->header.encoding == DP_PLY_ASCII)
+        return dp_fail_line(self->diag, DP_ERR_FORMAT, self->stream->line,
+                            "a list's length is %" PRId64 ": export the model again", *length);
+    return dp_fail_offset(self->diag, DP_ERR_FORMAT, offset,
+                          "a list's length is %" PRId64 ": export the model again", *length);
+}
+
+static dp_result read_polygon(ply *self, const dp_ply_property *property, int64_t length) {
+    int64_t vertex;
+    for (int64_t i = 0; i < length; i++) {
+        if (!next_int(self, property->type, &vertex)) return expected(self, "a vertex number");
+        if (!dp_builder_corner(self->builder, vertex))
+            return dp_builder_fail(self->builder, self->diag);
+    }
+    if (!dp_builder_close(self->builder, 0)) return dp_builder_fail(self->builder, self->diag);
+    return DP_OK;
+}
+
+static bool add_triangle(dp_builder *builder, int64_t a, int64_t b, int64_t c) {
+    if (a == b || b == c || c == a) return true;
+    return dp_builder_corner(builder, a) && dp_builder_corner(builder, b) &&
+           dp_builder_corner(builder, c) && dp_builder_close(builder, 0);
+}
+
+static dp_result read_strip(ply *self, const dp_ply_property *property, int64_t length) {
+    int64_t a = 0, b = 0, c;
+    uint64_t corners = 0; /* of this strip */
+    for (int64_t i = 0; i < length; i++) {
+        if (!next_int(self, property->type, &c)) return expected(self, "a vertex number");
+        corners = c == -1 || c == UINT32_MAX ? 0 : corners + 1;
+        const bool odd = corners % 2 == 0; /* the strip's second triangle, fourth, … */
+        if (corners >= 3 && !add_triangle(self->builder, odd ? b : a, odd ? a : b, c))
+            return dp_builder_fail(self->builder, self->diag);
+        a = b;
+        b = c;
+    }
+    return DP_OK;
+}
+
+static dp_result read_list(ply *self, const dp_ply_property *property) {
+    int64_t length;
+    const dp_result result = read_length(self, property, &length);
+    if (result) return result;
+    if (property->role == DP_PLY_POLYGON) return read_polygon(self, property, length);
+    if (property->role == DP_PLY_STRIP) return read_strip(self, property, length);
+    if (!skip_scalars(self, property->type, (uint64_t)length)) return expected(self, "a list");
+    return DP_OK;
+}
+
+static dp_result read_item(ply *self, float *position) {
+    const dp_ply_property *property = self->header.properties + self->element->first;
+    const dp_ply_property *const end = property + self->element->properties;
+    for (; property < end; property++) {
+        if (property->list) {
+            const dp_result result = read_list(self, property);
+            if (result) return result;
+        } else if (property->role == DP_PLY_SKIP) {
+            if (!skip_scalars(self, property->type, 1)) return expected(self, "a value");
+        } else if (!next_float(self, property->type, &position[property->role - DP_PLY_X])) {
+            return expected(self, "a coordinate");
+        }
+    }
+    return DP_OK;
+}
+
+/* The least bytes that one of the element's items takes. */
+static size_t least_bytes(const ply *self) {
+    const dp_ply_property *const properties = self->header.properties + self->element->first;
+    size_t bytes = 0;
+    for (size_t i = 0; i < self->element->properties; i++) {
+        const dp_ply_type type = properties[i].list ? properties[i].count : properties[i].type;
+        bytes += self->header.encoding == DP_PLY_ASCII ? 2 : size_of_type[type];
+    }
+    return bytes;
+}
+
+/* Room for what is likely to come: vertices, or triangles with the shortest indices. */
+static bool expect_items(ply *self) {
+    const size_t bytes = least_bytes(self);
+    const uint64_t count = self->element->count;
+    if (self->element->kind == DP_PLY_VERTEX)
+        return dp_builder_expect_vertices(self->builder,
+                                          dp_stream_hint(self->stream, count, bytes));
+    if (self->element->roles & 1u << DP_PLY_POLYGON)
+        return dp_builder_expect_corners(self->builder,
+                                         3 * dp_stream_hint(self->stream, count, bytes + 3));
+    return true;
+}
+
+static dp_result read_element(ply *self, const dp_ply_element *element) {
+    self->element = element;
+    if (!element->properties) return DP_OK; /* takes no byte, however many are announced */
+    if (!expect_items(self)) return dp_builder_fail(self->builder, self->diag);
+    dp_result result = DP_OK;
+    float none[3];
+    for (self->item = 0; self->item < element->count && !result; self->item++) {
+        float *const to = element->kind == DP_PLY_VERTEX ? dp_builder_vertex(self->builder) : none;
+        if (!to) return dp_builder_fail(self->builder, self->diag);
+        result = read_item(self, to);
+    }
+    return result;
+}
+
+/* Text behind the last element: then something was read amiss before. */
+static dp_result check_end(ply *self) {
+    if (self->header.encoding != DP_PLY_ASCII || !dp_text_space(self->stream)) return DP_OK;
+    return dp_fail_line(self->diag, DP_ERR_FORMAT, self->stream->line,
+                        "text behind the last element: the header's counts or properties do not "
+                        "match the content, export the model again");
+}
+
+dp_result dp_read_ply(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
+    ply self = {.stream = stream, .builder = builder, .diag = diag};
+    dp_result result = dp_ply_read_header(stream, &self.header, diag);
+    for (size_t i = 0; i < self.header.element_count && !result; i++)
+        result = read_element(&self, &self.header.elements[i]);
+    if (!result) result = check_end(&self);
+    dp_ply_destroy_header(&self.header);
+    return result;
+}

@@ -1,0 +1,36 @@
+/* Words and numbers from a stream of text. */
+#ifndef DP_IO_TEXT_H
+#define DP_IO_TEXT_H
+
+#include "base/diag.h"
+#include "io/stream.h"
+
+/* To the next word, across line ends; false at the end of the text. */
+bool dp_text_space(dp_stream *stream);
+/* To the next word of this line, across a backslash before a line end; false at the line's end. */
+bool dp_text_blank(dp_stream *stream);
+/* Behind this line's end. */
+void dp_text_skip_line(dp_stream *stream);
+/* Behind this word. */
+void dp_text_skip_word(dp_stream *stream);
+
+/* The number at the cursor. False, with the cursor left before it, where there is none or where
+ * something sticks to it. */
+bool dp_text_float(dp_stream *stream, float *value);
+bool dp_text_int(dp_stream *stream, int64_t *value);
+
+/* The word at the cursor, cut to size - 1 bytes; its full length. */
+size_t dp_text_word(dp_stream *stream, char *word, size_t size);
+/* What is left of the line, without blanks around it, cut to size - 1 bytes; goes to the line's
+ * end. */
+void dp_text_rest(dp_stream *stream, char *rest, size_t size);
+/* Passes over `word` (lower case; any case matches) if it stands at the cursor as a whole word. */
+bool dp_text_match(dp_stream *stream, const char *word);
+/* Passes over a UTF-8 byte order mark at the very start. */
+void dp_text_skip_mark(dp_stream *stream);
+
+/* Fails with DP_ERR_FORMAT: "expected <what>, found <the word at the cursor>", or that the file
+ * ends there, or with the stream's own failure when there is one. `what` is a printf format. */
+dp_result dp_text_expected(dp_stream *stream, dp_diag *diag, const char *what, ...) DP_PRINTF(3, 4);
+
+#endif

@@ -1,0 +1,66 @@
+/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box. */
+#include "pipe/tile.h"
+
+/* Plane through the points by Newell's method, which takes any number of them. */
+static void plane_setup(const dp_point *p, uint32_t n, dp_tile_polygon *out) {
+    double nx = 0, ny = 0, nz = 0;
+    for (uint32_t i = 2; i < n; i++) {
+        const double ax = (double)p[i - 1].x - p[0].x, ay = (double)p[i - 1].y - p[0].y;
+        const double ad = (double)p[i - 1].d - p[0].d;
+        const double bx = (double)p[i].x - p[0].x, by = (double)p[i].y - p[0].y;
+        const double bd = (double)p[i].d - p[0].d;
+        nx += ay * bd - ad * by;
+        ny += ad * bx - ax * bd;
+        nz += ax * by - ay * bx;
+    }
+    const double dx = nz != 0 ? -nx / nz : 0, dy = nz != 0 ? -ny / nz : 0;
+    out->dx = (float)dx, out->dy = (float)dy;
+    out->d0 = (float)(p[0].d - dx * p[0].x - dy * p[0].y);
+}
+
+static uint8_t clamp_px(float v) { return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : v); }
+
+static void box_setup(const dp_point *p, uint32_t n, dp_tile_polygon *out) {
+    float x0 = p[0].x, x1 = x0, y0 = p[0].y, y1 = y0, nearest = p[0].d;
+    for (uint32_t i = 1; i < n; i++) {
+        x0 = fminf(x0, p[i].x), x1 = fmaxf(x1, p[i].x);
+        y0 = fminf(y0, p[i].y), y1 = fmaxf(y1, p[i].y);
+        nearest = fmaxf(nearest, p[i].d);
+    }
+    out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
+    out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
+    out->nearest = nearest;
+    if (x1 >= 0 && y1 >= 0 && x0 < DP_TILE && y0 < DP_TILE) out->flags |= DP_POLYGON_TOUCHES;
+}
+
+static void add_polygon(dp_tile_worker *w, uint32_t id) {
+    dp_outline outline;
+    if (dp_outline_make(w->frame, id, &w->scratch, &outline)) return;
+    const uint32_t n = outline.count;
+    if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
+        !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + n))
+        return;
+    const dp_facing facing = dp_outline_facing(outline.points, n);
+    dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
+    *out = (dp_tile_polygon){.id = id, .point = w->point_count, .points = n};
+    out->flags = (facing == DP_FACING_FRONT ? DP_POLYGON_FRONT : 0) |
+                 (facing == DP_FACING_EDGE_ON ? DP_POLYGON_EDGE_ON : 0) |
+                 (outline.clipped ? DP_POLYGON_CLIPPED : 0);
+    dp_point *const points = w->points + w->point_count;
+    for (uint32_t i = 0; i < n; i++)
+        points[i] = (dp_point){outline.points[i].x - (float)w->tile_x, outline.points[i].y - (float)w->tile_y,
+                               outline.points[i].d};
+    w->point_count += n;
+    plane_setup(points, n, out);
+    box_setup(points, n, out);
+}
+
+void dp_tile_assemble(dp_tile_worker *w) {
+    const dp_bins *const bins = &w->frame->polygon_bins;
+    w->polygon_count = w->point_count = 0;
+    for (uint32_t c = 0; c < bins->chunk_count; c++) {
+        const dp_bin_chunk *const chunk = &bins->chunks[c];
+        for (uint32_t i = chunk->offsets[w->tile]; i < chunk->offsets[w->tile + 1] && !w->failed; i++)
+            add_polygon(w, chunk->entries[i]);
+    }
+}

@@ -1,0 +1,71 @@
+/* Which tiles a polygon touches; and the one place where bad polygons are dropped and counted. */
+#include "pipe/stages.h"
+
+typedef struct job {
+    dp_frame *frame;
+    float margin;
+    dp_bin_worker *workers;
+} job;
+
+static const dp_tile_rect NOWHERE = {0, 0, 0, 0};
+
+static int32_t tile_of(float px) { return (int32_t)floorf(px / DP_TILE); }
+
+static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
+    float x0 = outline->points[0].x, x1 = x0, y0 = outline->points[0].y, y1 = y0;
+    for (uint32_t i = 1; i < outline->count; i++) {
+        const dp_point p = outline->points[i];
+        x0 = fminf(x0, p.x), x1 = fmaxf(x1, p.x);
+        y0 = fminf(y0, p.y), y1 = fmaxf(y1, p.y);
+    }
+    return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), tile_of(x1 + j->margin) + 1,
+                          tile_of(y1 + j->margin) + 1};
+}
+
+static dp_tile_rect place(void *arg, uint32_t polygon, uint32_t worker) {
+    const job *const j = arg;
+    dp_bin_worker *const self = &j->workers[worker];
+    dp_outline outline;
+    switch (dp_outline_make(j->frame, polygon, &self->scratch, &outline)) {
+    case DP_OUTLINE_OUTSIDE: return NOWHERE;
+    case DP_OUTLINE_INDEX: self->stats.dropped_index++; return NOWHERE;
+    case DP_OUTLINE_FINITE: self->stats.dropped_finite++; return NOWHERE;
+    case DP_OUTLINE_MEMORY: self->failed = true; return NOWHERE;
+    case DP_OUTLINE_OK: break;
+    }
+    if (dp_outline_facing(outline.points, outline.count) == DP_FACING_EDGE_ON &&
+        dp_polygon_has_no_area(j->frame, polygon)) {
+        self->stats.dropped_area++;
+        return NOWHERE;
+    }
+    if (outline.clipped) self->stats.clipped++;
+    return rect_of(j, &outline);
+}
+
+/* False when one edge has the whole widened tile on its outside. The outline is convex; which side is
+ * its inside comes from its facing. */
+static bool touches(void *arg, uint32_t polygon, int32_t tile_x, int32_t tile_y, uint32_t worker) {
+    const job *const j = arg;
+    dp_outline outline;
+    if (dp_outline_make(j->frame, polygon, &j->workers[worker].scratch, &outline)) return true;
+    const dp_facing facing = dp_outline_facing(outline.points, outline.count);
+    if (facing == DP_FACING_EDGE_ON) return true;
+    const double sign = facing == DP_FACING_FRONT ? -1 : 1;
+    const double x0 = (double)tile_x * DP_TILE - j->margin, x1 = x0 + DP_TILE + 2 * j->margin;
+    const double y0 = (double)tile_y * DP_TILE - j->margin, y1 = y0 + DP_TILE + 2 * j->margin;
+    for (uint32_t i = 0; i < outline.count; i++) {
+        const dp_point p = outline.points[i], q = outline.points[(i + 1) % outline.count];
+        const double a = sign * ((double)p.y - q.y), b = sign * ((double)q.x - p.x);
+        const double x = a > 0 ? x1 : x0, y = b > 0 ? y1 : y0; /* the corner most inside */
+        if (a * (x - p.x) + b * (y - p.y) < 0) return false;
+    }
+    return true;
+}
+
+bool dp_bin_polygons(dp_frame *frame, float margin, dp_bin_worker *workers) {
+    job j = {frame, margin, workers};
+    bool sound = dp_bins_fill(&frame->polygon_bins, frame->polygons.count, frame->tiles_x,
+                              frame->tiles_y, place, touches, &j, frame->threads, frame->memory);
+    for (uint32_t i = 0; i < dp_threads_count(frame->threads); i++) sound = sound && !workers[i].failed;
+    return sound;
+}

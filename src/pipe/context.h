@@ -1,0 +1,37 @@
+/* A context's inside: threads, and all memory that stays from frame to frame. */
+#ifndef DP_PIPE_CONTEXT_H
+#define DP_PIPE_CONTEXT_H
+
+#include "pipe/stages.h"
+#include "pipe/tile.h"
+#include "strokes/stroke.h"
+
+typedef struct dp_recording dp_recording; /* immediate.c */
+
+struct dp_context {
+    dp_allocator memory;
+    int (*progress)(void *user, double fraction);
+    void *user;
+    dp_threads *threads;
+    uint32_t workers;
+
+    dp_polygon_store polygons;
+    dp_stroke_store strokes;
+    dp_bin_worker *bin_workers;   /* [workers] */
+    dp_tile_worker *tile_workers; /* [workers] */
+    dp_ink_worker *ink_workers;   /* [workers] */
+    dp_frame frame;
+    size_t vertices_cap, depth_cap, pieces_cap;
+
+    dp_stats stats;
+    dp_recording *recording;
+};
+
+/* dp_draw with one resolved style per group; what holds for the whole picture comes from styles[0]. */
+dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera *camera,
+                         const dp_style *styles, uint32_t style_count, const dp_target *target,
+                         dp_diag *diag);
+
+void dp_recording_free(dp_context *context);
+
+#endif

@@ -1,0 +1,262 @@
+/* Drawing one picture: the stages in order, and the context that keeps their memory.
+ *
+ *   source -> gather -> vertices -> bin -> tiles (faces, edges, visibility) -> segments -> ink -> target
+ *
+ * Each stage runs in parallel over blocks, chunks or tiles and is over before the next begins; what a
+ * stage hands on is in submission or tile order, so that the picture does not depend on threads. */
+#include "pipe/context.h"
+
+#include "base/diag.h"
+
+#include <string.h>
+#include <time.h>
+
+enum { MAX_SIZE = 32768 };
+
+/* Tiles are widened by this, so that an edge along a tile's border meets both its polygons (px). */
+static const float MARGIN = 2;
+
+const char *dp_stage_name(dp_stage stage) {
+    static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "ink"};
+    return (unsigned)stage < DP_STAGE_COUNT ? names[stage] : "unknown";
+}
+
+dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_diag *diag) {
+    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_context_create: out is NULL");
+    *out = NULL;
+    const dp_context_desc d = desc ? *desc : (dp_context_desc){0};
+    const dp_allocator memory = dp_allocator_resolve(d.allocator);
+    dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
+    if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
+    c->memory = memory;
+    c->progress = d.progress;
+    c->user = d.user;
+    c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
+    if (c->threads) {
+        c->workers = dp_threads_count(c->threads);
+        c->bin_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->bin_workers);
+        c->tile_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->tile_workers);
+        c->ink_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->ink_workers);
+    }
+    if (!c->threads || !c->bin_workers || !c->tile_workers || !c->ink_workers) {
+        dp_context_destroy(c);
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
+    }
+    *out = c;
+    return DP_OK;
+}
+
+void dp_context_destroy(dp_context *c) {
+    if (!c) return;
+    const dp_allocator memory = c->memory;
+    dp_threads_destroy(c->threads);
+    for (uint32_t i = 0; i < c->workers; i++) {
+        if (c->bin_workers) dp_outline_scratch_free(&c->bin_workers[i].scratch, &memory);
+        if (c->tile_workers) dp_tile_worker_free(&c->tile_workers[i]);
+        if (c->ink_workers) dp_free(&memory, c->ink_workers[i].strokes);
+    }
+    dp_free(&memory, c->bin_workers);
+    dp_free(&memory, c->tile_workers);
+    dp_free(&memory, c->ink_workers);
+    dp_polygon_store_free(&c->polygons, &memory);
+    dp_stroke_store_free(&c->strokes, &memory);
+    dp_bins_free(&c->frame.polygon_bins, &memory);
+    dp_bins_free(&c->frame.stroke_bins, &memory);
+    dp_free(&memory, c->frame.vertices);
+    dp_free(&memory, c->frame.depth);
+    dp_free(&memory, c->frame.tile_pieces);
+    dp_recording_free(c);
+    dp_free(&memory, c);
+}
+
+/* ------- stages ------- */
+
+static double now_ms(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+static dp_result out_of_memory(dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing");
+}
+
+static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *diag) {
+    *out = *target;
+    if (!out->samples) out->samples = 4;
+    if (!out->rgba_stride) out->rgba_stride = 4 * (size_t)out->width;
+    if (out->width < 1 || out->height < 1 || out->width > MAX_SIZE || out->height > MAX_SIZE)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the picture is %u x %u px; each side must be 1 to %d",
+                       out->width, out->height, MAX_SIZE);
+    if (out->samples != 1 && out->samples != 4 && out->samples != 8 && out->samples != 16)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u samples per pixel; it must be 1, 4, 8 or 16", out->samples);
+    if (out->rgba_stride < 4 * (size_t)out->width)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "rgba_stride is less than a row of pixels");
+    return DP_OK;
+}
+
+static bool begin_workers(dp_context *c) {
+    for (uint32_t i = 0; i < c->workers; i++) {
+        c->bin_workers[i].stats = (dp_stats){0};
+        c->bin_workers[i].failed = c->ink_workers[i].failed = false;
+        if (!dp_tile_worker_init(&c->tile_workers[i], &c->frame)) return false;
+    }
+    return true;
+}
+
+/* Sizes what depends on the picture. */
+static bool begin_frame(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    f->tiles_x = (f->target.width + DP_TILE - 1) / DP_TILE;
+    f->tiles_y = (f->target.height + DP_TILE - 1) / DP_TILE;
+    f->tile_samples = (size_t)DP_TILE * DP_TILE * f->target.samples;
+    const size_t tiles = (size_t)f->tiles_x * f->tiles_y;
+    return dp_reserve(&c->memory, &f->depth, &c->depth_cap, tiles * f->tile_samples, sizeof *f->depth) &&
+           dp_reserve(&c->memory, &f->tile_pieces, &c->pieces_cap, tiles, sizeof *f->tile_pieces) &&
+           begin_workers(c);
+}
+
+static void find_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    c->frame.tile_pieces[index].worker = worker;
+    dp_tile_find(&c->tile_workers[worker], index);
+}
+
+static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    dp_ink_tile(&c->frame, &c->ink_workers[worker], index);
+}
+
+/* A part of a long loop, so that progress can be told between the parts. */
+typedef struct part {
+    dp_context *context;
+    dp_task *task;
+    uint32_t first;
+} part;
+
+static void part_task(void *arg, uint32_t index, uint32_t worker) {
+    const part *const p = arg;
+    p->task(p->context, p->first + index, worker);
+}
+
+static dp_result for_tiles(dp_context *c, dp_task *task, double from, double to, dp_diag *diag) {
+    const uint32_t tiles = c->frame.tiles_x * c->frame.tiles_y;
+    const uint32_t step = c->progress && tiles > 64 ? (tiles + 15) / 16 : tiles;
+    for (uint32_t first = 0; first < tiles; first += step) {
+        part p = {c, task, first};
+        dp_parallel(c->threads, tiles - first < step ? tiles - first : step, part_task, &p);
+        const double done = from + (to - from) * (first + step) / tiles;
+        if (c->progress && c->progress(c->user, done > 1 ? 1 : done))
+            return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
+    }
+    return DP_OK;
+}
+
+static void add_counts(dp_stats *sum, const dp_stats *s) {
+    sum->dropped_index += s->dropped_index;
+    sum->dropped_finite += s->dropped_finite;
+    sum->dropped_area += s->dropped_area;
+    sum->dropped_corners += s->dropped_corners;
+    sum->clipped += s->clipped;
+    sum->edges_resolved += s->edges_resolved;
+    sum->edges_emergent += s->edges_emergent;
+    sum->open_edges += s->open_edges;
+    sum->added_polygons += s->added_polygons;
+}
+
+static dp_result check_dropped(dp_stats *s, dp_diag *diag) {
+    s->dropped = s->dropped_index + s->dropped_finite + s->dropped_area + s->dropped_corners;
+    if (!s->dropped || s->dropped < s->polygons) return DP_OK;
+    return dp_fail(diag, DP_ERR_FORMAT,
+                   "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
+                   "coordinates that are not finite, %llu without area, %llu with fewer than 3 corners",
+                   (unsigned long long)s->polygons, (unsigned long long)s->dropped_index,
+                   (unsigned long long)s->dropped_finite, (unsigned long long)s->dropped_area,
+                   (unsigned long long)s->dropped_corners);
+}
+
+static void lap(dp_stats *stats, dp_stage stage, double *since) {
+    const double now = now_ms();
+    stats->stage_ms[stage] = now - *since;
+    *since = now;
+}
+
+static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
+    dp_frame *const f = &c->frame;
+    dp_result result = dp_gather(source, &c->polygons, &c->memory, &f->polygons, &c->stats, diag);
+    if (result) return result;
+    lap(&c->stats, DP_STAGE_GATHER, since);
+    if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
+        return out_of_memory(diag);
+    dp_transform_vertices(f);
+    lap(&c->stats, DP_STAGE_VERTICES, since);
+    if (!dp_bin_polygons(f, MARGIN, c->bin_workers)) return out_of_memory(diag);
+    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
+    lap(&c->stats, DP_STAGE_BIN, since);
+    if ((result = check_dropped(&c->stats, diag))) return result;
+    if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
+    for (uint32_t i = 0; i < c->workers; i++) {
+        if (c->tile_workers[i].failed) return out_of_memory(diag);
+        add_counts(&c->stats, &c->tile_workers[i].stats);
+    }
+    lap(&c->stats, DP_STAGE_TILES, since);
+    return DP_OK;
+}
+
+static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+    double since = now_ms();
+    const double start = since;
+    if (!begin_frame(c)) return out_of_memory(diag);
+    dp_result result = find_lines(c, source, &since, diag);
+    if (result) return result;
+    if (!dp_make_segments(&c->frame, c->tile_workers, &c->strokes) || !dp_bin_strokes(&c->frame))
+        return out_of_memory(diag);
+    c->stats.segments = c->frame.segment_count;
+    lap(&c->stats, DP_STAGE_SEGMENTS, &since);
+    if ((result = for_tiles(c, ink_tile, 0.8, 1, diag))) return result;
+    for (uint32_t i = 0; i < c->workers; i++)
+        if (c->ink_workers[i].failed) return out_of_memory(diag);
+    lap(&c->stats, DP_STAGE_INK, &since);
+    c->stats.frame_ms = now_ms() - start;
+    return DP_OK;
+}
+
+dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *camera,
+                         const dp_style *styles, uint32_t style_count, const dp_target *target,
+                         dp_diag *diag) {
+    dp_frame *const f = &c->frame;
+    c->stats = (dp_stats){0};
+    f->segment_count = 0;
+    f->memory = &c->memory;
+    f->threads = c->threads;
+    f->styles = styles;
+    f->style_count = style_count;
+    f->lines = 0;
+    for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
+    dp_result result = check_target(target, &f->target, diag);
+    if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
+    if (!result) result = draw(c, source, diag);
+    if (result) f->segment_count = 0;
+    f->styles = NULL; /* borrowed for this call only */
+    return result;
+}
+
+dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
+                  const dp_style *style, const dp_target *target, dp_diag *diag) {
+    if (!context || !source || !camera || !target)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_draw: context, source, camera or target is NULL");
+    dp_style resolved;
+    const dp_result result = dp_style_resolve(style, &resolved, diag);
+    if (result) return result;
+    return dp_draw_groups(context, source, camera, &resolved, 1, target, diag);
+}
+
+const dp_segment *dp_segments(const dp_context *context, size_t *count) {
+    if (count) *count = context ? context->frame.segment_count : 0;
+    return context ? context->frame.segments : NULL;
+}
+
+void dp_stats_of(const dp_context *context, dp_stats *stats) {
+    if (!stats) return;
+    *stats = context ? context->stats : (dp_stats){0};
+}

@@ -1,0 +1,67 @@
+/* What one drawing works on: filled stage by stage by draw.c, read by every later stage. */
+#ifndef DP_PIPE_FRAME_H
+#define DP_PIPE_FRAME_H
+
+#include "base/memory.h"
+#include "base/threads.h"
+#include "mesh/polygons.h"
+#include "pipe/bin.h"
+#include "pipe/view.h"
+#include <drypoint/draw.h>
+
+enum { DP_TILE = 64 /* px; a row of a tile is one 64-bit mask */ };
+
+/* A vertex after transformation; 16 bytes, so that a triangle's corners take three cache lines at most. */
+typedef struct dp_vertex {
+    float x, y, d; /* screen space; x is NaN where the vertex must be clipped or is not finite */
+    uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
+} dp_vertex;
+
+/* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
+typedef struct dp_piece {
+    uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
+    uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
+    uint32_t k0, k1, n; /* sample points */
+    uint8_t line;       /* dp_line */
+    bool open;          /* it touches the tile's border: a neighbour may hold its continuation */
+} dp_piece;
+
+#define DP_CROSSING UINT32_MAX
+
+typedef struct dp_tile_pieces {
+    uint32_t worker; /* whose list */
+    size_t first, count;
+} dp_tile_pieces;
+
+typedef struct dp_tile_worker dp_tile_worker; /* tile.h */
+
+typedef struct dp_frame {
+    const dp_allocator *memory;
+    dp_threads *threads;
+    dp_view view;
+    const dp_style *styles; /* by group, resolved; [style_count] */
+    uint32_t style_count;
+    dp_target target;
+    uint32_t lines; /* classes that any group draws */
+
+    dp_polygons polygons;
+    dp_vertex *vertices;
+    uint32_t tiles_x, tiles_y;
+    dp_bins polygon_bins;
+
+    float *depth;  /* [tile][cell sample], nearest surface; layout: samples.h */
+    size_t tile_samples;
+    dp_tile_pieces *tile_pieces; /* by tile */
+
+    dp_segment *segments;
+    struct dp_stroke *strokes; /* one per segment, strokes/stroke.h */
+    size_t segment_count;
+    dp_bins stroke_bins;
+} dp_frame;
+
+static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t polygon) {
+    const uint32_t group = frame->polygons.groups ? frame->polygons.groups[polygon] : 0;
+    return &frame->styles[group < frame->style_count ? group : 0];
+}
+
+#endif

@@ -1,0 +1,136 @@
+/* Visibility of spines: sample points on them, hidden by whatever polygon covers them nearer.
+ *
+ * This is the depth test of the paper's emergent lines taken to the lines themselves: instead of asking
+ * at fixed samples which added polygon wins, every polygon of the tile is rasterized onto the points
+ * that matter (an irregular depth buffer). The answer is exact for edges far below a pixel and owes
+ * nothing to the number of samples.
+ *
+ * Data structure: probes in lists by pixel, and one 64-bit mask per row of pixels that hold any, so that
+ * a polygon over no probe costs a few masks. A spine's points belong to the tile whose pixel they
+ * lie in. Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
+#include "pipe/tile.h"
+
+/* The tile that owns a point, by the pixel it lies in: the same answer in every tile. */
+static bool owned(const dp_tile_worker *w, dp_pointd p) {
+    return p.x >= w->tile_x && p.y >= w->tile_y && p.x < w->tile_x + DP_TILE &&
+           p.y < w->tile_y + DP_TILE && p.x < w->frame->view.width && p.y < w->frame->view.height;
+}
+
+/* Cuts [*t0, *t1] to where from + t * (to - from) lies in [lo, hi]. */
+static void cut(double from, double to, double lo, double hi, double *t0, double *t1) {
+    const double step = to - from;
+    if (step == 0) {
+        if (from < lo || from > hi) *t1 = -1;
+        return;
+    }
+    const double a = (lo - from) / step, b = (hi - from) / step;
+    *t0 = fmax(*t0, fmin(a, b));
+    *t1 = fmin(*t1, fmax(a, b));
+}
+
+static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
+    return dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
+}
+
+/* Which sample points may be the tile's: one more on either side than the cut says. */
+static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
+    double t0 = 0, t1 = 1;
+    cut(s->probe_a.x, s->probe_b.x, w->tile_x, w->tile_x + DP_TILE, &t0, &t1);
+    cut(s->probe_a.y, s->probe_b.y, w->tile_y, w->tile_y + DP_TILE, &t0, &t1);
+    if (t0 > t1) return false;
+    const double lo = floor(t0 * s->n - 1.5), hi = ceil(t1 * s->n + 1.5);
+    *k0 = lo > 0 ? (uint32_t)lo : 0;
+    *k1 = hi < s->n ? (uint32_t)hi : s->n;
+    while (*k0 < *k1 && !owned(w, probe_point(s, *k0))) ++*k0;
+    while (*k0 < *k1 && !owned(w, probe_point(s, *k1 - 1))) --*k1;
+    return *k0 < *k1;
+}
+
+static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *s, uint32_t k) {
+    const dp_pointd p = probe_point(s, k);
+    dp_probe *const probe = &w->probes[w->probe_count];
+    *probe = (dp_probe){.x = (float)(p.x - w->tile_x),
+                        .y = (float)(p.y - w->tile_y),
+                        .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
+                        .own_a = c->a,
+                        .own_b = c->b,
+                        .k = k};
+    uint32_t x = (uint32_t)probe->x, y = (uint32_t)probe->y;
+    if (x >= DP_TILE) x = DP_TILE - 1; /* float32 may round up to the border */
+    if (y >= DP_TILE) y = DP_TILE - 1;
+    uint32_t *const cell = &w->cell[y * DP_TILE + x];
+    probe->next = w->row[y] >> x & 1 ? *cell : UINT32_MAX;
+    w->row[y] |= (uint64_t)1 << x;
+    *cell = w->probe_count++;
+}
+
+void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
+    if (!find_range(w, spine, &c.k0, &c.k1)) return;
+    if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
+        !DP_WORKER_RESERVE(w, probes, probes_cap, (size_t)w->probe_count + (c.k1 - c.k0)))
+        return;
+    c.n = spine->n;
+    c.probe = w->probe_count;
+    w->candidates[w->candidate_count++] = c;
+    for (uint32_t k = c.k0; k < c.k1; k++) add_probe(w, &c, spine, k);
+}
+
+/* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of two
+ * polygons that share an edge exactly one has it. */
+static bool left_of(dp_point a, dp_point b, float x, float y, bool flip) {
+    const bool swap = a.y > b.y || (a.y == b.y && a.x > b.x);
+    const dp_point s = swap ? b : a, t = swap ? a : b;
+    const double e = ((double)t.x - s.x) * ((double)y - s.y) - ((double)t.y - s.y) * ((double)x - s.x);
+    return swap != flip ? e < 0 : e >= 0;
+}
+
+static bool covers(const dp_point *p, uint32_t n, bool front, float x, float y) {
+    for (uint32_t i = 0; i < n; i++)
+        if (!left_of(p[i], p[i + 1 == n ? 0 : i + 1], x, y, front)) return false;
+    return true;
+}
+
+static void hide_in_pixel(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t cell) {
+    for (uint32_t i = cell; i != UINT32_MAX; i = w->probes[i].next) {
+        dp_probe *const probe = &w->probes[i];
+        if (probe->hidden || p->nearest <= probe->limit) continue;
+        if (p->id == probe->own_a || p->id == probe->own_b) continue;
+        const float d = fminf(dp_plane_at(p, probe->x, probe->y), p->nearest);
+        if (d <= probe->limit) continue;
+        probe->hidden = covers(w->points + p->point, p->points, p->flags & DP_POLYGON_FRONT, probe->x, probe->y);
+    }
+}
+
+static void hide_under(dp_tile_worker *w, const dp_tile_polygon *p) {
+    const uint64_t span = (~(uint64_t)0 >> (63 - (p->x1 - p->x0))) << p->x0;
+    for (uint32_t y = p->y0; y <= p->y1; y++)
+        for (uint64_t bits = w->row[y] & span; bits; bits &= bits - 1)
+            hide_in_pixel(w, p, w->cell[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
+}
+
+static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
+    if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
+    w->pieces[w->piece_count++] = (dp_piece){.a = c->a, .b = c->b, .edge = c->edge, .k0 = k0, .k1 = k1,
+                                             .n = c->n, .line = c->line,
+                                             .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
+}
+
+/* Runs of visible sample points. */
+static void collect(dp_tile_worker *w, const dp_candidate *c) {
+    uint32_t start = c->k0;
+    for (uint32_t k = c->k0; k <= c->k1; k++) {
+        const bool visible = k < c->k1 && !w->probes[c->probe + (k - c->k0)].hidden;
+        if (visible) continue;
+        if (k > start) add_piece(w, c, start, k);
+        start = k + 1;
+    }
+}
+
+void dp_tile_probe(dp_tile_worker *w) {
+    for (uint32_t i = 0; i < w->polygon_count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        const uint32_t solid = DP_POLYGON_TOUCHES;
+        if ((p->flags & (solid | DP_POLYGON_EDGE_ON)) == solid) hide_under(w, p);
+    }
+    for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
+}

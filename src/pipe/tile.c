@@ -1,0 +1,65 @@
+/* Finding a tile's surface and lines: faces, edges, visibility, in that order. */
+#include "pipe/tile.h"
+
+#include <string.h>
+
+bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
+    worker->frame = frame;
+    worker->memory = *frame->memory;
+    worker->failed = false;
+    worker->stats = (dp_stats){0};
+    worker->piece_count = 0;
+    dp_sampling_init(&worker->sampling, frame->target.samples);
+    size_t capacity = 0;
+    dp_free(&worker->memory, worker->winner);
+    worker->winner = NULL;
+    return dp_reserve(&worker->memory, &worker->winner, &capacity, frame->tile_samples, sizeof *worker->winner);
+}
+
+void dp_tile_worker_free(dp_tile_worker *worker) {
+    const dp_allocator memory = worker->memory;
+    if (!memory.free) return; /* never used */
+    dp_free(&memory, worker->winner);
+    dp_free(&memory, worker->polygons);
+    dp_free(&memory, worker->points);
+    dp_free(&memory, worker->edges);
+    dp_free(&memory, worker->edge_slots);
+    dp_free(&memory, worker->candidates);
+    dp_free(&memory, worker->probes);
+    dp_free(&memory, worker->pieces);
+    dp_outline_scratch_free(&worker->scratch, &memory);
+}
+
+static void clear(dp_tile_worker *w) {
+    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
+    memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
+    memset(w->row, 0, sizeof w->row);
+    w->candidate_count = w->probe_count = 0;
+}
+
+static void draw_faces(dp_tile_worker *w) {
+    for (uint32_t i = 0; i < w->polygon_count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        if (!(p->flags & DP_POLYGON_TOUCHES) || p->flags & DP_POLYGON_EDGE_ON) continue;
+        if (!(p->flags & DP_POLYGON_FRONT) && dp_polygon_style(w->frame, p->id)->cull_back_faces) continue;
+        dp_tile_raster(w, p, i);
+    }
+}
+
+void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
+    const size_t first = w->piece_count;
+    w->tile = tile;
+    w->tile_x = tile % w->frame->tiles_x * DP_TILE;
+    w->tile_y = tile / w->frame->tiles_x * DP_TILE;
+    w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
+    clear(w);
+    dp_tile_assemble(w);
+    draw_faces(w);
+    dp_tile_surface(w);
+    if (w->frame->lines) {
+        dp_tile_edges(w);
+        dp_tile_probe(w);
+    }
+    w->frame->tile_pieces[tile].first = first;
+    w->frame->tile_pieces[tile].count = w->piece_count - first;
+}

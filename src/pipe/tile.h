@@ -1,0 +1,116 @@
+/* One screen tile while a worker holds it: its polygons, samples, edges, lines and sample points.
+ *
+ * Everything here is thrown away with the tile; only memory stays with the worker. Coordinates are
+ * px from the tile's corner ("tile space") unless said otherwise. */
+#ifndef DP_PIPE_TILE_H
+#define DP_PIPE_TILE_H
+
+#include "pipe/frame.h"
+#include "pipe/outline.h"
+#include "pipe/samples.h"
+#include "pipe/spine.h"
+
+enum {
+    DP_POLYGON_FRONT = 1,   /* faces the eye */
+    DP_POLYGON_EDGE_ON = 2, /* covers nothing; counts as back-facing */
+    DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
+    DP_POLYGON_TOUCHES = 8  /* its points reach the tile itself, not only its margin */
+};
+
+/* A polygon of the tile. */
+typedef struct dp_tile_polygon {
+    uint32_t id;             /* in the frame */
+    uint32_t point;          /* first of its points */
+    uint32_t points;         /* how many */
+    uint32_t flags;
+    uint8_t x0, y0, x1, y1;  /* pixels it may cover, inclusive, clamped to the tile */
+    float nearest;           /* largest d of its points */
+    float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
+} dp_tile_polygon;
+
+/* An edge of the tile's table: what met there. */
+typedef struct dp_edge_entry {
+    uint32_t va, vb;            /* vertices, in the direction of polygon a */
+    uint32_t a, b;              /* tile polygons; b UINT32_MAX while alone */
+    uint32_t edge_a, edge_b;    /* corner number within the polygon */
+    uint32_t met;               /* how many polygons */
+    bool opposed;               /* b runs it from vb to va, as it should */
+} dp_edge_entry;
+
+/* A line that may be visible: its spine's part in this tile is to be probed. */
+typedef struct dp_candidate {
+    uint32_t a, b;    /* frame polygons: owner, partner or UINT32_MAX */
+    uint32_t edge;    /* corner of the owner, or DP_CROSSING */
+    uint32_t n;       /* sample points on the whole spine */
+    uint32_t k0, k1;  /* those in this tile: [k0, k1) */
+    uint32_t probe;   /* first of its probes */
+    uint8_t line;
+} dp_candidate;
+
+/* A sample point of a spine. Hidden when a polygon other than its own lies nearer than `limit`. */
+typedef struct dp_probe {
+    float x, y;
+    float limit;            /* d */
+    uint32_t own_a, own_b;  /* frame polygons */
+    uint32_t next;          /* in the same pixel, or UINT32_MAX */
+    uint32_t k;             /* number along its spine */
+    bool hidden;
+} dp_probe;
+
+struct dp_tile_worker {
+    const dp_frame *frame;
+    dp_sampling sampling;
+    dp_allocator memory;
+    bool failed; /* out of memory: the tile is abandoned */
+
+    uint32_t tile, tile_x, tile_y;
+    float *depth;     /* the tile's samples */
+    uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
+
+    dp_tile_polygon *polygons;
+    dp_point *points;
+    dp_edge_entry *edges;
+    uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
+    dp_candidate *candidates;
+    dp_probe *probes;
+    dp_piece *pieces; /* of all the worker's tiles in this frame */
+    size_t polygons_cap, points_cap, edges_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
+    uint32_t polygon_count, point_count, edge_count, slot_count, candidate_count, probe_count;
+    size_t piece_count;
+
+    uint32_t cell[DP_TILE * DP_TILE]; /* first probe of a pixel; valid where `row` has its bit */
+    uint64_t row[DP_TILE];            /* pixels that hold probes */
+
+    dp_outline_scratch scratch; /* for one polygon */
+    dp_stats stats;
+};
+
+/* Grows one of the worker's arrays; remembers a failure. */
+#define DP_WORKER_RESERVE(worker, array, capacity, need)                                              \
+    (dp_reserve(&(worker)->memory, &(worker)->array, &(worker)->capacity, (need),                     \
+                sizeof *(worker)->array) ||                                                           \
+     !((worker)->failed = true))
+
+bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
+void dp_tile_worker_free(dp_tile_worker *worker);
+
+/* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
+void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
+
+/* The stages of dp_tile_find, each in its own file. */
+void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c */
+void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index); /* raster.c */
+void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
+void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
+
+void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+
+/* Adds a candidate (k0, k1, n, probe are filled here) and its probes in this tile (probes.c). */
+void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine);
+
+/* The depth of a polygon's plane at a point of the tile. */
+static inline float dp_plane_at(const dp_tile_polygon *polygon, float x, float y) {
+    return polygon->d0 + polygon->dx * x + polygon->dy * y;
+}
+
+#endif

@@ -1,0 +1,215 @@
+/* Inking strokes: round-ended capsules with analytic anti-aliasing, over the surface.
+ *
+ * Coverage of a pixel is the overlap of a one pixel wide box, moved across the stroke, with the stroke's
+ * width: exact for straight strokes, and the same on both sides of a joint. Strokes of one class and
+ * colour are united by the largest coverage, so that joints of many short segments show no seams; then
+ * each class is laid over the picture in the order of LAYERS.
+ *
+ * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke the
+ * surface may come nearer (a valley's sides, a rounded outline) and still belong to it. */
+#include "strokes/stroke.h"
+
+#include "pipe/samples.h"
+
+#include <string.h>
+
+/* From the bottom up: where lines cross, outlines lie over creases. */
+static const dp_line LAYERS[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
+                                              DP_LINE_BORDER, DP_LINE_SILHOUETTE};
+
+/* How much nearer than the spine (in pixel sizes) a surface may be, at `distance` px from it, and still
+ * not hide the stroke: sides that rise by up to four to one, and outlines that curve towards the eye
+ * with a radius of up to an eighth of the picture (a circle rises by sqrt(2 r x)). */
+static float nearer_allowed(const dp_frame *frame, float distance) {
+    return 2 + 4 * distance + sqrtf(0.25f * (float)frame->view.height * distance);
+}
+
+static dp_tile_rect place(void *arg, uint32_t index, uint32_t worker) {
+    const dp_frame *const frame = arg;
+    const dp_stroke *const s = &frame->strokes[index];
+    (void)worker;
+    const float r = s->half_width + 1;
+    const float x0 = fminf(s->a.x, s->b.x) - r, x1 = fmaxf(s->a.x, s->b.x) + r;
+    const float y0 = fminf(s->a.y, s->b.y) - r, y1 = fmaxf(s->a.y, s->b.y) + r;
+    if (!(x1 > x0 && y1 > y0)) return (dp_tile_rect){0, 0, 0, 0};
+    return (dp_tile_rect){(int32_t)floorf(x0 / DP_TILE), (int32_t)floorf(y0 / DP_TILE),
+                          (int32_t)floorf(x1 / DP_TILE) + 1, (int32_t)floorf(y1 / DP_TILE) + 1};
+}
+
+static float distance_to(const dp_stroke *s, float x, float y, float *t) {
+    const float ex = s->b.x - s->a.x, ey = s->b.y - s->a.y;
+    const float length2 = ex * ex + ey * ey;
+    const float along = length2 > 0 ? ((x - s->a.x) * ex + (y - s->a.y) * ey) / length2 : 0;
+    *t = fminf(fmaxf(along, 0), 1);
+    return hypotf(x - s->a.x - *t * ex, y - s->a.y - *t * ey);
+}
+
+static bool touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker) {
+    const dp_frame *const frame = arg;
+    const dp_stroke *const s = &frame->strokes[index];
+    (void)worker;
+    float t;
+    const float half = DP_TILE * 0.5f;
+    const float d = distance_to(s, ((float)tile_x + 0.5f) * DP_TILE, ((float)tile_y + 0.5f) * DP_TILE, &t);
+    return d <= half * 1.4143f + s->half_width + 1;
+}
+
+bool dp_bin_strokes(dp_frame *frame) {
+    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->segment_count, frame->tiles_x,
+                        frame->tiles_y, place, touches, frame, frame->threads, frame->memory);
+}
+
+static float coverage_at(float half_width, float distance) {
+    const float in = fminf(distance + 0.5f, half_width) - fmaxf(distance - 0.5f, -half_width);
+    return fminf(fmaxf(in, 0), 1);
+}
+
+typedef struct tile_ink {
+    const dp_frame *frame;
+    dp_ink_worker *worker;
+    const float *depth; /* the tile's samples */
+    uint32_t x0, y0;    /* px of the tile's corner */
+    uint32_t x1, y1;    /* of its end, within the picture */
+} tile_ink;
+
+static bool on_plane(const float plane[3], float x, float y, float d, float tolerance) {
+    return fabsf(plane[0] + plane[1] * x + plane[2] * y - d) <= tolerance;
+}
+
+/* Share of the pixel's samples that do not hide the stroke. */
+static float visible_share(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, float t,
+                           float distance) {
+    const uint32_t samples = ink->frame->target.samples;
+    const float *const depth = ink->depth + (size_t)((y - ink->y0) * DP_TILE + (x - ink->x0)) * samples;
+    const float spine = s->a.d + (s->b.d - s->a.d) * t;
+    const double step = dp_depth_step(&ink->frame->view, spine, 1);
+    const float limit = spine + (float)(step * nearer_allowed(ink->frame, distance));
+    uint32_t visible = 0;
+    for (uint32_t i = 0; i < samples; i++) {
+        const float fx = (float)x + 0.5f, fy = (float)y + 0.5f, d = depth[i];
+        visible += d <= limit || on_plane(s->plane[0], fx, fy, d, (float)step * 4) ||
+                   on_plane(s->plane[1], fx, fy, d, (float)step * 4);
+    }
+    return (float)visible / (float)samples;
+}
+
+static void cover_pixel(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y) {
+    float t;
+    const float distance = distance_to(s, (float)x + 0.5f, (float)y + 0.5f, &t);
+    float c = coverage_at(s->half_width, distance);
+    if (c <= 0) return;
+    const uint32_t px = x - ink->x0, py = y - ink->y0;
+    dp_ink_worker *const w = ink->worker;
+    const bool set = w->row[py] >> px & 1;
+    float *const held = &w->coverage[py * DP_TILE + px];
+    if (set && *held >= c) return;
+    c *= visible_share(ink, s, x, y, t, distance);
+    if (c <= 0 || (set && *held >= c)) return;
+    *held = c;
+    w->row[py] |= (uint64_t)1 << px;
+}
+
+/* Columns of row y that the stroke can reach: the part of the spine within r of the row, widened by r. */
+static bool row_span(const dp_stroke *s, float y, float r, float *x0, float *x1) {
+    const float ey = s->b.y - s->a.y;
+    float t0 = 0, t1 = 1;
+    if (fabsf(ey) > 1e-6f) {
+        const float u = (y - r - s->a.y) / ey, v = (y + r - s->a.y) / ey;
+        t0 = fmaxf(0, fminf(u, v)), t1 = fminf(1, fmaxf(u, v));
+        if (t0 > t1) return false;
+    }
+    const float p = s->a.x + (s->b.x - s->a.x) * t0, q = s->a.x + (s->b.x - s->a.x) * t1;
+    *x0 = fminf(p, q) - r, *x1 = fmaxf(p, q) + r;
+    return true;
+}
+
+static uint32_t clamp_to(float v, uint32_t lo, uint32_t hi) {
+    return v <= (float)lo ? lo : v >= (float)hi ? hi : (uint32_t)v;
+}
+
+static void cover(const tile_ink *ink, const dp_stroke *s) {
+    const float r = s->half_width + 0.5f;
+    const uint32_t y0 = clamp_to(fminf(s->a.y, s->b.y) - r, ink->y0, ink->y1);
+    const uint32_t y1 = clamp_to(fmaxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
+    for (uint32_t y = y0; y < y1; y++) {
+        float from, to;
+        if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;
+        const uint32_t x0 = clamp_to(from, ink->x0, ink->x1), x1 = clamp_to(to + 1, ink->x0, ink->x1);
+        for (uint32_t x = x0; x < x1; x++) cover_pixel(ink, s, x, y);
+    }
+}
+
+/* Over (Porter and Duff), not premultiplied, 8 bits. */
+static void blend(uint8_t *pixel, dp_color color, float coverage) {
+    const float source = coverage * (float)(color & 0xff) / 255, under = (float)pixel[3] / 255;
+    const float alpha = source + under * (1 - source);
+    if (!(alpha > 0)) return;
+    for (int i = 0; i < 3; i++) {
+        const float c = (float)(color >> (24 - 8 * i) & 0xff);
+        const float mixed = (c * source + (float)pixel[i] * under * (1 - source)) / alpha;
+        pixel[i] = (uint8_t)(mixed + 0.5f);
+    }
+    pixel[3] = (uint8_t)(alpha * 255 + 0.5f);
+}
+
+/* Lays what is covered over the picture and forgets it. */
+static void flush(const tile_ink *ink, dp_line line, dp_color color) {
+    const dp_target *const target = &ink->frame->target;
+    for (uint32_t py = 0; py < DP_TILE; py++) {
+        for (uint64_t bits = ink->worker->row[py]; bits; bits &= bits - 1) {
+            const uint32_t px = (uint32_t)__builtin_ctzll(bits);
+            const uint32_t x = ink->x0 + px, y = ink->y0 + py;
+            const float c = ink->worker->coverage[py * DP_TILE + px];
+            if (target->rgba) blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, color, c);
+            if (target->line_class && c >= 0.5f)
+                target->line_class[(size_t)y * target->width + x] = (uint8_t)(1 + line);
+        }
+        ink->worker->row[py] = 0;
+    }
+}
+
+static bool fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, size_t *count) {
+    const dp_bins *const bins = &frame->stroke_bins;
+    *count = 0;
+    if (!dp_reserve(frame->memory, &w->strokes, &w->strokes_cap, dp_bins_tile_count(bins, tile),
+                    sizeof *w->strokes))
+        return false;
+    for (uint32_t c = 0; c < bins->chunk_count; c++) {
+        const dp_bin_chunk *const chunk = &bins->chunks[c];
+        for (uint32_t i = chunk->offsets[tile]; i < chunk->offsets[tile + 1]; i++)
+            w->strokes[(*count)++] = chunk->entries[i];
+    }
+    return true;
+}
+
+static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count, dp_line line) {
+    dp_color color = 0;
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        const dp_stroke *const s = &ink->frame->strokes[strokes[i]];
+        if (s->line != line) continue;
+        if (any && s->color != color) flush(ink, line, color);
+        color = s->color;
+        any = true;
+        cover(ink, s);
+    }
+    if (any) flush(ink, line, color);
+}
+
+void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
+    size_t count;
+    if (!fetch_strokes(frame, worker, tile, &count)) {
+        worker->failed = true;
+        return;
+    }
+    if (!count) return;
+    const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
+    const dp_target *const target = &frame->target;
+    const tile_ink ink = {.frame = frame, .worker = worker,
+                          .depth = frame->depth + (size_t)tile * frame->tile_samples,
+                          .x0 = x0, .y0 = y0,
+                          .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
+                          .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
+    memset(worker->row, 0, sizeof worker->row);
+    for (int i = 0; i < DP_LINE_COUNT; i++) ink_layer(&ink, worker->strokes, count, LAYERS[i]);
+}

@@ -1,0 +1,88 @@
+/* base: result names, diagnostics, growing arrays and their overflow checks. */
+#include "base/diag.h"
+#include "base/memory.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void every_result_has_its_own_name(void **state) {
+    (void)state;
+    for (int a = DP_OK; a <= DP_ERR_CANCELLED; a++)
+        for (int b = a + 1; b <= DP_ERR_CANCELLED + 1; b++)
+            assert_string_not_equal(dp_result_name((dp_result)a), dp_result_name((dp_result)b));
+    assert_non_null(dp_result_name((dp_result)-1));
+}
+
+static void version_is_what_the_macros_say(void **state) {
+    (void)state;
+    char expected[32];
+    snprintf(expected, sizeof expected, "%d.%d.%d", DP_VERSION_MAJOR, DP_VERSION_MINOR,
+             DP_VERSION_PATCH);
+    assert_string_equal(dp_version(), expected);
+}
+
+static void failing_fills_the_diagnosis(void **state) {
+    (void)state;
+    dp_diag diag = {.line = 99, .offset = 99, .item = 99};
+    assert_int_equal(dp_fail(&diag, DP_ERR_IO, "no %s", "disk"), DP_ERR_IO);
+    assert_int_equal(diag.result, DP_ERR_IO);
+    assert_int_equal(diag.line + diag.offset + diag.item, 0);
+    assert_string_equal(diag.message, "no disk");
+    assert_int_equal(dp_fail_line(&diag, DP_ERR_FORMAT, 7, "x"), DP_ERR_FORMAT);
+    assert_int_equal(diag.line, 7);
+    assert_int_equal(dp_fail_offset(&diag, DP_ERR_FORMAT, 80, "x"), DP_ERR_FORMAT);
+    assert_int_equal(diag.offset, 80);
+    assert_int_equal(dp_fail(NULL, DP_ERR_LIMIT, "unheard"), DP_ERR_LIMIT);
+}
+
+static void a_long_message_is_cut_and_ended(void **state) {
+    (void)state;
+    char text[1000];
+    memset(text, 'x', sizeof text);
+    text[sizeof text - 1] = 0;
+    dp_diag diag;
+    dp_fail(&diag, DP_ERR_IO, "%s", text);
+    assert_int_equal(strlen(diag.message), sizeof diag.message - 1);
+}
+
+static void arrays_keep_their_items_when_they_grow(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    uint32_t *items = NULL;
+    size_t capacity = 0;
+    for (size_t i = 0; i < 10000; i++) {
+        assert_true(dp_reserve(&memory, &items, &capacity, i + 1, sizeof *items));
+        items[i] = (uint32_t)i;
+    }
+    for (size_t i = 0; i < 10000; i++) assert_int_equal(items[i], i);
+    dp_free(&memory, items);
+}
+
+static void sizes_that_overflow_are_refused(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    assert_null(dp_alloc_array(&memory, SIZE_MAX / 2, 3));
+    uint32_t *items = NULL;
+    size_t capacity = 0;
+    assert_false(dp_reserve(&memory, &items, &capacity, SIZE_MAX / 2, sizeof *items));
+    assert_null(items);
+    assert_int_equal(capacity, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_result_has_its_own_name),
+        cmocka_unit_test(version_is_what_the_macros_say),
+        cmocka_unit_test(failing_fills_the_diagnosis),
+        cmocka_unit_test(a_long_message_is_cut_and_ended),
+        cmocka_unit_test(arrays_keep_their_items_when_they_grow),
+        cmocka_unit_test(sizes_that_overflow_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
