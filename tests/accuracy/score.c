@@ -128,20 +128,41 @@ static bool has_ink(const ref_truth *truth, const float *ink, const ref_sample *
     return false;
 }
 
-/* Ink across the line at a sample: from its middle out to where it ends on both sides. Negative: it
- * runs on into another line. */
+/* Ink across the line at a sample: from its middle out to where it ends on both sides. */
 static double width_at(const ref_truth *truth, const float *ink, const ref_sample *s, double px) {
-    const double limit = 1.5 * px + 2;
     double sum = 0;
     for (int side = -1; side <= 1; side += 2) {
-        double o = ACROSS / 2, here = 1;
-        for (; o < limit && here > 0.01; o += ACROSS) {
+        double here = 1;
+        for (double o = ACROSS / 2; o < px + STRAY && here > 0.01; o += ACROSS) {
             here = ink_at(truth, ink, s->x + side * s->nx * o, s->y + side * s->ny * o);
             sum += ACROSS * here;
         }
-        if (o >= limit) return -1;
     }
     return sum;
+}
+
+/* For every pixel the line that has a sample there, plus 1, or 0. */
+static uint32_t *mark_lines(const ref_truth *truth, uint32_t lines) {
+    uint32_t *marks = calloc((size_t)truth->width * truth->height, sizeof *marks);
+    if (marks == NULL) abort();
+    for (size_t i = 0; i < truth->sample_count; i++) {
+        const ref_sample *s = &truth->samples[i];
+        if (!s->inside || !(wanted(lines, s->kind) || neutral(lines, s->kind))) continue;
+        marks[(size_t)s->y * truth->width + (size_t)s->x] = s->line + 1;
+    }
+    return marks;
+}
+
+/* Whether no other line is so near that their strokes could touch. */
+static bool stands_alone(const ref_truth *truth, const uint32_t *marks, const ref_sample *s,
+                         double px) {
+    for (double o = -px - STRAY; o <= px + STRAY; o += 0.5) {
+        const double x = floor(s->x + s->nx * o), y = floor(s->y + s->ny * o);
+        if (x < 0 || y < 0 || x >= truth->width || y >= truth->height) return false;
+        const uint32_t mark = marks[(size_t)y * truth->width + (size_t)x];
+        if (mark != 0 && mark != s->line + 1) return false;
+    }
+    return true;
 }
 
 static int by_value(const void *left, const void *right) {
@@ -153,6 +174,7 @@ static void measure_widths(const ref_truth *truth, const float *ink, uint32_t li
                            score *out) {
     double *widths = malloc((truth->sample_count + 1) * sizeof *widths);
     double *means = malloc((truth->sample_count + 1) * sizeof *means);
+    uint32_t *marks = mark_lines(truth, lines);
     double run = 0;
     size_t count = 0, mean_count = 0, in_run = 0;
     uint32_t line = UINT32_MAX;
@@ -161,8 +183,8 @@ static void measure_widths(const ref_truth *truth, const float *ink, uint32_t li
         const ref_sample *s = &truth->samples[i];
         if (!wanted(lines, s->kind) || !s->inside || s->length <= 4 * px) continue;
         if (s->along <= 0.25f || s->along >= 0.75f) continue;
+        if (!stands_alone(truth, marks, s, px)) continue;
         const double width = width_at(truth, ink, s, px);
-        if (width < 0) continue;
         if (s->line != line) run = 0, in_run = 0;
         line = s->line;
         widths[count++] = width;
@@ -181,6 +203,7 @@ static void measure_widths(const ref_truth *truth, const float *ink, uint32_t li
     }
     free(widths);
     free(means);
+    free(marks);
 }
 
 static void measure_recall(const ref_truth *truth, const float *ink, uint32_t lines, score *out) {
