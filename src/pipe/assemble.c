@@ -1,5 +1,5 @@
 /* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box. */
-#include "pipe/tile.h"
+#include "pipe/intersect.h"
 
 /* Plane through the points by Newell's method, which takes any number of them. */
 static void plane_setup(const dp_point *p, uint32_t n, dp_tile_polygon *out) {
@@ -52,6 +52,7 @@ static void add_polygon(dp_tile_worker *w, uint32_t id) {
     w->point_count += n;
     plane_setup(points, n, out);
     box_setup(points, n, out);
+    out->watch = dp_watch_reach(w, out);
 }
 
 void dp_tile_assemble(dp_tile_worker *w) {

@@ -26,6 +26,7 @@ typedef struct dp_tile_polygon {
     uint8_t x0, y0, x1, y1;  /* pixels it may cover, inclusive, clamped to the tile */
     float nearest;           /* largest d of its points */
     float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
+    float watch;             /* a sample this close in depth may be of a polygon that crosses it */
 } dp_tile_polygon;
 
 /* An edge of the tile's table: what met there. */
@@ -86,6 +87,12 @@ struct dp_tile_worker {
     uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
     size_t piece_count;
 
+    uint64_t suspects[DP_TILE]; /* pixels where two polygons may cross */
+    struct dp_crowd *crowd;     /* intersect.c: polygons by suspect pixel */
+    uint64_t *pairs;            /* pairs of polygons that were tested; open addressing, 0: free */
+    size_t crowd_cap;
+    uint32_t pair_slots, pair_count;
+
     uint32_t cell[DP_TILE * DP_TILE]; /* first probe of a pixel; valid where `row` has its bit */
     uint64_t row[DP_TILE];            /* pixels that hold probes */
 
@@ -109,9 +116,13 @@ void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c */
 void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index); /* raster.c */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
+void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
 void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+
+/* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
+void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);
 
 /* Adds a candidate (k0, k1, n, probe are filled here) and its probes in this tile (probes.c). */
 void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine);
