@@ -171,11 +171,12 @@ static dp_result ply_polygon(writer *w, const dp_batch *batch, uint64_t base, si
     return result;
 }
 
-/* "prefix v v v\n"; with numbers from `origin` on. */
+/* "prefix v v v\n", vertices counted from `origin`; without a prefix the number of corners. */
 static dp_result text_polygon(writer *w, const dp_batch *batch, uint64_t origin, size_t first,
                               size_t last, const char *prefix) {
     char text[32];
-    dp_result result = put(w, prefix, strlen(prefix));
+    if (!prefix) snprintf(text, sizeof text, "%zu", last - first);
+    dp_result result = prefix ? put(w, prefix, strlen(prefix)) : put(w, text, strlen(text));
     for (size_t c = first; c < last && !result; c++)
         result = put_text(w, text,
                           snprintf(text, sizeof text, " %llu",
@@ -187,11 +188,9 @@ static dp_result ply_polygons(writer *w, const dp_batch *batch, uint64_t base) {
     dp_result result = DP_OK;
     for (size_t i = 0; i < batch->polygon_count && !result; i++) {
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
-        char corners[16];
         if (!usable(batch, first, last)) continue;
-        snprintf(corners, sizeof corners, "%zu", last - first);
         result = w->kind == DP_MESH_FILE_PLY ? ply_polygon(w, batch, base, first, last)
-                                             : text_polygon(w, batch, base, first, last, corners);
+                                             : text_polygon(w, batch, base, first, last, NULL);
     }
     return result;
 }
