@@ -6,7 +6,9 @@
  * each class is laid over the picture in the order of LAYERS.
  *
  * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke the
- * surface may come nearer (a valley's sides, a rounded outline) and still belong to it. */
+ * surface may come nearer (a valley's sides, a rounded outline) and still belong to it. It is cut so
+ * where outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
+ * looks like a defect, and strokes end round. */
 #include "strokes/stroke.h"
 
 #include "pipe/samples.h"
@@ -18,10 +20,10 @@ static const dp_line LAYERS[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTI
                                               DP_LINE_BORDER, DP_LINE_SILHOUETTE};
 
 /* How much nearer than the spine (in pixel sizes) a surface may be, at `distance` px from it, and still
- * not hide the stroke: sides that rise by up to four to one, and outlines that curve towards the eye
- * with a radius of up to an eighth of the picture (a circle rises by sqrt(2 r x)). */
+ * not hide the stroke: sides that rise by up to eight to one, and outlines that curve towards the eye
+ * with a radius of up to half the picture (a circle rises by sqrt(2 r x)). */
 static float nearer_allowed(const dp_frame *frame, float distance) {
-    return 2 + 4 * distance + sqrtf(0.25f * (float)frame->view.height * distance);
+    return 2 + 8 * distance + sqrtf((float)frame->view.height * distance);
 }
 
 static dp_tile_rect place(void *arg, uint32_t index, uint32_t worker) {
@@ -79,6 +81,7 @@ static bool on_plane(const float plane[3], float x, float y, float d, float tole
 /* Share of the pixel's samples that do not hide the stroke. */
 static float visible_share(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, float t,
                            float distance) {
+    if (!(ink->frame->lines & DP_SILHOUETTE)) return 1;
     const uint32_t samples = ink->frame->target.samples;
     const float *const depth = ink->depth + (size_t)((y - ink->y0) * DP_TILE + (x - ink->x0)) * samples;
     const float spine = s->a.d + (s->b.d - s->a.d) * t;
