@@ -23,9 +23,9 @@ static uint8_t clamp_px(float v) { return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 
 static void box_setup(const dp_point *p, uint32_t n, dp_tile_polygon *out) {
     float x0 = p[0].x, x1 = x0, y0 = p[0].y, y1 = y0, nearest = p[0].d;
     for (uint32_t i = 1; i < n; i++) {
-        x0 = fminf(x0, p[i].x), x1 = fmaxf(x1, p[i].x);
-        y0 = fminf(y0, p[i].y), y1 = fmaxf(y1, p[i].y);
-        nearest = fmaxf(nearest, p[i].d);
+        x0 = dp_minf(x0, p[i].x), x1 = dp_maxf(x1, p[i].x);
+        y0 = dp_minf(y0, p[i].y), y1 = dp_maxf(y1, p[i].y);
+        nearest = dp_maxf(nearest, p[i].d);
     }
     out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
     out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);

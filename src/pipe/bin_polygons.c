@@ -15,8 +15,8 @@ static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
     float x0 = outline->points[0].x, x1 = x0, y0 = outline->points[0].y, y1 = y0;
     for (uint32_t i = 1; i < outline->count; i++) {
         const dp_point p = outline->points[i];
-        x0 = fminf(x0, p.x), x1 = fmaxf(x1, p.x);
-        y0 = fminf(y0, p.y), y1 = fmaxf(y1, p.y);
+        x0 = dp_minf(x0, p.x), x1 = dp_maxf(x1, p.x);
+        y0 = dp_minf(y0, p.y), y1 = dp_maxf(y1, p.y);
     }
     return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), tile_of(x1 + j->margin) + 1,
                           tile_of(y1 + j->margin) + 1};

@@ -25,8 +25,8 @@ static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_
     if (p->flags & DP_POLYGON_CLIPPED) return true;
     const dp_point a = w->points[p->point + i];
     const dp_point b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
-    return fmaxf(a.x, b.x) >= -MARGIN && fminf(a.x, b.x) <= DP_TILE + MARGIN &&
-           fmaxf(a.y, b.y) >= -MARGIN && fminf(a.y, b.y) <= DP_TILE + MARGIN;
+    return dp_maxf(a.x, b.x) >= -MARGIN && dp_minf(a.x, b.x) <= DP_TILE + MARGIN &&
+           dp_maxf(a.y, b.y) >= -MARGIN && dp_minf(a.y, b.y) <= DP_TILE + MARGIN;
 }
 
 static bool clear_table(dp_tile_worker *w) {
@@ -179,7 +179,6 @@ static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
 static void resolve_border(dp_tile_worker *w, const dp_edge_entry *e) {
     dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[e->a].id);
     if (!(w->polygons[e->a].flags & DP_POLYGON_FRONT)) normal = dp_scale(normal, -1);
-    w->stats.open_edges++;
     add_line(w, e, DP_LINE_BORDER, normal);
 }
 

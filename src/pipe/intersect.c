@@ -40,25 +40,45 @@ void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, dp_i4 close, 
         if (!close[i] || other == UINT32_MAX || other == index) continue;
         const size_t pixel = (lane + i) / w->sampling.samples;
         const uint32_t x = (uint32_t)pixel % DP_TILE, y = (uint32_t)pixel / DP_TILE;
-        if (w->suspects[y] >> x & 1) continue;
         const dp_tile_polygon *const q = &w->polygons[other];
+        if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) continue;
+        uint64_t *const row = &w->suspects[!(p->flags & q->flags & DP_POLYGON_FRONT)][y];
+        if (*row >> x & 1) continue;
         const float reach = DP_WATCH_PX * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
         if (fabsf(depth[i] - w->depth[lane + i]) > reach) continue;
-        if (!shared_corners(w->frame, p->id, q->id)) w->suspects[y] |= (uint64_t)1 << x;
+        if (!shared_corners(w->frame, p->id, q->id)) *row |= (uint64_t)1 << x;
     }
 }
 
-/* The suspects and their neighbours. False when there are none. */
-static bool widen(const dp_tile_worker *w, uint64_t rows[DP_TILE]) {
+/* Pixels and their neighbours. False when there are none. */
+static bool widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     uint64_t any = 0;
     for (int y = 0; y < DP_TILE; y++) {
-        uint64_t r = w->suspects[y];
-        if (y > 0) r |= w->suspects[y - 1];
-        if (y + 1 < DP_TILE) r |= w->suspects[y + 1];
-        rows[y] = r | r << 1 | r >> 1;
+        uint64_t r = pixels[y];
+        if (y > 0) r |= pixels[y - 1];
+        if (y + 1 < DP_TILE) r |= pixels[y + 1];
+        out[y] = r | r << 1 | r >> 1;
         any |= r;
     }
     return any;
+}
+
+/* A front and a back face come close along every outline of a closed model. They cross in sight only
+ * where the back face is seen too: keeps the suspects near a pixel whose winner is a back face. */
+static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
+    uint64_t any = 0, seen[DP_TILE] = {0};
+    for (int y = 0; y < DP_TILE; y++) any |= suspects[y];
+    if (!any) return;
+    const uint32_t samples = w->sampling.samples;
+    for (size_t i = 0; i < w->frame->tile_samples; i++) {
+        const uint32_t winner = w->winner[i];
+        if (winner == UINT32_MAX || w->polygons[winner].flags & DP_POLYGON_FRONT) continue;
+        const size_t pixel = i / samples;
+        seen[pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+    }
+    uint64_t near[DP_TILE];
+    widen(seen, near);
+    for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
 }
 
 /* ------- pairs ------- */
@@ -139,12 +159,19 @@ static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[D
 }
 
 void dp_tile_intersections(dp_tile_worker *w) {
-    uint64_t rows[DP_TILE];
+    uint64_t front[DP_TILE], back[DP_TILE];
     uint32_t heads[DP_TILE][DP_TILE], count = 0;
-    if (!widen(w, rows)) return;
+    keep_seen_back_faces(w, w->suspects[1]);
+    const bool mixed = widen(w->suspects[1], back);
+    for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
+    if (!widen(w->suspects[0], front)) return;
     memset(heads, 0xff, sizeof heads);
     if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
     w->pair_count = 0;
-    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++)
-        if (w->polygons[i].flags & DP_POLYGON_TOUCHES) join_crowds(w, i, rows, heads, &count);
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
+        if (p->flags & DP_POLYGON_FRONT) join_crowds(w, i, front, heads, &count);
+        else if (mixed) join_crowds(w, i, back, heads, &count);
+    }
 }

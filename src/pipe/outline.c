@@ -91,7 +91,7 @@ dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_ou
     double area = 0, reach = 0;
     for (uint32_t i = 1; i < outline->count; i++) {
         const double ax = (double)p[i].x - p[0].x, ay = (double)p[i].y - p[0].y;
-        reach = fmax(reach, fmax(fabs(ax), fabs(ay)));
+        reach = dp_max(reach, dp_max(fabs(ax), fabs(ay)));
         if (i + 1 == outline->count) break;
         const double bx = (double)p[i + 1].x - p[0].x, by = (double)p[i + 1].y - p[0].y;
         area += ax * by - ay * bx;
@@ -110,7 +110,7 @@ bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {
         const dp_vec3 a = dp_sub(corner_position(polygons, first + i), o);
         const dp_vec3 b = dp_sub(corner_position(polygons, first + i + 1), o);
         sum = dp_add(sum, dp_cross(a, b));
-        size = fmax(size, fmax(dp_dot(a, a), dp_dot(b, b)));
+        size = dp_max(size, dp_max(dp_dot(a, a), dp_dot(b, b)));
     }
     /* the cross product of float32 coordinates is exact to about 1e-15 of the squared size */
     return dp_length(sum) <= 1e-12 * size;

@@ -78,8 +78,8 @@ fill(dp_tile_worker *w, const edge e[3], const dp_tile_polygon *p, uint32_t inde
     }
 }
 
-static float min3(float a, float b, float c) { return fminf(a, fminf(b, c)); }
-static float max3(float a, float b, float c) { return fmaxf(a, fmaxf(b, c)); }
+static float min3(float a, float b, float c) { return dp_minf(a, dp_minf(b, c)); }
+static float max3(float a, float b, float c) { return dp_maxf(a, dp_maxf(b, c)); }
 static int clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v; }
 
 static void raster_triangle(dp_tile_worker *w, dp_point a, dp_point b, dp_point c,

@@ -87,7 +87,7 @@ struct dp_tile_worker {
     uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
     size_t piece_count;
 
-    uint64_t suspects[DP_TILE]; /* pixels where two polygons may cross */
+    uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
     struct dp_crowd *crowd;     /* intersect.c: polygons by suspect pixel */
     uint64_t *pairs;            /* pairs of polygons that were tested; open addressing, 0: free */
     size_t crowd_cap;
