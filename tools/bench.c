@@ -64,10 +64,6 @@ static int measure(const tool_settings *s, bench *b) {
     int code = measure_model(s, b->source, &extent);
     if (!code) code = make_camera(s, &extent, &camera);
     if (code) return code;
-    if (!dp_source_rewindable(b->source)) {
-        wrong_usage("%s can be read only once; give a file to draw it many times", s->model);
-        return EXIT_FAILED;
-    }
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
     return draw_frames(b, &camera, &style, s->model);
 }
@@ -79,8 +75,10 @@ static int run(const tool_settings *s, bench *b) {
     b->frames = calloc(b->count, sizeof *b->frames);
     double *const times = calloc(b->count, sizeof *times);
     int code = EXIT_FAILED;
-    if (b->target.rgba && b->frames && times) code = open_model(s, &b->source);
-    else wrong_usage("out of memory for the picture; give a smaller --size");
+    if (b->target.rgba && b->frames && times)
+        code = open_model(s, &b->source);
+    else
+        wrong_usage("out of memory for the picture; give a smaller --size");
     if (b->source) code = measure(s, b);
     if (!code) print_result(s, b, times);
     free(times);

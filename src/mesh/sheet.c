@@ -1,11 +1,11 @@
 /* Turns a model of sheets into batches of triangles, a block of cells at a time.
  *
  * Invariant: a point that two sheets share comes out with the same bits from both, so that a closed
- * model is closed when its vertices are compared by position. That holds because points are functions
- * of whole numbers, because a weight of 0 or 1 is exact, and because sums of two products commute (the
- * compiler must not contract them: -ffp-contract=off). Minus zero is turned into zero for the same
- * reason. Within a batch equal positions are one vertex; triangles whose corners coincide are left
- * out, so a row of cells may shrink to a point or a line.
+ * model is closed when its vertices are compared by position. That holds because points are
+ * functions of whole numbers, because a weight of 0 or 1 is exact, and because sums of two products
+ * commute (the compiler must not contract them: -ffp-contract=off). Minus zero is turned into zero
+ * for the same reason. Within a batch equal positions are one vertex; triangles whose corners
+ * coincide are left out, so a row of cells may shrink to a point or a line.
  *
  * Not here: anything that needs to know a neighbour. Memory is two blocks, whatever the model. */
 #include "mesh/sheet.h"
@@ -17,11 +17,11 @@
 #include <string.h>
 
 enum {
-    BLOCK = 96,                                /* cells a side: what is handed out in one piece */
+    BLOCK = 96, /* cells a side: what is handed out in one piece */
     BLOCK_POINTS = (BLOCK + 1) * (BLOCK + 1),
     BATCH_TRIANGLES = 1 << 16,
     BATCH_POINTS = BATCH_TRIANGLES / 2 + 4 * BLOCK_POINTS,
-    SLOTS = 1 << 17                            /* of the table that welds: over twice the points */
+    SLOTS = 1 << 17 /* of the table that welds: over twice the points */
 };
 
 typedef struct slot {
@@ -37,9 +37,9 @@ typedef struct generator {
     uint32_t batch;                   /* number of the current batch, from 1 */
     uint32_t point_count;
     uint32_t corner_count;
-    float (*points)[3];   /* [BATCH_POINTS] */
-    uint32_t *corners;    /* [3 * BATCH_TRIANGLES] */
-    slot *slots;          /* [SLOTS] */
+    float (*points)[3]; /* [BATCH_POINTS] */
+    uint32_t *corners;  /* [3 * BATCH_TRIANGLES] */
+    slot *slots;        /* [SLOTS] */
     uint32_t grid[BLOCK_POINTS];
 } generator;
 
@@ -55,8 +55,8 @@ void dp_turn(uint32_t k, uint32_t n, double *c, double *s) {
     k %= n;
     /* Within an eighth of a turn of an axis, so that all quadrants round alike. */
     const uint64_t eighths = 8 * (uint64_t)k / n;
-    const uint64_t quarter = (eighths + 1) / 2;                       /* the nearest axis, 0 … 4 */
-    const double rest = (4.0 * k - (double)quarter * n) / (4.0 * n);  /* of a turn */
+    const uint64_t quarter = (eighths + 1) / 2;                      /* the nearest axis, 0 … 4 */
+    const double rest = (4.0 * k - (double)quarter * n) / (4.0 * n); /* of a turn */
     const double x = cos(full * rest), y = sin(full * rest);
     const double table[4][2] = {{x, y}, {-y, x}, {-x, -y}, {y, -x}};
     *c = table[quarter % 4][0];
@@ -73,10 +73,14 @@ void dp_disc(uint32_t i, uint32_t j, uint32_t n, double *x, double *y) {
     if (!side) return;
     const uint32_t a = i - ring, b = j - ring;
     uint32_t k;
-    if (b == 0) k = a;
-    else if (a == side) k = side + b;
-    else if (b == side) k = 3 * side - a;
-    else k = 4 * side - b;
+    if (b == 0)
+        k = a;
+    else if (a == side)
+        k = side + b;
+    else if (b == side)
+        k = 3 * side - a;
+    else
+        k = 4 * side - b;
     dp_turn(k, 4 * side, x, y);
     *x *= (double)side / n;
     *y *= (double)side / n;
@@ -151,6 +155,11 @@ uint64_t dp_model_triangles(const dp_model *model) {
 
 /* ---- a block of cells ---- */
 
+static uint32_t append(generator *self, const float p[3]) {
+    memcpy(self->points[self->point_count], p, 3 * sizeof *p);
+    return self->point_count++;
+}
+
 /* The batch's vertex at this position. */
 static uint32_t weld(generator *self, const float p[3]) {
     uint32_t bits[3];
@@ -163,20 +172,18 @@ static uint32_t weld(generator *self, const float p[3]) {
         slot *const s = &self->slots[at];
         if (s->batch != self->batch) {
             *s = (slot){self->point_count, self->batch};
-            memcpy(self->points[self->point_count], p, 3 * sizeof *p);
-            return self->point_count++;
+            return append(self, p);
         }
         if (!memcmp(self->points[s->vertex], p, 3 * sizeof *p)) return s->vertex;
     }
 }
 
-static uint32_t make_point(generator *self, const dp_sheet *sheet, uint32_t i, uint32_t j) {
+static void make_point(const generator *self, const dp_sheet *sheet, uint32_t i, uint32_t j,
+                       float q[3]) {
     double p[3];
-    float q[3];
     sheet->point(&self->model, sheet, i, j, p);
     for (int c = 0; c < 3; c++) /* + 0: minus zero becomes zero */
         q[c] = (float)((p[c] - self->model.centre[c]) * self->scale) + 0.0F;
-    return weld(self, q);
 }
 
 static void add_triangle(generator *self, bool reversed, uint32_t a, uint32_t b, uint32_t c) {
@@ -218,20 +225,34 @@ static void add_half_cell(generator *self, const dp_sheet *sheet, uint32_t rest,
 
 static uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-static void add_block(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0) {
-    const uint32_t w = smaller(BLOCK, sheet->nu - i0), h = smaller(BLOCK, sheet->nv - j0);
+/* Only points on the block's edge can be another block's too, unless cells shrink to nothing. */
+static void add_points(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0, uint32_t w,
+                       uint32_t h) {
     for (uint32_t j = 0; j <= h; j++)
         for (uint32_t i = 0; i <= w; i++) {
-            const bool outside = sheet->triangular && i0 + i + j0 + j > sheet->nu;
-            self->grid[j * (w + 1) + i] = outside ? 0 : make_point(self, sheet, i0 + i, j0 + j);
+            uint32_t *const at = self->grid + j * (w + 1) + i;
+            const uint32_t left = sheet->nu - (i0 + i);
+            float p[3];
+            *at = 0;
+            if (sheet->triangular && j0 + j > left) continue;
+            make_point(self, sheet, i0 + i, j0 + j, p);
+            const bool edge = !i || !j || i == w || j == h || (sheet->triangular && j0 + j == left);
+            *at = edge || sheet->shrinks ? weld(self, p) : append(self, p);
         }
+}
+
+static void add_block(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0) {
+    const uint32_t w = smaller(BLOCK, sheet->nu - i0), h = smaller(BLOCK, sheet->nv - j0);
+    add_points(self, sheet, i0, j0, w, h);
     for (uint32_t j = 0; j < h; j++)
         for (uint32_t i = 0; i < w; i++) {
             const uint32_t *const row = self->grid + j * (w + 1) + i;
             const uint32_t corner[4] = {row[0], row[1], row[w + 2], row[w + 1]};
             const uint32_t along = i0 + i + j0 + j;
-            if (!sheet->triangular) add_cell(self, sheet->reversed, corner);
-            else if (along < sheet->nu) add_half_cell(self, sheet, sheet->nu - along, corner);
+            if (!sheet->triangular)
+                add_cell(self, sheet->reversed, corner);
+            else if (along < sheet->nu)
+                add_half_cell(self, sheet, sheet->nu - along, corner);
         }
 }
 

@@ -1,13 +1,13 @@
 /* Writes a polygon source as PLY, STL or OBJ, batch by batch.
  *
- * The files differ in what they must know beforehand: OBJ nothing, binary STL the number of triangles,
- * PLY that of vertices and polygons, and all vertices before all polygons. So a PLY takes three
- * readings of the source, an STL two, an OBJ one. An STL from a source that can be read only once gets
- * its count at the end, where the file allows that.
+ * The files differ in what they must know beforehand: OBJ nothing, binary STL the number of
+ * triangles, PLY that of vertices and polygons, and all vertices before all polygons. So a PLY
+ * takes three readings of the source, an STL two, an OBJ one. An STL from a source that can be read
+ * only once gets its count at the end, where the file allows that.
  *
  * Invariant: every format holds the same polygons: those with three corners or more whose vertices
- * exist and are finite; a vertex that is not finite is written as 0 0 0, so that numbers stay right.
- * Text holds nine digits, which give back the same float.
+ * exist and are finite; a vertex that is not finite is written as 0 0 0, so that numbers stay
+ * right. Text holds nine digits, which give back the same float.
  *
  * Not here: normals, colours, groups, edge flags; welding beyond what the source indexes. STL knows
  * only triangles: larger polygons are cut into fans, which is right for convex ones. */
@@ -30,7 +30,7 @@ typedef struct writer {
     uint64_t vertices, polygons, triangles; /* of the whole source, once counted */
     uint32_t most_corners;                  /* of one polygon */
     uint64_t done;                          /* polygons handled so far, over all readings */
-    int readings;
+    int readings; /* that write; 0 while counting, when the end is unknown */
 } writer;
 
 /* What a reading does with a batch; `base` is the number of its first vertex. */
@@ -39,7 +39,8 @@ typedef dp_result batch_function(writer *w, const dp_batch *batch, uint64_t base
 /* ---- batches ---- */
 
 static const float *position(const dp_batch *batch, size_t v) {
-    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         v * batch->position_stride);
 }
 
 static uint32_t index_of(const dp_batch *batch, size_t corner) {
@@ -72,7 +73,8 @@ static dp_result put_text(writer *w, const char *text, int length) {
 /* Calls `each` on every batch, from the source's start. */
 static dp_result read_source(writer *w, batch_function *each) {
     uint64_t base = 0;
-    dp_result result = dp_source_rewindable(w->source) ? dp_source_rewind(w->source, w->diag) : DP_OK;
+    dp_result result =
+        dp_source_rewindable(w->source) ? dp_source_rewind(w->source, w->diag) : DP_OK;
     while (!result) {
         dp_batch batch;
         result = dp_source_next(w->source, &batch, w->diag);
@@ -99,9 +101,11 @@ static dp_result count_batch(writer *w, const dp_batch *batch, uint64_t base) {
     return DP_OK;
 }
 
-static dp_result count(writer *w) {
+/* `readings` will follow that write. */
+static dp_result count(writer *w, int readings) {
     const dp_result result = read_source(w, count_batch);
     w->done = 0;
+    w->readings = readings;
     return result;
 }
 
@@ -122,16 +126,16 @@ static void put_f32(uint8_t *to, float value) {
 
 static dp_result ply_header(writer *w) {
     char text[400];
-    const int n = snprintf(text, sizeof text,
-                           "ply\nformat %s 1.0\ncomment written by Drypoint %s\n"
-                           "element vertex %llu\nproperty float x\nproperty float y\n"
-                           "property float z\nelement face %llu\n"
-                           "property list %s %s vertex_indices\nend_header\n",
-                           w->kind == DP_MESH_FILE_PLY ? "binary_little_endian" : "ascii",
-                           dp_version(), (unsigned long long)w->vertices,
-                           (unsigned long long)w->polygons,
-                           w->most_corners > MOST_IN_BYTE ? "uint" : "uchar",
-                           w->vertices > INT32_MAX ? "uint" : "int");
+    const int n =
+        snprintf(text, sizeof text,
+                 "ply\nformat %s 1.0\ncomment written by Drypoint %s\n"
+                 "element vertex %llu\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face %llu\n"
+                 "property list %s %s vertex_indices\nend_header\n",
+                 w->kind == DP_MESH_FILE_PLY ? "binary_little_endian" : "ascii", dp_version(),
+                 (unsigned long long)w->vertices, (unsigned long long)w->polygons,
+                 w->most_corners > MOST_IN_BYTE ? "uint" : "uchar",
+                 w->vertices > INT32_MAX ? "uint" : "int");
     return put_text(w, text, n);
 }
 
@@ -171,11 +175,12 @@ static dp_result ply_polygon(writer *w, const dp_batch *batch, uint64_t base, si
     return result;
 }
 
-/* "prefix v v v\n"; with numbers from `origin` on. */
+/* "prefix v v v\n", vertices counted from `origin`; without a prefix the number of corners. */
 static dp_result text_polygon(writer *w, const dp_batch *batch, uint64_t origin, size_t first,
                               size_t last, const char *prefix) {
     char text[32];
-    dp_result result = put(w, prefix, strlen(prefix));
+    if (!prefix) snprintf(text, sizeof text, "%zu", last - first);
+    dp_result result = prefix ? put(w, prefix, strlen(prefix)) : put(w, text, strlen(text));
     for (size_t c = first; c < last && !result; c++)
         result = put_text(w, text,
                           snprintf(text, sizeof text, " %llu",
@@ -187,11 +192,9 @@ static dp_result ply_polygons(writer *w, const dp_batch *batch, uint64_t base) {
     dp_result result = DP_OK;
     for (size_t i = 0; i < batch->polygon_count && !result; i++) {
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
-        char corners[16];
         if (!usable(batch, first, last)) continue;
-        snprintf(corners, sizeof corners, "%zu", last - first);
         result = w->kind == DP_MESH_FILE_PLY ? ply_polygon(w, batch, base, first, last)
-                                             : text_polygon(w, batch, base, first, last, corners);
+                                             : text_polygon(w, batch, base, first, last, NULL);
     }
     return result;
 }
@@ -201,8 +204,7 @@ static dp_result write_ply(writer *w) {
         return dp_fail(w->diag, DP_ERR_UNSUPPORTED,
                        "a PLY needs its counts first, and this source can be read only once; "
                        "write an OBJ");
-    w->readings = 2;
-    dp_result result = count(w);
+    dp_result result = count(w, 2);
     if (!result && w->vertices > UINT32_MAX)
         result = dp_fail(w->diag, DP_ERR_LIMIT,
                          "a PLY numbers at most %u vertices, not %llu; write an STL", UINT32_MAX,
@@ -218,7 +220,8 @@ static dp_result write_ply(writer *w) {
 static void normal_of(const float a[3], const float b[3], const float c[3], float normal[3]) {
     double u[3], v[3], n[3];
     for (int k = 0; k < 3; k++) u[k] = (double)b[k] - a[k], v[k] = (double)c[k] - a[k];
-    for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > 0 ? (float)(n[k] / length) : 0;
 }
@@ -277,8 +280,7 @@ static dp_result write_stl_once(writer *w) {
 
 static dp_result write_stl(writer *w) {
     if (!dp_source_rewindable(w->source)) return write_stl_once(w);
-    w->readings = 1;
-    dp_result result = count(w);
+    dp_result result = count(w, 1);
     if (!result) result = stl_header(w, w->triangles);
     return result ? result : read_source(w, stl_triangles);
 }
@@ -291,20 +293,18 @@ static dp_result obj_batch(writer *w, const dp_batch *batch, uint64_t base) {
         result = text_vertex(w, "v ", shown(batch, v));
     for (size_t i = 0; i < batch->polygon_count && !result; i++) {
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
-        if (usable(batch, first, last))
-            result = text_polygon(w, batch, base + 1, first, last, "f");
+        if (usable(batch, first, last)) result = text_polygon(w, batch, base + 1, first, last, "f");
     }
     return result;
 }
 
 static dp_result write_obj(writer *w) {
     char text[80];
-    w->readings = 1;
     dp_result result = DP_OK;
-    if (w->progress && dp_source_rewindable(w->source)) result = count(w); /* for the progress */
+    if (w->progress && dp_source_rewindable(w->source)) result = count(w, 1); /* for the progress */
     if (!result)
-        result = put_text(w, text, snprintf(text, sizeof text, "# written by Drypoint %s\n",
-                                            dp_version()));
+        result = put_text(w, text,
+                          snprintf(text, sizeof text, "# written by Drypoint %s\n", dp_version()));
     return result ? result : read_source(w, obj_batch);
 }
 
@@ -321,10 +321,14 @@ static dp_mesh_file kind_by_name(const char *path) {
 static dp_result write_all(writer *w) {
     switch (w->kind) {
     case DP_MESH_FILE_PLY:
-    case DP_MESH_FILE_PLY_ASCII: return write_ply(w);
-    case DP_MESH_FILE_STL: return write_stl(w);
-    case DP_MESH_FILE_OBJ: return write_obj(w);
-    case DP_MESH_FILE_AUTO: break;
+    case DP_MESH_FILE_PLY_ASCII:
+        return write_ply(w);
+    case DP_MESH_FILE_STL:
+        return write_stl(w);
+    case DP_MESH_FILE_OBJ:
+        return write_obj(w);
+    case DP_MESH_FILE_AUTO:
+        break;
     }
     return dp_fail(w->diag, DP_ERR_ARGUMENT, "dp_io_write_mesh: unknown kind of file");
 }
@@ -341,8 +345,8 @@ dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *sourc
                 .progress = progress,
                 .user = user};
     if (w.kind == DP_MESH_FILE_AUTO)
-        return dp_fail(diag, DP_ERR_UNSUPPORTED,
-                       "%.120s: models are written as .ply, .stl or .obj", path);
+        return dp_fail(diag, DP_ERR_UNSUPPORTED, "%.120s: models are written as .ply, .stl or .obj",
+                       path);
     dp_result result = dp_output_open(&w.output, path, w.diag);
     if (result) return result;
     result = write_all(&w);
