@@ -61,8 +61,8 @@ phase() {
         cmake --build "build/$name" --parallel "$jobs" --target "$target"; } >"$log.build" 2>&1; then
         failed=$((failed + 1))
         printf 'does not build (%s)\n' "$log.build"
-        grep -E -A3 '(error|Error|warning):|undefined reference|^CMake Error' "$log.build" |
-            head -n 40 | sed 's/^/    /'
+        grep -E -A2 '(error|Error|warning):|undefined reference|^CMake Error' "$log.build" |
+            head -n 15 | sed 's/^/    /'
         return
     fi
     ctest --test-dir "build/$name" -V --no-tests=error --parallel "$jobs" "$@" >"$log" 2>&1
