@@ -154,9 +154,8 @@ static void shrink_all(dp_builder *b) {
 dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag) {
     if (!builder->polygon_count)
         return dp_fail(diag, DP_ERR_FORMAT,
-                       "no polygons, only %zu points: there is nothing to draw, export the model "
-                       "with its faces",
-                       builder->vertex_count);
+                       "%s: there is nothing to draw, export the model with its faces",
+                       builder->vertex_count ? "points but no polygons" : "no polygons");
     /* Polygons without any vertex are for the engine to drop, but a batch needs an array. */
     if (!builder->positions && !dp_builder_expect_vertices(builder, 1))
         return dp_builder_fail(builder, diag);

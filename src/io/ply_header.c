@@ -159,7 +159,8 @@ static dp_result check_header(header_reader *self) {
     return DP_OK;
 }
 
-/* One line behind the first word. *more: the header goes on. */
+/* One line behind the first word. *more: the header goes on. Other words are comments: Blender 2.4
+ * wrote some without saying so. */
 static dp_result read_line(header_reader *self, const char *word, bool *more) {
     dp_result result = DP_OK;
     if (strcmp(word, "format") == 0)
@@ -170,11 +171,6 @@ static dp_result read_line(header_reader *self, const char *word, bool *more) {
         result = read_property(self);
     else if (strcmp(word, "end_header") == 0)
         *more = false;
-    else if (*word && strcmp(word, "comment") != 0 && strcmp(word, "obj_info") != 0)
-        return dp_fail_line(self->diag, DP_ERR_FORMAT, self->stream->line,
-                            "`%s` is no word of a PLY header: mend the line, or export the model "
-                            "again",
-                            word);
     return result;
 }
 

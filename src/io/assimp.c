@@ -1,0 +1,196 @@
+/* dp_io_open: the library's own formats first, and what they do not know through Assimp.
+ *
+ * The scene's nodes are walked with their transforms, so that every instance of a mesh becomes
+ * vertices and polygons of its own in world space; where a transform mirrors, corners are turned
+ * round so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or
+ * triangulated, and everything but positions and faces is left out early.
+ *
+ * Does not handle: animation, bones and morph targets (models come in their bind pose), points,
+ * lines, reading from a pipe; progress is reported before and after, as Assimp cannot be stopped
+ * from C. */
+#include <drypoint/io.h>
+
+#include "base/diag.h"
+#include "io/builder.h"
+
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/matrix4x4.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <stdio.h>
+#include <string.h>
+
+enum { DEEPEST = 1000 /* nodes in nodes: more is a loop, or would end the stack */ };
+
+/* Rows of x, y, z, 1 to one coordinate. */
+typedef struct transform {
+    double row[3][4];
+} transform;
+
+static const transform identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+/* parent * local; a projective last row is ignored. */
+static transform compose(const transform *parent, const struct aiMatrix4x4 *m) {
+    const double local[3][4] = {
+        {m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}};
+    transform product;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++) {
+            double sum = c == 3 ? parent->row[r][3] : 0;
+            for (int k = 0; k < 3; k++) sum += parent->row[r][k] * local[k][c];
+            product.row[r][c] = sum;
+        }
+    return product;
+}
+
+static bool mirrors(const transform *t) {
+    const double(*const m)[4] = t->row;
+    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    return determinant < 0;
+}
+
+static bool add_vertices(dp_builder *builder, const struct aiMesh *mesh, const transform *t) {
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D p = mesh->mVertices[i];
+        float *const to = dp_builder_vertex(builder);
+        if (!to) return false;
+        for (int r = 0; r < 3; r++)
+            to[r] = (float)(t->row[r][0] * p.x + t->row[r][1] * p.y + t->row[r][2] * p.z +
+                            t->row[r][3]);
+    }
+    return true;
+}
+
+/* The face's vertices are [base, builder->vertex_count). */
+static bool add_face(dp_builder *builder, const struct aiFace *face, size_t base, bool turned,
+                     uint16_t group) {
+    const unsigned count = face->mNumIndices;
+    const size_t vertices = builder->vertex_count - base;
+    if (count < 3) return true; /* a point or a line */
+    for (unsigned c = 0; c < count; c++) {
+        const unsigned index = face->mIndices[turned ? count - 1 - c : c];
+        if (!dp_builder_corner(builder, index < vertices ? (int64_t)(base + index) : -1))
+            return false;
+    }
+    return dp_builder_close(builder, group);
+}
+
+static bool find_group(dp_builder *builder, const struct aiNode *node, const struct aiMesh *mesh,
+                       uint16_t *group) {
+    const char *const names[2] = {node->mName.data, mesh->mName.data};
+    const bool both = *names[0] && *names[1] && strcmp(names[0], names[1]) != 0;
+    char name[512];
+    if (both)
+        snprintf(name, sizeof name, "%.250s/%.250s", names[0], names[1]);
+    else
+        snprintf(name, sizeof name, "%.500s", *names[0] ? names[0] : names[1]);
+    return dp_groups_find(&builder->names, name, group);
+}
+
+static bool add_mesh(dp_builder *builder, const struct aiNode *node, const struct aiMesh *mesh,
+                     const transform *t) {
+    const unsigned areas = aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON;
+    if (mesh->mPrimitiveTypes && !(mesh->mPrimitiveTypes & areas)) return true;
+    const size_t base = builder->vertex_count;
+    const bool turned = mirrors(t);
+    uint16_t group;
+    if (!find_group(builder, node, mesh, &group) || !add_vertices(builder, mesh, t)) return false;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        if (!add_face(builder, &mesh->mFaces[i], base, turned, group)) return false;
+    return true;
+}
+
+static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
+                          const struct aiNode *node, const transform *parent, int depth,
+                          dp_diag *diag) {
+    if (!node) return DP_OK; /* Assimp's RAW reader leaves such children */
+    if (depth > DEEPEST)
+        return dp_fail(diag, DP_ERR_LIMIT, "nodes are nested more than %d deep: flatten the scene",
+                       (int)DEEPEST);
+    const transform t = compose(parent, &node->mTransformation);
+    for (unsigned i = 0; i < node->mNumMeshes; i++)
+        if (node->mMeshes[i] < scene->mNumMeshes && scene->mMeshes[node->mMeshes[i]] &&
+            !add_mesh(builder, node, scene->mMeshes[node->mMeshes[i]], &t))
+            return dp_builder_fail(builder, diag);
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        const dp_result result = add_node(builder, scene, node->mChildren[i], &t, depth + 1, diag);
+        if (result) return result;
+    }
+    return DP_OK;
+}
+
+/* Positions and faces only; FBX without the helper nodes that its pivots would become. */
+static const struct aiScene *import(const char *path) {
+    struct aiPropertyStore *const properties = aiCreatePropertyStore();
+    if (!properties) return NULL;
+    const int dropped = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                        aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
+                        aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
+                        aiComponent_CAMERAS;
+    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, dropped);
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
+    const struct aiScene *const scene =
+        aiImportFileExWithProperties(path, aiProcess_RemoveComponent, NULL, properties);
+    aiReleasePropertyStore(properties);
+    return scene;
+}
+
+/* Assimp's words on one line, up to where they name the file, which is the caller's to name. */
+static void copy_error(const char *text, const char *path, char *line, size_t size) {
+    const char *const named = *path ? strstr(text, path) : NULL;
+    size_t length = named ? (size_t)(named - text) : strlen(text);
+    if (length > size - 1) length = size - 1;
+    for (size_t i = 0; i < length; i++) line[i] = (unsigned char)text[i] < ' ' ? ' ' : text[i];
+    while (length && (line[length - 1] == ' ' || line[length - 1] == '"')) length--;
+    line[length] = 0;
+}
+
+/* Every reader is tried on a file whose ending none claims; the last one's complaint says nothing
+ * then, and `first` (what dp_source_open found) says more. */
+static dp_result import_failed(const char *path, const dp_diag *first, dp_diag *diag) {
+    const char *const dot = strrchr(path, '.');
+    if (!dot || !aiIsExtensionSupported(dot)) {
+        if (diag) *diag = *first;
+        return first->result;
+    }
+    char line[160];
+    copy_error(aiGetErrorString(), path, line, sizeof line);
+    return dp_fail(diag, DP_ERR_FORMAT, "Assimp cannot read it: %s", line);
+}
+
+static bool stopped(const dp_file_options *options, double fraction) {
+    return options && options->progress && options->progress(options->user, fraction);
+}
+
+static dp_result build(const struct aiScene *scene, const dp_file_options *options, dp_source **out,
+                       dp_diag *diag) {
+    const dp_allocator memory = dp_allocator_resolve(options ? options->allocator : NULL);
+    dp_builder builder;
+    dp_builder_init(&builder, &memory);
+    dp_result result = DP_OK;
+    if (scene->mRootNode) result = add_node(&builder, scene, scene->mRootNode, &identity, 0, diag);
+    if (!result && stopped(options, 1))
+        result = dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
+    if (!result) result = dp_builder_finish(&builder, out, diag);
+    dp_builder_destroy(&builder);
+    return result;
+}
+
+dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
+                     dp_diag *diag) {
+    dp_diag first = {0};
+    const dp_result result = dp_source_open(path, options, out, &first);
+    if (diag && result) *diag = first;
+    const bool named = options && options->format != DP_FORMAT_AUTO;
+    if (result != DP_ERR_UNSUPPORTED || named || strcmp(path, "-") == 0) return result;
+    if (stopped(options, -1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
+    const struct aiScene *const scene = import(path);
+    if (!scene) return import_failed(path, &first, diag);
+    const dp_result built = build(scene, options, out, diag);
+    aiReleaseImport(scene);
+    return built;
+}

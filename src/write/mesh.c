@@ -1,0 +1,352 @@
+/* Writes a polygon source as PLY, STL or OBJ, batch by batch.
+ *
+ * The files differ in what they must know beforehand: OBJ nothing, binary STL the number of triangles,
+ * PLY that of vertices and polygons, and all vertices before all polygons. So a PLY takes three
+ * readings of the source, an STL two, an OBJ one. An STL from a source that can be read only once gets
+ * its count at the end, where the file allows that.
+ *
+ * Invariant: every format holds the same polygons: those with three corners or more whose vertices
+ * exist and are finite; a vertex that is not finite is written as 0 0 0, so that numbers stay right.
+ * Text holds nine digits, which give back the same float.
+ *
+ * Not here: normals, colours, groups, edge flags; welding beyond what the source indexes. STL knows
+ * only triangles: larger polygons are cut into fans, which is right for convex ones. */
+#include <drypoint/io.h>
+
+#include "base/diag.h"
+#include "write/file.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+typedef struct writer {
+    dp_mesh_file kind;
+    dp_source *source;
+    dp_output output;
+    dp_diag *diag;
+    int (*progress)(void *user, double fraction);
+    void *user;
+    uint64_t vertices, polygons, triangles; /* of the whole source, once counted */
+    uint32_t most_corners;                  /* of one polygon */
+    uint64_t done;                          /* polygons handled so far, over all readings */
+    int readings;
+} writer;
+
+/* What a reading does with a batch; `base` is the number of its first vertex. */
+typedef dp_result batch_function(writer *w, const dp_batch *batch, uint64_t base);
+
+/* ---- batches ---- */
+
+static const float *position(const dp_batch *batch, size_t v) {
+    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+}
+
+static uint32_t index_of(const dp_batch *batch, size_t corner) {
+    return batch->indices ? batch->indices[corner] : (uint32_t)corner;
+}
+
+static size_t first_of(const dp_batch *batch, size_t polygon) {
+    return batch->firsts ? batch->firsts[polygon] : 3 * polygon;
+}
+
+static bool finite(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
+
+static bool usable(const dp_batch *batch, size_t first, size_t last) {
+    if (last - first < 3) return false;
+    for (size_t c = first; c < last; c++) {
+        const uint32_t v = index_of(batch, c);
+        if (v >= batch->vertex_count || !finite(position(batch, v))) return false;
+    }
+    return true;
+}
+
+static dp_result put(writer *w, const void *bytes, size_t size) {
+    return dp_output_write(&w->output, bytes, size, w->diag);
+}
+
+static dp_result put_text(writer *w, const char *text, int length) {
+    return put(w, text, (size_t)length);
+}
+
+/* Calls `each` on every batch, from the source's start. */
+static dp_result read_source(writer *w, batch_function *each) {
+    uint64_t base = 0;
+    dp_result result = dp_source_rewindable(w->source) ? dp_source_rewind(w->source, w->diag) : DP_OK;
+    while (!result) {
+        dp_batch batch;
+        result = dp_source_next(w->source, &batch, w->diag);
+        if (result || !batch.polygon_count) break;
+        result = each(w, &batch, base);
+        base += batch.vertex_count;
+        w->done += batch.polygon_count;
+        const double all = (double)w->readings * (double)w->polygons;
+        if (!result && w->progress && w->progress(w->user, all > 0 ? (double)w->done / all : -1))
+            result = dp_fail(w->diag, DP_ERR_CANCELLED, "writing was stopped");
+    }
+    return result;
+}
+
+static dp_result count_batch(writer *w, const dp_batch *batch, uint64_t base) {
+    for (size_t i = 0; i < batch->polygon_count; i++) {
+        const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
+        if (!usable(batch, first, last)) continue;
+        w->polygons++;
+        w->triangles += last - first - 2;
+        if (last - first > w->most_corners) w->most_corners = (uint32_t)(last - first);
+    }
+    w->vertices = base + batch->vertex_count;
+    return DP_OK;
+}
+
+static dp_result count(writer *w) {
+    const dp_result result = read_source(w, count_batch);
+    w->done = 0;
+    return result;
+}
+
+/* ---- PLY ---- */
+
+enum { MOST_IN_BYTE = 255 };
+
+/* Little endian, whatever the machine. */
+static void put_u32(uint8_t *to, uint32_t value) {
+    for (int k = 0; k < 4; k++) to[k] = (uint8_t)(value >> 8 * k);
+}
+
+static void put_f32(uint8_t *to, float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    put_u32(to, bits);
+}
+
+static dp_result ply_header(writer *w) {
+    char text[400];
+    const int n = snprintf(text, sizeof text,
+                           "ply\nformat %s 1.0\ncomment written by Drypoint %s\n"
+                           "element vertex %llu\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face %llu\n"
+                           "property list %s %s vertex_indices\nend_header\n",
+                           w->kind == DP_MESH_FILE_PLY ? "binary_little_endian" : "ascii",
+                           dp_version(), (unsigned long long)w->vertices,
+                           (unsigned long long)w->polygons,
+                           w->most_corners > MOST_IN_BYTE ? "uint" : "uchar",
+                           w->vertices > INT32_MAX ? "uint" : "int");
+    return put_text(w, text, n);
+}
+
+static dp_result text_vertex(writer *w, const char *prefix, const float p[3]) {
+    char text[80];
+    return put_text(w, text,
+                    snprintf(text, sizeof text, "%s%.9g %.9g %.9g\n", prefix, p[0], p[1], p[2]));
+}
+
+static const float *shown(const dp_batch *batch, size_t v) {
+    static const float origin[3] = {0};
+    const float *const p = position(batch, v);
+    return finite(p) ? p : origin;
+}
+
+static dp_result ply_vertices(writer *w, const dp_batch *batch, uint64_t base) {
+    dp_result result = DP_OK;
+    (void)base;
+    for (size_t v = 0; v < batch->vertex_count && !result; v++) {
+        const float *const p = shown(batch, v);
+        uint8_t bytes[12];
+        for (int k = 0; k < 3; k++) put_f32(bytes + 4 * k, p[k]);
+        result = w->kind == DP_MESH_FILE_PLY ? put(w, bytes, sizeof bytes) : text_vertex(w, "", p);
+    }
+    return result;
+}
+
+static dp_result ply_polygon(writer *w, const dp_batch *batch, uint64_t base, size_t first,
+                             size_t last) {
+    uint8_t bytes[4];
+    put_u32(bytes, (uint32_t)(last - first));
+    dp_result result = put(w, bytes, w->most_corners > MOST_IN_BYTE ? 4 : 1);
+    for (size_t c = first; c < last && !result; c++) {
+        put_u32(bytes, (uint32_t)(base + index_of(batch, c)));
+        result = put(w, bytes, sizeof bytes);
+    }
+    return result;
+}
+
+/* "prefix v v v\n"; with numbers from `origin` on. */
+static dp_result text_polygon(writer *w, const dp_batch *batch, uint64_t origin, size_t first,
+                              size_t last, const char *prefix) {
+    char text[32];
+    dp_result result = put(w, prefix, strlen(prefix));
+    for (size_t c = first; c < last && !result; c++)
+        result = put_text(w, text,
+                          snprintf(text, sizeof text, " %llu",
+                                   (unsigned long long)(origin + index_of(batch, c))));
+    return result ? result : put(w, "\n", 1);
+}
+
+static dp_result ply_polygons(writer *w, const dp_batch *batch, uint64_t base) {
+    dp_result result = DP_OK;
+    for (size_t i = 0; i < batch->polygon_count && !result; i++) {
+        const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
+        char corners[16];
+        if (!usable(batch, first, last)) continue;
+        snprintf(corners, sizeof corners, "%zu", last - first);
+        result = w->kind == DP_MESH_FILE_PLY ? ply_polygon(w, batch, base, first, last)
+                                             : text_polygon(w, batch, base, first, last, corners);
+    }
+    return result;
+}
+
+static dp_result write_ply(writer *w) {
+    if (!dp_source_rewindable(w->source))
+        return dp_fail(w->diag, DP_ERR_UNSUPPORTED,
+                       "a PLY needs its counts first, and this source can be read only once; "
+                       "write an OBJ");
+    w->readings = 2;
+    dp_result result = count(w);
+    if (!result && w->vertices > UINT32_MAX)
+        result = dp_fail(w->diag, DP_ERR_LIMIT,
+                         "a PLY numbers at most %u vertices, not %llu; write an STL", UINT32_MAX,
+                         (unsigned long long)w->vertices);
+    if (!result) result = ply_header(w);
+    if (!result) result = read_source(w, ply_vertices);
+    return result ? result : read_source(w, ply_polygons);
+}
+
+/* ---- STL ---- */
+
+/* The unit normal; 0 where there is no area. */
+static void normal_of(const float a[3], const float b[3], const float c[3], float normal[3]) {
+    double u[3], v[3], n[3];
+    for (int k = 0; k < 3; k++) u[k] = (double)b[k] - a[k], v[k] = (double)c[k] - a[k];
+    for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; k++) normal[k] = length > 0 ? (float)(n[k] / length) : 0;
+}
+
+static dp_result stl_triangle(writer *w, const float *const corner[3]) {
+    uint8_t bytes[50] = {0};
+    float normal[3];
+    normal_of(corner[0], corner[1], corner[2], normal);
+    for (int k = 0; k < 3; k++) put_f32(bytes + 4 * k, normal[k]);
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++) put_f32(bytes + 12 + 12 * c + 4 * k, corner[c][k]);
+    return put(w, bytes, sizeof bytes);
+}
+
+static dp_result stl_triangles(writer *w, const dp_batch *batch, uint64_t base) {
+    dp_result result = DP_OK;
+    (void)base;
+    for (size_t i = 0; i < batch->polygon_count && !result; i++) {
+        const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
+        if (!usable(batch, first, last)) continue;
+        for (size_t c = first + 1; c + 1 < last && !result; c++)
+            result = stl_triangle(w, (const float *[3]){position(batch, index_of(batch, first)),
+                                                        position(batch, index_of(batch, c)),
+                                                        position(batch, index_of(batch, c + 1))});
+    }
+    return result;
+}
+
+static dp_result stl_header(writer *w, uint64_t triangles) {
+    uint8_t header[84] = {0};
+    if (triangles > UINT32_MAX)
+        return dp_fail(w->diag, DP_ERR_LIMIT, "an STL counts at most %u triangles, not %llu",
+                       UINT32_MAX, (unsigned long long)triangles);
+    snprintf((char *)header, 80, "binary STL written by Drypoint %s", dp_version());
+    put_u32(header + 80, (uint32_t)triangles);
+    return put(w, header, sizeof header);
+}
+
+static dp_result count_and_write(writer *w, const dp_batch *batch, uint64_t base) {
+    const dp_result result = count_batch(w, batch, base);
+    return result ? result : stl_triangles(w, batch, base);
+}
+
+/* One reading: the count goes into the header afterwards. */
+static dp_result write_stl_once(writer *w) {
+    if (fseek(w->output.file, 0, SEEK_SET))
+        return dp_fail(w->diag, DP_ERR_UNSUPPORTED,
+                       "an STL needs its count first, and this source can be read only once; "
+                       "write to a file, or an OBJ");
+    dp_result result = stl_header(w, 0);
+    if (!result) result = read_source(w, count_and_write);
+    if (!result && fseek(w->output.file, 0, SEEK_SET))
+        result = dp_fail(w->diag, DP_ERR_IO, "the STL's header cannot be filled in");
+    return result ? result : stl_header(w, w->triangles);
+}
+
+static dp_result write_stl(writer *w) {
+    if (!dp_source_rewindable(w->source)) return write_stl_once(w);
+    w->readings = 1;
+    dp_result result = count(w);
+    if (!result) result = stl_header(w, w->triangles);
+    return result ? result : read_source(w, stl_triangles);
+}
+
+/* ---- OBJ ---- */
+
+static dp_result obj_batch(writer *w, const dp_batch *batch, uint64_t base) {
+    dp_result result = DP_OK;
+    for (size_t v = 0; v < batch->vertex_count && !result; v++)
+        result = text_vertex(w, "v ", shown(batch, v));
+    for (size_t i = 0; i < batch->polygon_count && !result; i++) {
+        const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
+        if (usable(batch, first, last))
+            result = text_polygon(w, batch, base + 1, first, last, "f");
+    }
+    return result;
+}
+
+static dp_result write_obj(writer *w) {
+    char text[80];
+    w->readings = 1;
+    dp_result result = DP_OK;
+    if (w->progress && dp_source_rewindable(w->source)) result = count(w); /* for the progress */
+    if (!result)
+        result = put_text(w, text, snprintf(text, sizeof text, "# written by Drypoint %s\n",
+                                            dp_version()));
+    return result ? result : read_source(w, obj_batch);
+}
+
+/* ---- any ---- */
+
+static dp_mesh_file kind_by_name(const char *path) {
+    const size_t n = strlen(path);
+    if (n >= 4 && !strcasecmp(path + n - 4, ".stl")) return DP_MESH_FILE_STL;
+    if (n >= 4 && !strcasecmp(path + n - 4, ".obj")) return DP_MESH_FILE_OBJ;
+    if (n >= 4 && !strcasecmp(path + n - 4, ".ply")) return DP_MESH_FILE_PLY;
+    return DP_MESH_FILE_AUTO;
+}
+
+static dp_result write_all(writer *w) {
+    switch (w->kind) {
+    case DP_MESH_FILE_PLY:
+    case DP_MESH_FILE_PLY_ASCII: return write_ply(w);
+    case DP_MESH_FILE_STL: return write_stl(w);
+    case DP_MESH_FILE_OBJ: return write_obj(w);
+    case DP_MESH_FILE_AUTO: break;
+    }
+    return dp_fail(w->diag, DP_ERR_ARGUMENT, "dp_io_write_mesh: unknown kind of file");
+}
+
+dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *source,
+                           int (*progress)(void *user, double fraction), void *user,
+                           dp_diag *diag) {
+    dp_diag unused;
+    if (!path || !source)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_write_mesh: path or source is NULL");
+    writer w = {.kind = kind ? kind : kind_by_name(path),
+                .source = source,
+                .diag = diag ? diag : &unused,
+                .progress = progress,
+                .user = user};
+    if (w.kind == DP_MESH_FILE_AUTO)
+        return dp_fail(diag, DP_ERR_UNSUPPORTED,
+                       "%.120s: models are written as .ply, .stl or .obj", path);
+    dp_result result = dp_output_open(&w.output, path, w.diag);
+    if (result) return result;
+    result = write_all(&w);
+    if (!result) return dp_output_commit(&w.output, w.diag);
+    dp_output_abandon(&w.output);
+    return result;
+}

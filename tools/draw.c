@@ -1,0 +1,96 @@
+/* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before the drawing is done. */
+#include "commands.h"
+#include "progress.h"
+#include "report.h"
+
+#include <drypoint/io.h>
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+/* A picture is a PNG: any other ending is a slip. Devices and pipes have no ending. */
+static bool check_output(const char *path) {
+    struct stat status;
+    const char *const slash = strrchr(path, '/');
+    const char *const dot = strrchr(slash ? slash : path, '.');
+    if (!strcmp(path, "-") || (dot && !strcasecmp(dot, ".png"))) return true;
+    if (!stat(path, &status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return true;
+    return wrong_usage("-o %s: pictures are written as PNG; name it %.*s.png", path,
+                       dot ? (int)(dot - path) : (int)strlen(path), path);
+}
+
+typedef struct drawing {
+    dp_source *source;
+    dp_context *context;
+    dp_target target;
+    dp_stats stats;
+} drawing;
+
+/* Draws into a picture of its own, which the caller frees. */
+static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
+    dp_camera camera;
+    const int wrong = make_camera(s, extent, &camera);
+    if (wrong) return wrong;
+    const dp_context_desc desc = {.threads = s->threads, .progress = progress_report};
+    const dp_style style = make_style(s);
+    dp_diag diag = {0};
+    d->target = make_target(s);
+    d->target.rgba = malloc((size_t)4 * d->target.width * d->target.height);
+    if (!d->target.rgba) {
+        wrong_usage("out of memory for %u x %u pixels; give a smaller --size", d->target.width,
+                    d->target.height);
+        return EXIT_FAILED;
+    }
+    if (dp_context_create(&desc, &d->context, &diag)) return report_failure(NULL, &diag);
+    progress_begin("drawing", s->quiet);
+    const dp_result result =
+        dp_draw(d->context, d->source, &camera, &style, &d->target, &diag);
+    progress_end();
+    if (result == DP_ERR_ARGUMENT) return report_failure(NULL, &diag);
+    if (result) return report_failure(s->model, &diag);
+    dp_stats_of(d->context, &d->stats);
+    return 0;
+}
+
+static int write_picture(const tool_settings *s, const drawing *d) {
+    const dp_io_picture picture = {.rgba = d->target.rgba,
+                                   .width = d->target.width,
+                                   .height = d->target.height,
+                                   .progress = progress_report};
+    dp_diag diag = {0};
+    progress_begin("writing", s->quiet);
+    interrupt_hold();
+    const dp_result result = dp_io_write_picture(s->output, &picture, &diag);
+    interrupt_release();
+    progress_end();
+    return result ? report_failure(NULL, &diag) : 0;
+}
+
+static void print_stats(const tool_settings *s, const drawing *d) {
+    if (!s->quiet) warn_dropped(&d->stats);
+    if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
+    if (s->stats == STATS_JSON)
+        print_stats_json(strcmp(s->output, "-") ? stdout : stderr, &d->stats, &d->target);
+}
+
+static int run(const tool_settings *s, drawing *d) {
+    dp_extent extent;
+    int code = open_model(s, &d->source);
+    if (!code) code = measure_model(s, d->source, &extent);
+    if (!code) code = draw(s, d, &extent);
+    if (!code) code = write_picture(s, d);
+    if (!code) print_stats(s, d);
+    return code;
+}
+
+int command_draw(const tool_settings *s) {
+    if (!check_output(s->output)) return EXIT_USAGE;
+    drawing d = {0};
+    const int code = run(s, &d);
+    dp_context_destroy(d.context);
+    dp_source_destroy(d.source);
+    free(d.target.rgba);
+    return code;
+}

@@ -1,0 +1,176 @@
+/* Counts a model's open edges with a hash table over the positions of their ends, so that models
+ * without shared vertices (STL) count right too. The table grows with the model: this is a tool for
+ * looking at files, the drawing itself needs nothing like it.
+ *
+ * Invariant: a slot is free while its count is 0; the table is never more than half full. An edge is
+ * known by a 64-bit fingerprint of both ends' bits: at a hundred million edges the odds that two
+ * fall together are about one in four thousand, and the price one wrong count. */
+#include "edges.h"
+
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct slot {
+    uint64_t key;
+    uint32_t count;
+} slot;
+
+typedef struct table {
+    slot *slots;
+    size_t size, used; /* size: a power of two */
+} table;
+
+static uint64_t mix(uint64_t x) {
+    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
+    return x ^ x >> 31;
+}
+
+static uint64_t position_hash(const float p[3]) {
+    uint64_t hash = 0x9E3779B97F4A7C15u;
+    for (int k = 0; k < 3; k++) {
+        const float value = p[k] + 0.0F; /* minus zero is zero */
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        hash = mix(hash + bits);
+    }
+    return hash;
+}
+
+static uint64_t edge_key(const float a[3], const float b[3]) {
+    const uint64_t x = position_hash(a), y = position_hash(b);
+    return mix(x < y ? x * 3 + y : y * 3 + x); /* the same both ways round */
+}
+
+static slot *find(const table *t, uint64_t key) {
+    size_t at = (size_t)key & (t->size - 1);
+    while (t->slots[at].count && t->slots[at].key != key) at = (at + 1) & (t->size - 1);
+    return &t->slots[at];
+}
+
+static bool grow(table *t) {
+    table larger = {.size = t->size ? 2 * t->size : 1 << 16, .used = t->used};
+    larger.slots = calloc(larger.size, sizeof *larger.slots);
+    if (!larger.slots) return false;
+    for (size_t k = 0; k < t->size; k++)
+        if (t->slots[k].count) *find(&larger, t->slots[k].key) = t->slots[k];
+    free(t->slots);
+    *t = larger;
+    return true;
+}
+
+static bool add_edge(table *t, const float a[3], const float b[3]) {
+    if (2 * t->used >= t->size && !grow(t)) return false;
+    slot *const s = find(t, edge_key(a, b));
+    if (!s->count) t->used++;
+    s->key = edge_key(a, b);
+    if (s->count < UINT32_MAX) s->count++;
+    return true;
+}
+
+/* ---- polygons ---- */
+
+static const float *corner(const dp_batch *batch, size_t c) {
+    const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
+    if (v >= batch->vertex_count) return NULL;
+    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+}
+
+/* Twice the area, by Newell's sum about the first corner. */
+static double area2(const dp_batch *batch, size_t first, size_t last) {
+    double sum[3] = {0};
+    const float *const o = corner(batch, first);
+    for (size_t c = first + 1; c + 1 < last; c++) {
+        const float *const p = corner(batch, c), *const q = corner(batch, c + 1);
+        double u[3], v[3];
+        for (int k = 0; k < 3; k++) u[k] = (double)p[k] - o[k], v[k] = (double)q[k] - o[k];
+        for (int k = 0; k < 3; k++)
+            sum[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+    return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+}
+
+/* True: it can be drawn. Else its cause is counted. */
+static bool sound(const dp_batch *batch, size_t first, size_t last, edge_counts *counts) {
+    if (last - first < 3) {
+        counts->corners++;
+        return false;
+    }
+    for (size_t c = first; c < last; c++)
+        if (!corner(batch, c)) {
+            counts->index++;
+            return false;
+        }
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        if (isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2])) continue;
+        counts->finite++;
+        return false;
+    }
+    if (area2(batch, first, last) > 0) return true;
+    counts->area++;
+    return false;
+}
+
+static bool add_polygon(table *t, const dp_batch *batch, size_t first, size_t last,
+                        dp_extent *extent) {
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        const float *const q = corner(batch, c + 1 < last ? c + 1 : first);
+        for (int k = 0; k < 3; k++) {
+            extent->min[k] = fminf(extent->min[k], p[k]);
+            extent->max[k] = fmaxf(extent->max[k], p[k]);
+        }
+        if (memcmp(p, q, 3 * sizeof *p) && !add_edge(t, p, q)) return false;
+    }
+    return true;
+}
+
+static bool add_batch(table *t, const dp_batch *batch, dp_extent *extent, edge_counts *counts) {
+    for (size_t i = 0; i < batch->polygon_count; i++) {
+        const size_t first = batch->firsts ? batch->firsts[i] : 3 * i;
+        const size_t last = batch->firsts ? batch->firsts[i + 1] : 3 * i + 3;
+        extent->corners += last - first;
+        if (sound(batch, first, last, counts) && !add_polygon(t, batch, first, last, extent))
+            return false;
+    }
+    extent->polygons += batch->polygon_count;
+    extent->vertices += batch->vertex_count;
+    return true;
+}
+
+static dp_result add_source(table *t, dp_source *source, dp_extent *extent, edge_counts *counts,
+                            dp_diag *diag) {
+    for (;;) {
+        dp_batch batch;
+        const dp_result result = dp_source_next(source, &batch, diag);
+        if (result || !batch.polygon_count) return result;
+        progress_report(NULL, -1);
+        if (!add_batch(t, &batch, extent, counts)) {
+            *diag = (dp_diag){.result = DP_ERR_MEMORY};
+            snprintf(diag->message, sizeof diag->message,
+                     "out of memory for a table of its edges; draw it all the same");
+            return DP_ERR_MEMORY;
+        }
+    }
+}
+
+dp_result count_edges(dp_source *source, dp_extent *extent, edge_counts *counts, dp_diag *diag) {
+    table t = {0};
+    *counts = (edge_counts){0};
+    *extent = (dp_extent){.min = {INFINITY, INFINITY, INFINITY},
+                          .max = {-INFINITY, -INFINITY, -INFINITY}};
+    const dp_result result = add_source(&t, source, extent, counts, diag);
+    if (extent->min[0] > extent->max[0])
+        memset(extent->min, 0, sizeof extent->min), memset(extent->max, 0, sizeof extent->max);
+    for (size_t k = 0; k < t.size; k++) {
+        counts->open += t.slots[k].count == 1;
+        counts->crowded += t.slots[k].count > 2;
+    }
+    free(t.slots);
+    return result;
+}

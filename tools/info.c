@@ -1,0 +1,94 @@
+/* drypoint info MODEL: what is in it, and what would become of it when drawn. */
+#include "commands.h"
+#include "edges.h"
+#include "progress.h"
+#include "report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Strings in JSON: names of files may hold anything. */
+static void json_string(FILE *out, const char *text) {
+    fputc('"', out);
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\') fprintf(out, "\\%c", c);
+        else if (c < ' ') fprintf(out, "\\u%04x", c);
+        else fputc(c, out);
+    }
+    fputc('"', out);
+}
+
+typedef struct line {
+    const char *key, *text;
+    uint64_t value;
+} line;
+
+enum { LINES = 10 };
+
+static void fill_lines(const dp_extent *e, const edge_counts *edges, line lines[LINES]) {
+    const uint64_t dropped =
+        edges->index + edges->finite + edges->area + edges->corners;
+    const line filled[LINES] = {
+        {"polygons", "polygons", e->polygons},
+        {"corners", "corners", e->corners},
+        {"vertices", "vertices", e->vertices},
+        {"open_edges", "open edges met", edges->open},
+        {"manifold_breaks", "edges of more than two polygons", edges->crowded},
+        {"dropped", "would be dropped", dropped},
+        {"dropped_index", "  index out of range", edges->index},
+        {"dropped_finite", "  coordinate not finite", edges->finite},
+        {"dropped_area", "  no area", edges->area},
+        {"dropped_corners", "  fewer than three corners", edges->corners},
+    };
+    memcpy(lines, filled, sizeof filled);
+}
+
+static void print_table(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
+    printf("%-32s %s\n", "model", s->model);
+    for (int k = 0; k < LINES; k++)
+        printf("%-32s %llu\n", lines[k].text, (unsigned long long)lines[k].value);
+    printf("%-32s %.9g %.9g %.9g\n", "bounds from", e->min[0], e->min[1], e->min[2]);
+    printf("%-32s %.9g %.9g %.9g\n", "bounds to", e->max[0], e->max[1], e->max[2]);
+    printf("%-32s %.9g x %.9g x %.9g\n", "size", (double)e->max[0] - e->min[0],
+           (double)e->max[1] - e->min[1], (double)e->max[2] - e->min[2]);
+}
+
+static void print_json(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
+    printf("{\"model\": ");
+    json_string(stdout, s->model);
+    for (int k = 0; k < LINES; k++)
+        printf(", \"%s\": %llu", lines[k].key, (unsigned long long)lines[k].value);
+    printf(", \"min\": [%.9g, %.9g, %.9g]", e->min[0], e->min[1], e->min[2]);
+    printf(", \"max\": [%.9g, %.9g, %.9g]}\n", e->max[0], e->max[1], e->max[2]);
+}
+
+static int inspect(const tool_settings *s, dp_source *source) {
+    dp_extent extent;
+    edge_counts edges;
+    dp_diag diag = {0};
+    progress_begin("counting edges", s->quiet);
+    const dp_result result = count_edges(source, &extent, &edges, &diag);
+    progress_end();
+    if (result) {
+        report_failure(s->model, &diag);
+        return EXIT_FAILED;
+    }
+    if (!extent.polygons) {
+        wrong_usage("%s: there are no polygons in it; give a model with faces", s->model);
+        return EXIT_FAILED;
+    }
+    line lines[LINES];
+    fill_lines(&extent, &edges, lines);
+    if (s->json) print_json(s, &extent, lines);
+    else print_table(s, &extent, lines);
+    return 0;
+}
+
+int command_info(const tool_settings *s) {
+    dp_source *source = NULL;
+    int code = open_model(s, &source);
+    if (!code) code = inspect(s, source);
+    dp_source_destroy(source);
+    return code;
+}

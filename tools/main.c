@@ -1,0 +1,31 @@
+/* The program: parses the command line and hands over to a command. */
+#include "commands.h"
+#include "progress.h"
+#include "report.h"
+
+#include <errno.h>
+#include <string.h>
+
+static void answer(const tool_settings *s) {
+    if (s->question == QUESTION_HELP) options_help(stdout, s->command);
+    if (s->question == QUESTION_MAN) options_man(stdout);
+    if (s->question == QUESTION_VERSION) printf("drypoint %s\n", dp_version());
+}
+
+int main(int argc, char **argv) {
+    static int (*const commands[COMMAND_COUNT])(const tool_settings *) = {
+        [COMMAND_DRAW] = command_draw,
+        [COMMAND_INFO] = command_info,
+        [COMMAND_MAKE] = command_make,
+        [COMMAND_BENCH] = command_bench,
+    };
+    tool_settings settings;
+    if (!options_parse(argc, argv, &settings)) return EXIT_USAGE;
+    interrupt_install();
+    int code = 0;
+    if (settings.question) answer(&settings);
+    else code = commands[settings.command](&settings);
+    if (!fflush(stdout) && !ferror(stdout)) return code;
+    wrong_usage("cannot write standard output: %s", strerror(errno));
+    return code ? code : EXIT_FAILED;
+}

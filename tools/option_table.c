@@ -1,0 +1,136 @@
+/* The tables: options, commands, groups. Whoever adds an option adds it here and to `settings`. */
+#include "options.h"
+
+#include <stddef.h>
+
+#define DRAW (1u << COMMAND_DRAW)
+#define INFO (1u << COMMAND_INFO)
+#define MAKE (1u << COMMAND_MAKE)
+#define BENCH (1u << COMMAND_BENCH)
+#define PICTURE (DRAW | BENCH)
+#define EVERY (DRAW | INFO | MAKE | BENCH)
+#define AT(member) offsetof(tool_settings, member)
+
+const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "How lines are found",
+                                              "Model",   "Program", NULL};
+
+/* clang-format off */
+const option option_table[] = {
+    {"output", 'o', "FILE", OPTION_TEXT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
+     "Where the result goes: FILE.png for a drawing; FILE.ply, .stl or .obj for a model. An old file "
+     "stays until the new one is whole. - is standard output (a PNG, or a PLY)."},
+    {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,
+     "Width and height of the picture in pixels. Default: 1600x1200."},
+    {"samples", 0, "1|4|8|16", OPTION_WORD, GROUP_PICTURE, PICTURE, AT(samples), 0, 0, 0,
+     "Samples per pixel. Default: 4."},
+    {"paper", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
+     "Colour of the background; none is transparent. Default: white."},
+    {"surface", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.surface), 0, 0, 0,
+     "Colour of the model's faces; none lets the paper show through, but still hides lines. "
+     "Default: white."},
+
+    {"eye", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(eye), AT(has_eye), 0, 0,
+     "Where the eye is. With --target as well nothing is fitted to the model; alone, the eye looks at "
+     "the model's centre."},
+    {"target", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(target), AT(has_target), 0, 0,
+     "The point the eye looks at; alone, the eye moves back until the model is seen whole."},
+    {"up", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(up), AT(has_up), 0, 0,
+     "What is up in the picture. Default: 0,1,0."},
+    {"fov", 0, "DEG", OPTION_INSIDE, GROUP_CAMERA, PICTURE, AT(fov), AT(has_fov), 0, 180,
+     "Vertical field of view. Default: 35."},
+    {"ortho", 0, "HEIGHT", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(ortho), AT(has_ortho), 0, 1e30,
+     "Orthographic projection; HEIGHT is what is seen, in the model's units, 0 is fitted."},
+    {"view", 0, "front|back|left|right|top|bottom|iso", OPTION_WORD, GROUP_CAMERA, PICTURE, AT(view), 0, 0, 0,
+     "Look from this side (front is +z, right +x, top +y). Default: a three-quarter view from "
+     "direction 1,0.6,1."},
+    {"azimuth", 0, "DEG", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(azimuth), AT(has_azimuth), -1e6, 1e6,
+     "Walk round the model: 0 is the front, 90 the right side. Default: 45, or the view's."},
+    {"elevation", 0, "DEG", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(elevation), AT(has_elevation), -90, 90,
+     "Look from above (90) or below (-90). Default: 23, or the view's."},
+    {"zoom", 0, "F", OPTION_INSIDE, GROUP_CAMERA, PICTURE, AT(zoom), 0, 0, 1e6,
+     "2 shows everything twice as large. Default: 1."},
+
+    {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
+     "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
+    {"width", 0, "PX or CLASS=PX,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(style), 0, 0.5, 64,
+     "Whole width of the lines in pixels, of all classes or of each. Default: 2."},
+    {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...", OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
+     "Colour of the lines, of all classes or of each. Default: black."},
+    {"ridge-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(ridge_angle), 0, 0, 360,
+     "Edges whose dihedral angle is at most this are ridges; 180 is flat. Default: 150."},
+    {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
+     "Edges whose dihedral angle is above this are valleys. Default: 210."},
+
+    {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
+     "Build added polygons on the screen, exact in pixels, or by the formulas of Raskar 2001 as "
+     "printed. Default: exact."},
+    {"between", 0, "plane|interval|stencil", OPTION_WORD, GROUP_METHOD, PICTURE, AT(between), 0, 0, 0,
+     "How valleys and intersections are told from what is hidden: by planes, by the paper's two "
+     "depth buffers, or by its appendix's stencil. Default: plane."},
+    {"ink", 0, "strokes|quads", OPTION_WORD, GROUP_METHOD, PICTURE, AT(ink), 0, 0, 0,
+     "Draw the visible pieces of lines as strokes, or let the added polygons be the line, as in the "
+     "paper. Default: strokes."},
+    {"passes", 0, "1|2", OPTION_WORD, GROUP_METHOD, PICTURE, AT(passes), 0, 0, 0,
+     "Passes over the polygons of a tile. Default: what --between needs."},
+    {"edge-table", 0, "on|off", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edge_table), 0, 0, 0,
+     "Resolve edges by a small table per tile where that is possible, or let every line emerge from "
+     "the depth test. Default: on."},
+    {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
+     "Do not paint back faces: faster for closed models, holes in open ones."},
+
+    {"triangles", 0, "N", OPTION_COUNT64, GROUP_MODEL, MAKE, AT(triangles), 0, 1, 1e11,
+     "About how many triangles. Default: the shape's own number."},
+    {"size", 0, "S", OPTION_INSIDE, GROUP_MODEL, MAKE, AT(shape_size), 0, 0, 1e30,
+     "Largest side of the model's box. Default: 2."},
+    {"seed", 0, "N", OPTION_COUNT, GROUP_MODEL, MAKE, AT(seed), 0, 0, 4294967295.0,
+     "Another number makes another terrain. Default: 0."},
+
+    {"frames", 0, "N", OPTION_COUNT, GROUP_PROGRAM, BENCH, AT(frames), 0, 1, 1000000,
+     "Frames to time, after one that is not counted. Default: 10."},
+    {"threads", 0, "N", OPTION_COUNT, GROUP_PROGRAM, PICTURE, AT(threads), 0, 1, 1024,
+     "Threads that draw. The picture is the same for any number. Default: one per processor."},
+    {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
+     "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
+     "(on stderr with -o -)."},
+    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO, AT(json), 0, 0, 0,
+     "Print JSON instead of a table."},
+    {"quiet", 'q', NULL, OPTION_FLAG, GROUP_PROGRAM, EVERY, AT(quiet), 0, 0, 0,
+     "No progress bar and no warnings."},
+    {"help", 'h', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_HELP, 0, 0, 0,
+     "Print this text."},
+    {"version", 0, NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_VERSION, 0, 0, 0,
+     "Print the version."},
+    {"man", 0, NULL, OPTION_QUESTION, GROUP_HIDDEN, EVERY, QUESTION_MAN, 0, 0, 0,
+     "Print the man page."},
+};
+/* clang-format on */
+const size_t option_count = sizeof option_table / sizeof *option_table;
+
+const command_text command_table[COMMAND_COUNT] = {
+    [COMMAND_DRAW] = {"",
+                      "MODEL -o OUT.png [options]",
+                      "Draw a model's silhouettes, ridges, valleys, intersections and borders.",
+                      {"drypoint fandisk.obj -o fandisk.png", "good defaults",
+                       "drypoint part.stl -o part.png --view iso --ortho 0 --width silhouette=4,ridge=2",
+                       "technical drawing, bold outline",
+                       "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
+                       "a generated model, in colour",
+                       "drypoint - -o - < model.ply > model.png", "in a pipe", NULL}},
+    [COMMAND_INFO] = {"info",
+                      "MODEL [--json]",
+                      "Say what is in a model: polygons, extent, open edges, what would be dropped.",
+                      {"drypoint info engine.glb", "a table",
+                       "drypoint info --json part.stl | jq .polygons", "for programs", NULL}},
+    [COMMAND_MAKE] = {"make",
+                      "SHAPE -o FILE [options]",
+                      "Write a generated model: PLY, STL or OBJ, by the file's ending.",
+                      {"drypoint make gear -o gear.ply", "the shape's own number of triangles",
+                       "drypoint make terrain -o hills.stl --triangles 10000000 --seed 7",
+                       "ten million triangles", NULL}},
+    [COMMAND_BENCH] = {"bench",
+                       "MODEL [--frames N] [options]",
+                       "Time the drawing of a model; JSON on stdout, times in milliseconds.",
+                       {"drypoint bench dragon.ply --frames 20 --size 1680x1050", "median of twenty",
+                        "drypoint bench shape:terrain:1000000 --threads 1", "a generated model",
+                        NULL}},
+};

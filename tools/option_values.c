@@ -1,0 +1,265 @@
+/* Values of options: strict, each error says what is wrong, with what, and what would do. */
+#include "options.h"
+#include "report.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+unsigned spelling_distance(const char *a, const char *b) {
+    enum { LONGEST = 64 };
+    unsigned row[LONGEST + 1];
+    const size_t n = strlen(b);
+    if (n > LONGEST) return (unsigned)n;
+    for (size_t k = 0; k <= n; k++) row[k] = (unsigned)k;
+    for (unsigned i = 1; *a; a++, i++) {
+        unsigned diagonal = row[0];
+        row[0] = i;
+        for (size_t k = 1; k <= n; k++) {
+            unsigned best = diagonal + (*a != b[k - 1]);
+            if (row[k] + 1 < best) best = row[k] + 1;
+            if (row[k - 1] + 1 < best) best = row[k - 1] + 1;
+            diagonal = row[k];
+            row[k] = best;
+        }
+    }
+    return row[n];
+}
+
+int word_index(const char *words, const char *word) {
+    const size_t n = strlen(word);
+    for (int index = 1;; index++) {
+        const size_t length = strcspn(words, "|");
+        if (length == n && !strncmp(words, word, n)) return index;
+        if (!words[length]) return 0;
+        words += length + 1;
+    }
+}
+
+/* ---- numbers ---- */
+
+/* A plain decimal number and nothing else, up to `end`. */
+static bool read_number(const char *text, const char *end, double *number) {
+    char copy[64];
+    const size_t n = (size_t)(end - text);
+    if (!n || n >= sizeof copy || strspn(text, "0123456789+-.eE") < n) return false;
+    memcpy(copy, text, n);
+    copy[n] = 0;
+    char *rest;
+    *number = strtod(copy, &rest);
+    return !*rest && rest != copy && isfinite(*number);
+}
+
+static bool read_count(const char *text, const char *end, uint64_t *count) {
+    char copy[24];
+    const size_t n = (size_t)(end - text);
+    if (!n || n >= sizeof copy || strspn(text, "0123456789") < n) return false;
+    memcpy(copy, text, n);
+    copy[n] = 0;
+    errno = 0;
+    *count = strtoull(copy, NULL, 10);
+    return !errno;
+}
+
+static const char *end_of(const char *text) { return text + strlen(text); }
+
+static bool store_number(const option *o, const char *value, double *to) {
+    double number;
+    if (!read_number(value, end_of(value), &number))
+        return wrong_usage("--%s: \"%s\" is not a number; give one like 1.5", o->name, value);
+    const bool inside = o->kind == OPTION_INSIDE;
+    if (inside ? number <= o->least || number >= o->most : number < o->least || number > o->most)
+        return wrong_usage("--%s: %s is out of range; give a number %s %g and %s %g", o->name,
+                           value, inside ? "above" : "between", o->least, inside ? "below" : "",
+                           o->most);
+    *to = number;
+    return true;
+}
+
+static bool store_count(const option *o, const char *value, uint64_t *to) {
+    if (!read_count(value, end_of(value), to))
+        return wrong_usage("--%s: \"%s\" is not a whole number; give one like 4", o->name, value);
+    if ((double)*to < o->least || (double)*to > o->most)
+        return wrong_usage("--%s: %s is out of range; give %.0f to %.0f", o->name, value, o->least,
+                           o->most);
+    return true;
+}
+
+static bool store_point(const option *o, const char *value, double to[3]) {
+    const char *at = value;
+    for (int k = 0; k < 3; k++) {
+        const char *const end = at + strcspn(at, ",");
+        if (!read_number(at, end, &to[k]) || (*end == ',') != (k < 2))
+            return wrong_usage("--%s: \"%s\" is not a point; give three numbers like 1,2.5,-3",
+                               o->name, value);
+        at = end + 1;
+    }
+    return true;
+}
+
+static bool store_size(const option *o, const char *value, uint32_t to[2]) {
+    const char *const cross = value + strcspn(value, "xX");
+    uint64_t side[2];
+    if (!*cross || !read_count(value, cross, &side[0]) ||
+        !read_count(cross + 1, end_of(value), &side[1]))
+        return wrong_usage("--%s: \"%s\" is not a size; give one like 1600x1200", o->name, value);
+    for (int k = 0; k < 2; k++) {
+        if ((double)side[k] < o->least || (double)side[k] > o->most)
+            return wrong_usage("--%s: %s is out of range; each side can be %.0f to %.0f pixels",
+                               o->name, value, o->least, o->most);
+        to[k] = (uint32_t)side[k];
+    }
+    return true;
+}
+
+/* ---- words ---- */
+
+/* The word of `words` that is spelt most like this one. */
+static const char *nearest_word(const char *words, const char *word, char *best, size_t size) {
+    unsigned least = UINT32_MAX;
+    for (;;) {
+        char candidate[32];
+        const size_t length = strcspn(words, "|");
+        snprintf(candidate, sizeof candidate, "%.*s", (int)length, words);
+        const unsigned distance = spelling_distance(word, candidate);
+        if (distance < least) snprintf(best, size, "%s", candidate);
+        if (distance < least) least = distance;
+        if (!words[length]) return best;
+        words += length + 1;
+    }
+}
+
+static bool store_word(const option *o, const char *value, int *to) {
+    *to = word_index(o->argument, value);
+    if (*to) return true;
+    char best[32];
+    return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, value, o->argument,
+                       nearest_word(o->argument, value, best, sizeof best));
+}
+
+static const char class_words[] = "silhouette|ridge|valley|intersection|border";
+
+/* The class named in [text, end), or DP_LINE_COUNT after a message. */
+static dp_line read_class(const option *o, const char *text, const char *end) {
+    char name[64], best[32];
+    snprintf(name, sizeof name, "%.*s", (int)(end - text), text);
+    for (int line = 0; line < DP_LINE_COUNT; line++)
+        if (!strcmp(name, dp_line_name((dp_line)line))) return (dp_line)line;
+    wrong_usage("--%s: \"%s\" is no class of lines; did you mean %s?", o->name, name,
+                nearest_word(class_words, name, best, sizeof best));
+    return DP_LINE_COUNT;
+}
+
+static bool store_lines(const option *o, const char *value, dp_style *style) {
+    style->lines = 0;
+    if (!strcmp(value, "all")) style->lines = DP_ALL_LINES;
+    if (!strcmp(value, "none")) style->lines = DP_NO_LINES;
+    if (style->lines) return true;
+    for (const char *at = value;;) {
+        const char *const end = at + strcspn(at, ",");
+        const dp_line line = read_class(o, at, end);
+        if (line == DP_LINE_COUNT) return false;
+        style->lines |= 1u << line;
+        if (!*end) return true;
+        at = end + 1;
+    }
+}
+
+/* ---- colours ---- */
+
+/* #RRGGBB, or #RGB for short. */
+static bool read_color(const char *text, const char *end, dp_color *color) {
+    const size_t n = (size_t)(end - text);
+    if ((n != 7 && n != 4) || *text != '#') return false;
+    if (strspn(text + 1, "0123456789abcdefABCDEF") < n - 1) return false;
+    char digits[8];
+    memcpy(digits, text + 1, n - 1);
+    digits[n - 1] = 0;
+    const unsigned long rgb = strtoul(digits, NULL, 16);
+    const unsigned long r = rgb >> 8 & 15, g = rgb >> 4 & 15, b = rgb & 15;
+    *color = n == 7 ? (dp_color)(rgb << 8 | 0xFF) : DP_RGB(17 * r, 17 * g, 17 * b);
+    return true;
+}
+
+static bool store_color(const option *o, const char *value, dp_color *to) {
+    if (!strcmp(value, "none")) *to = DP_COLOR_NONE;
+    else if (!read_color(value, end_of(value), to))
+        return wrong_usage("--%s: \"%s\" is not a colour; give one like #3060A0, or none", o->name,
+                           value);
+    return true;
+}
+
+/* ---- CLASS=VALUE,… ---- */
+
+/* One value in [text, end) for the classes of `set`. */
+static bool store_one(const option *o, const char *text, const char *end, unsigned set,
+                      dp_style *style) {
+    double width = 0;
+    dp_color color = 0;
+    const int n = (int)(end - text);
+    if (o->kind == OPTION_COLORS && !read_color(text, end, &color))
+        return wrong_usage("--%s: \"%.*s\" is not a colour; give one like #3060A0", o->name, n, text);
+    if (o->kind == OPTION_WIDTHS && !read_number(text, end, &width))
+        return wrong_usage("--%s: \"%.*s\" is not a width in pixels; give one like 2.5", o->name, n,
+                           text);
+    if (o->kind == OPTION_WIDTHS && (width < o->least || width > o->most))
+        return wrong_usage("--%s: %.*s is out of range; give %g to %g pixels", o->name, n, text,
+                           o->least, o->most);
+    for (int line = 0; line < DP_LINE_COUNT; line++) {
+        if (!(set >> line & 1)) continue;
+        if (o->kind == OPTION_WIDTHS) style->line[line].width = (float)width;
+        else style->line[line].color = color;
+    }
+    return true;
+}
+
+static bool store_classes(const option *o, const char *value, dp_style *style) {
+    for (const char *at = value;;) {
+        const char *const end = at + strcspn(at, ",");
+        const char *const equals = at + strcspn(at, "=,");
+        unsigned set = DP_ALL_LINES;
+        if (*equals == '=') {
+            const dp_line line = read_class(o, at, equals);
+            if (line == DP_LINE_COUNT) return false;
+            set = 1u << line;
+            at = equals + 1;
+        }
+        if (!store_one(o, at, end, set, style)) return false;
+        if (!*end) return true;
+        at = end + 1;
+    }
+}
+
+/* ---- any ---- */
+
+bool option_store(const option *o, const char *value, tool_settings *settings) {
+    void *const to = (char *)settings + o->at;
+    uint64_t count = 0;
+    switch (o->kind) {
+    case OPTION_FLAG: *(bool *)to = true; return true;
+    case OPTION_TEXT: *(const char **)to = value; return true;
+    case OPTION_COUNT:
+        if (!store_count(o, value, &count)) return false;
+        *(uint32_t *)to = (uint32_t)count;
+        return true;
+    case OPTION_COUNT64: return store_count(o, value, to);
+    case OPTION_NUMBER:
+    case OPTION_INSIDE: return store_number(o, value, to);
+    case OPTION_POINT: return store_point(o, value, to);
+    case OPTION_WORD: return store_word(o, value, to);
+    case OPTION_SIZE: return store_size(o, value, to);
+    case OPTION_LINES: return store_lines(o, value, to);
+    case OPTION_WIDTHS:
+    case OPTION_COLORS: return store_classes(o, value, to);
+    case OPTION_COLOR: return store_color(o, value, to);
+    case OPTION_STATS:
+        if (value && strcmp(value, "json"))
+            return wrong_usage("--stats: \"%s\" is no form; leave it out, or give json", value);
+        *(stats_kind *)to = value ? STATS_JSON : STATS_TABLE;
+        return true;
+    case OPTION_QUESTION: settings->question = (question)o->at; return true;
+    }
+    return false;
+}

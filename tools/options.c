@@ -1,0 +1,163 @@
+/* Walks the command line along the table of options.
+ *
+ * The first word may be a command; without one the program draws. Options may stand anywhere, as
+ * --name value, --name=value or -o value; -- ends them; - is a model or output like any other. */
+#include "options.h"
+#include "report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct walk {
+    int argc, at;
+    char **argv;
+    tool_settings *settings;
+    bool only_words; /* after -- */
+} walk;
+
+static const char *const command_words = "info|make|bench";
+
+static const option *find_name(const char *name, size_t length, unsigned commands) {
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (strlen(o->name) == length && !strncmp(o->name, name, length) && o->commands & commands)
+            return o;
+    return NULL;
+}
+
+static const option *find_letter(char letter, unsigned commands) {
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (letter && o->letter == letter && o->commands & commands) return o;
+    return NULL;
+}
+
+static bool unknown_option(const char *name, tool_command command) {
+    const unsigned here = 1u << command;
+    const option *best = NULL;
+    const option *const elsewhere = find_name(name, strlen(name), ~here);
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (o->commands & here && o->group != GROUP_HIDDEN &&
+            (!best || spelling_distance(name, o->name) < spelling_distance(name, best->name)))
+            best = o;
+    if (elsewhere) {
+        unsigned owner = 0;
+        while (!(elsewhere->commands >> owner & 1)) owner++;
+        return wrong_usage("option --%s does not belong to \"drypoint %s\" but to \"drypoint %s\"",
+                           name, *command_table[command].name ? command_table[command].name : "MODEL",
+                           *command_table[owner].name ? command_table[owner].name : "MODEL");
+    }
+    return wrong_usage("unknown option --%s; did you mean --%s?", name, best->name);
+}
+
+static bool takes_value(const option *o) {
+    return o->kind != OPTION_FLAG && o->kind != OPTION_QUESTION;
+}
+
+/* The value after the option's name: joined to it, or the next word. */
+static bool find_value(walk *w, const option *o, const char **value) {
+    if (*value || !takes_value(o)) return true;
+    const char *const next = w->at < w->argc ? w->argv[w->at] : NULL;
+    if (o->kind == OPTION_STATS) {
+        if (next && !strcmp(next, "json")) *value = w->argv[w->at++];
+        return true;
+    }
+    if (!next || !strncmp(next, "--", 2))
+        return wrong_usage("option --%s needs a value: --%s %s", o->name, o->name, o->argument);
+    *value = w->argv[w->at++];
+    return true;
+}
+
+static bool take_option(walk *w, const option *o, const char *value) {
+    if (value && !takes_value(o))
+        return wrong_usage("option --%s takes no value; leave out \"=%s\"", o->name, value);
+    if (!find_value(w, o, &value)) return false;
+    if (o->given) *((bool *)((char *)w->settings + o->given)) = true;
+    return option_store(o, value, w->settings);
+}
+
+static bool take_long(walk *w, const char *text) {
+    const char *const equals = text + strcspn(text, "=");
+    const size_t length = (size_t)(equals - text);
+    const tool_command command = w->settings->command;
+    const option *const o = find_name(text, length, 1u << command);
+    if (o) return take_option(w, o, *equals ? equals + 1 : NULL);
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    return unknown_option(name, command);
+}
+
+static bool take_short(walk *w, const char *text) {
+    const option *const o = find_letter(*text, 1u << w->settings->command);
+    if (o) return take_option(w, o, text[1] ? text + 1 : NULL);
+    const option *const whole = find_name(text, strcspn(text, "="), 1u << w->settings->command);
+    if (whole) return wrong_usage("unknown option -%s; did you mean --%s?", text, whole->name);
+    return wrong_usage("unknown option -%c; did you mean -o, -q or -h?", *text);
+}
+
+static bool take_word(walk *w, const char *word) {
+    tool_settings *const s = w->settings;
+    if (!s->model) {
+        s->model = word;
+        return true;
+    }
+    return wrong_usage("there is one %s at a time: \"%s\" comes after \"%s\"; options begin with --",
+                       s->command == COMMAND_MAKE ? "shape" : "model", word, s->model);
+}
+
+static bool take(walk *w) {
+    const char *const word = w->argv[w->at++];
+    if (w->only_words || *word != '-' || !word[1]) return take_word(w, word);
+    if (word[1] != '-') return take_short(w, word + 1);
+    if (word[2]) return take_long(w, word + 2);
+    w->only_words = true;
+    return true;
+}
+
+/* ---- what must be there, and together ---- */
+
+static bool check_camera(const tool_settings *s) {
+    if (s->has_fov && s->has_ortho)
+        return wrong_usage("--fov and --ortho exclude each other; leave one out");
+    if (s->has_eye && (s->view || s->has_azimuth || s->has_elevation))
+        return wrong_usage("--eye already says where from; leave out --view, --azimuth and "
+                           "--elevation");
+    return true;
+}
+
+static bool check_present(const tool_settings *s) {
+    const command_text *const text = &command_table[s->command];
+    const char *const space = *text->name ? " " : "";
+    if (!s->model)
+        return wrong_usage("no %s given; usage: drypoint %s%s%s",
+                           s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,
+                           text->arguments);
+    if (!s->output && (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
+        return wrong_usage("no output given; add -o %s",
+                           s->command == COMMAND_DRAW ? "OUT.png" : "OUT.ply");
+    return true;
+}
+
+static void begin(walk *w) {
+    const char *const first = w->argc > 1 ? w->argv[1] : "";
+    w->at = 1;
+    const int word = word_index(command_words, first);
+    if (word) {
+        w->settings->command = (tool_command)word;
+        w->at = 2;
+    } else if (!strcmp(first, "help")) {
+        w->settings->question = QUESTION_HELP;
+        w->at = 2;
+    }
+}
+
+bool options_parse(int argc, char **argv, tool_settings *settings) {
+    walk w = {.argc = argc, .argv = argv, .settings = settings};
+    memset(settings, 0, sizeof *settings);
+    begin(&w);
+    while (w.at < w.argc && !settings->question)
+        if (!take(&w)) return false;
+    if (settings->question && w.at < w.argc) { /* drypoint --help make */
+        const int word = word_index(command_words, w.argv[w.at]);
+        if (word) settings->command = (tool_command)word;
+    }
+    return settings->question || (check_present(settings) && check_camera(settings));
+}

@@ -1,0 +1,128 @@
+/* The command line: one table of options, from which parsing, --help, the man page and the
+ * suggestion of the nearest option come. */
+#ifndef TOOL_OPTIONS_H
+#define TOOL_OPTIONS_H
+
+#include <drypoint/drypoint.h>
+
+#include <stdio.h>
+
+enum { EXIT_FAILED = 1, EXIT_USAGE = 2 };
+
+typedef enum tool_command {
+    COMMAND_DRAW = 0,
+    COMMAND_INFO,
+    COMMAND_MAKE,
+    COMMAND_BENCH,
+    COMMAND_COUNT
+} tool_command;
+
+/* What is asked about the command instead of running it. */
+typedef enum question { QUESTION_NONE = 0, QUESTION_HELP, QUESTION_VERSION, QUESTION_MAN } question;
+
+typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
+
+/* Words of an option: their index in the table's argument text, from 1; 0 is "not said". */
+enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
+enum { SWITCH_ON = 1, SWITCH_OFF };
+
+/* Everything the command line can say; zero is "not said". */
+typedef struct tool_settings {
+    tool_command command;
+    question question;
+    const char *model; /* of make: the shape's name */
+    const char *output;
+
+    uint32_t width, height; /* px */
+    int samples;            /* word */
+    uint32_t threads;
+    int passes; /* word */
+
+    double eye[3], target[3], up[3];
+    bool has_eye, has_target, has_up;
+    double fov, ortho, azimuth, elevation, zoom; /* degrees, world units, degrees, degrees, factor */
+    bool has_fov, has_ortho, has_azimuth, has_elevation;
+    int view; /* word */
+
+    dp_style style; /* lines, widths and colours; the rest is below */
+    double ridge_angle, valley_angle;
+    int method, between, ink, edge_table; /* words */
+    bool cull_back_faces;
+
+    stats_kind stats;
+    bool json, quiet;
+    uint32_t frames;
+    uint64_t triangles;
+    double shape_size;
+    uint32_t seed;
+} tool_settings;
+
+typedef enum option_kind {
+    OPTION_FLAG = 0, /* bool */
+    OPTION_TEXT,     /* const char * */
+    OPTION_COUNT,    /* uint32_t, within the limits */
+    OPTION_COUNT64,  /* uint64_t */
+    OPTION_NUMBER,   /* double, limits included */
+    OPTION_INSIDE,   /* double, limits excluded */
+    OPTION_POINT,    /* double[3] */
+    OPTION_WORD,     /* int: which of the argument's words */
+    OPTION_SIZE,     /* uint32_t[2] */
+    OPTION_LINES,    /* dp_style.lines */
+    OPTION_WIDTHS,   /* dp_style.line[].width */
+    OPTION_COLORS,   /* dp_style.line[].color */
+    OPTION_COLOR,    /* dp_color */
+    OPTION_STATS,    /* stats_kind; its argument may be left out */
+    OPTION_QUESTION  /* question: ends the parsing */
+} option_kind;
+
+typedef enum option_group {
+    GROUP_PICTURE = 0,
+    GROUP_CAMERA,
+    GROUP_LINES,
+    GROUP_METHOD,
+    GROUP_MODEL,
+    GROUP_PROGRAM,
+    GROUP_HIDDEN,
+    GROUP_COUNT
+} option_group;
+
+typedef struct option {
+    const char *name;     /* without the dashes */
+    char letter;          /* short form, or 0 */
+    const char *argument; /* as --help shows it; of words: the words themselves; or NULL */
+    option_kind kind;
+    option_group group;
+    unsigned commands;    /* set of 1u << command */
+    size_t at;            /* offset of the value in tool_settings */
+    size_t given;         /* offset of the bool that says the option was there; 0: none */
+    double least, most;
+    const char *help;
+} option;
+
+extern const option option_table[];
+extern const size_t option_count;
+
+/* A command's name ("" for drawing), what follows it on the command line, one line about it. */
+typedef struct command_text {
+    const char *name, *arguments, *about;
+    const char *examples[10]; /* command line, then what it does, … NULL */
+} command_text;
+extern const command_text command_table[COMMAND_COUNT];
+extern const char *const group_names[GROUP_COUNT];
+
+/* Fills *settings. False: the command line is wrong, and a message is on stderr. */
+bool options_parse(int argc, char **argv, tool_settings *settings);
+
+/* Stores one option's value. False: it is wrong, and a message is on stderr. */
+bool option_store(const option *o, const char *value, tool_settings *settings);
+
+/* Which of `words` ("exact|paper") is the word, from 1; 0: none. */
+int word_index(const char *words, const char *word);
+
+/* Letters to change to get from a to b: small when one is a slip for the other. */
+unsigned spelling_distance(const char *a, const char *b);
+
+void options_help(FILE *out, tool_command command);
+void options_man(FILE *out);
+
+#endif

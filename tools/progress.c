@@ -1,0 +1,116 @@
+/* The progress bar, and what Ctrl-C does.
+ *
+ * The program's only mutable globals are here, because a signal handler can reach nothing else. While
+ * no output is being written there is nothing to tidy up, so the handler ends the program there and
+ * then; while it is, only a flag is set: the writer is asked to stop at its next report, removes its
+ * temporary file, and interrupt_release ends the program. A second signal while writing to something
+ * that does not take it still only interrupts the system call, which fails and ends the writer. */
+#include "progress.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t signal_seen;
+static volatile sig_atomic_t writing;
+static volatile sig_atomic_t bar_shown;
+
+static struct {
+    const char *what;
+    struct timespec start;
+    double last_shown; /* seconds since start */
+    bool enabled;
+} work;
+
+static const char wipe[] = "\r\033[K";
+
+/* ---- Ctrl-C ---- */
+
+static void leave(int number) {
+    if (bar_shown && write(STDERR_FILENO, wipe, sizeof wipe - 1) < 0) _exit(128 + number);
+    _exit(128 + number);
+}
+
+static void on_signal(int number) {
+    if (!writing) leave(number);
+    signal_seen = number;
+}
+
+void interrupt_install(void) {
+    static const int numbers[] = {SIGINT, SIGTERM};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        struct sigaction old, action;
+        memset(&action, 0, sizeof action);
+        action.sa_handler = on_signal; /* no SA_RESTART: a blocked write must fail */
+        sigemptyset(&action.sa_mask);
+        if (sigaction(numbers[k], NULL, &old) || old.sa_handler == SIG_IGN) continue; /* nohup */
+        sigaction(numbers[k], &action, NULL);
+    }
+}
+
+void interrupt_hold(void) { writing = 1; }
+
+void interrupt_release(void) {
+    writing = 0;
+    if (signal_seen) leave(signal_seen);
+}
+
+/* ---- the bar ---- */
+
+static double seconds_since(const struct timespec *start) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+void progress_begin(const char *what, bool quiet) {
+    work.what = what;
+    work.last_shown = 0;
+    work.enabled = !quiet && isatty(STDERR_FILENO);
+    clock_gettime(CLOCK_MONOTONIC, &work.start);
+}
+
+static void show_known(double elapsed, double fraction) {
+    enum { CELLS = 30 };
+    char bar[CELLS + 1];
+    const int full = (int)(fraction * CELLS);
+    for (int k = 0; k < CELLS; k++) bar[k] = k < full ? '#' : '.';
+    bar[CELLS] = 0;
+    fprintf(stderr, "%s%s [%s] %3.0f %%", wipe, work.what, bar, 100 * fraction);
+    if (fraction > 0.01) {
+        const double left = elapsed / fraction - elapsed;
+        fprintf(stderr, ", %.0f:%02.0f left", (left - (int)left % 60) / 60, (double)((int)left % 60));
+    }
+}
+
+static void show(double elapsed, double fraction) {
+    bar_shown = 1;
+    if (fraction < 0) fprintf(stderr, "%s%s … %.0f s", wipe, work.what, elapsed);
+    else show_known(elapsed, fraction > 1 ? 1 : fraction);
+    fflush(stderr);
+}
+
+int progress_report(void *user, double fraction) {
+    (void)user;
+    if (signal_seen) return 1;
+    if (!work.enabled) return 0;
+    const double elapsed = seconds_since(&work.start);
+    if (elapsed < 1 || elapsed - work.last_shown < 0.1) return 0;
+    work.last_shown = elapsed;
+    show(elapsed, fraction);
+    return 0;
+}
+
+void progress_clear(void) {
+    if (!bar_shown) return;
+    fputs(wipe, stderr);
+    fflush(stderr);
+    bar_shown = 0;
+}
+
+void progress_end(void) {
+    progress_clear();
+    work.enabled = false;
+}

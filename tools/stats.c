@@ -1,0 +1,78 @@
+/* What a frame did, as a table for people and as JSON for programs. */
+#include "commands.h"
+#include "report.h"
+
+#include <string.h>
+
+/* The counts, in the order of the frame; both forms come from here. */
+typedef struct count {
+    const char *key, *text;
+    size_t at; /* in dp_stats, a uint64_t */
+} count;
+
+#define AT(member) offsetof(dp_stats, member)
+static const count counts[] = {
+    {"polygons", "polygons", AT(polygons)},
+    {"triangles", "triangles", AT(triangles)},
+    {"split", "split (concave or not plane)", AT(split)},
+    {"dropped", "dropped", AT(dropped)},
+    {"dropped_index", "  index out of range", AT(dropped_index)},
+    {"dropped_finite", "  coordinate not finite", AT(dropped_finite)},
+    {"dropped_area", "  no area", AT(dropped_area)},
+    {"dropped_corners", "  fewer than three corners", AT(dropped_corners)},
+    {"clipped", "clipped", AT(clipped)},
+    {"edges_resolved", "edges resolved by tables", AT(edges_resolved)},
+    {"edges_emergent", "edges left to emerge", AT(edges_emergent)},
+    {"open_edges", "open edges met", AT(open_edges)},
+    {"added_polygons", "polygons added", AT(added_polygons)},
+    {"segments", "visible segments", AT(segments)},
+    {"bytes", "bytes of scratch memory", AT(bytes)},
+};
+
+static unsigned long long value_of(const dp_stats *stats, const count *c) {
+    uint64_t value;
+    memcpy(&value, (const char *)stats + c->at, sizeof value);
+    return value;
+}
+
+void print_stats_table(FILE *out, const dp_stats *stats) {
+    for (const count *c = counts; c < counts + sizeof counts / sizeof *counts; c++)
+        fprintf(out, "%-30s %14llu\n", c->text, value_of(stats, c));
+    for (int k = 0; k < DP_STAGE_COUNT; k++)
+        fprintf(out, "%-30s %14.2f ms\n", dp_stage_name((dp_stage)k), stats->stage_ms[k]);
+    fprintf(out, "%-30s %14.2f ms\n", "frame", stats->frame_ms);
+}
+
+void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target) {
+    fprintf(out, "{\"width\": %u, \"height\": %u, \"samples\": %u", target->width, target->height,
+            target->samples);
+    for (const count *c = counts; c < counts + sizeof counts / sizeof *counts; c++)
+        fprintf(out, ", \"%s\": %llu", c->key, value_of(stats, c));
+    fputs(", \"stages\": {", out);
+    for (int k = 0; k < DP_STAGE_COUNT; k++)
+        fprintf(out, "%s\"%s\": %.3f", k ? ", " : "", dp_stage_name((dp_stage)k),
+                stats->stage_ms[k]);
+    fprintf(out, "}, \"frame_ms\": %.3f}\n", stats->frame_ms);
+}
+
+void warn_dropped(const dp_stats *stats) {
+    static const struct {
+        const char *text;
+        size_t at;
+    } causes[] = {{"with an index out of range", AT(dropped_index)},
+                  {"with a coordinate that is not finite", AT(dropped_finite)},
+                  {"without area", AT(dropped_area)},
+                  {"with fewer than three corners", AT(dropped_corners)}};
+    char text[240] = "";
+    size_t length = 0;
+    for (size_t k = 0; k < sizeof causes / sizeof *causes; k++) {
+        uint64_t n;
+        memcpy(&n, (const char *)stats + causes[k].at, sizeof n);
+        if (n)
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s%llu %s",
+                                       length ? ", " : "", (unsigned long long)n, causes[k].text);
+    }
+    if (length)
+        warn("%llu of %llu polygons dropped: %s", (unsigned long long)stats->dropped,
+             (unsigned long long)stats->polygons, text);
+}
