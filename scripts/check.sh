@@ -20,6 +20,7 @@ count() {
         split($0, part, "#"); id = part[2] + 0
         result[id] = ($0 ~ /\.\.\.+ +Passed +[0-9.]+ sec/) ? "passed" : "failed"
         if ($0 ~ /\*\*\*(Exception|Timeout)/) bad[id]++
+        if ($0 ~ /\*\*\*Skipped/) delete result[id]
         next
     }
     match($0, /^[0-9]+: /) {
