@@ -27,15 +27,28 @@ static bool next_word(dp_stream *stream) {
     return false;
 }
 
-/* The letters of [ST][C][N][4][n]OFF, whose counts may follow without a blank. */
+/* Passes over [ST][C][N][4][n]OFF, whose counts may follow without a blank; false if it is none.
+ * *dimensions: the vertices have other than three coordinates. */
+static bool take_keyword(dp_stream *stream, bool *dimensions) {
+    const uint8_t *p = stream->cursor;
+    if (p[0] == 'S' && p[1] == 'T') p += 2;
+    p += *p == 'C';
+    p += *p == 'N';
+    *dimensions = *p == '4' || *p == 'n';
+    p += *p == '4';
+    p += *p == 'n';
+    if (p[0] != 'O' || p[1] != 'F' || p[2] != 'F') return false;
+    stream->cursor = p + 3;
+    return true;
+}
+
 static dp_result read_keyword(off *self) {
     dp_stream *const stream = self->stream;
     bool dimensions = false;
-    if (!next_word(stream)) return dp_text_expected(stream, self->diag, "the counts");
-    for (const uint8_t *p; p = stream->cursor, (*p | 0x20) >= 'a' && (*p | 0x20) <= 'z';
-         stream->cursor++)
-        dimensions |= *p == 'n';
-    if (*stream->cursor == '4' && stream->cursor[1] == 'O') dimensions = true;
+    if (!next_word(stream)) return dp_text_expected(stream, self->diag, "`OFF`");
+    const bool number = *stream->cursor >= '0' && *stream->cursor <= '9';
+    if (!take_keyword(stream, &dimensions) && !number)
+        return dp_text_expected(stream, self->diag, "`OFF`");
     if (dimensions)
         return dp_fail_line(self->diag, DP_ERR_UNSUPPORTED, stream->line,
                             "OFF with other than three coordinates: export it as plain OFF");
