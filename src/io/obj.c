@@ -74,7 +74,7 @@ static dp_result read_face(obj *self) {
     while (dp_text_blank(self->stream)) {
         int64_t index;
         if (*self->stream->cursor == '#') break;
-        if (!read_corner(self->stream, &index))
+        if (!dp_text_int(self->stream, &index) && !read_corner(self->stream, &index))
             return dp_text_expected(self->stream, self->diag, "a face's vertex number");
         index += index < 0 ? (int64_t)self->builder->vertex_count : -1;
         if (!dp_builder_corner(self->builder, index))

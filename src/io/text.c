@@ -30,7 +30,7 @@ static inline const uint8_t *pass_line_end(dp_stream *stream, const uint8_t *p) 
     return p + 1;
 }
 
-bool dp_text_space(dp_stream *stream) {
+bool dp_text_space_slow(dp_stream *stream) {
     for (;;) {
         const uint8_t *p = stream->cursor;
         while (p < stream->limit) {
@@ -48,7 +48,7 @@ bool dp_text_space(dp_stream *stream) {
     }
 }
 
-bool dp_text_blank(dp_stream *stream) {
+bool dp_text_blank_slow(dp_stream *stream) {
     for (;;) {
         const uint8_t *p = stream->cursor;
         while (is_blank(*p)) p++;
@@ -97,7 +97,7 @@ bool dp_text_float(dp_stream *stream, float *value) {
     return take(stream, dp_number_float(stream->cursor, value));
 }
 
-bool dp_text_int(dp_stream *stream, int64_t *value) {
+bool dp_text_int_slow(dp_stream *stream, int64_t *value) {
     return take(stream, dp_number_int(stream->cursor, value));
 }
 
