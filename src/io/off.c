@@ -65,15 +65,21 @@ static dp_result read_count(off *self, const char *what, int64_t *count) {
     return DP_OK;
 }
 
+/* `what` of vertex or face number `item` of `count` is not there. */
+static dp_result expected(off *self, const char *what, int64_t item, int64_t count) {
+    const dp_result result =
+        dp_text_expected(self->stream, self->diag, "%s %" PRId64 " of %" PRId64, what, item, count);
+    if (self->diag) self->diag->item = (uint64_t)item;
+    return result;
+}
+
 static dp_result read_vertex(off *self, int64_t vertex) {
     float *const to = dp_builder_vertex(self->builder);
     if (!to) return dp_builder_fail(self->builder, self->diag);
     for (int k = 0; k < 3; k++) {
         next_word(self->stream);
         if (!dp_text_float(self->stream, &to[k]))
-            return dp_text_expected(self->stream, self->diag,
-                                    "%c of vertex %" PRId64 " of %" PRId64, 'x' + k, vertex,
-                                    self->vertices);
+            return expected(self, "a coordinate of vertex", vertex, self->vertices);
     }
     dp_text_skip_line(self->stream);
     return DP_OK;
@@ -83,15 +89,11 @@ static dp_result read_face(off *self, int64_t face) {
     int64_t corners, index;
     next_word(self->stream);
     if (!dp_text_int(self->stream, &corners) || corners < 0)
-        return dp_text_expected(self->stream, self->diag,
-                                "the number of corners of face %" PRId64 " of %" PRId64, face,
-                                self->faces);
+        return expected(self, "the number of corners of face", face, self->faces);
     for (int64_t c = 0; c < corners; c++) {
         next_word(self->stream);
         if (!dp_text_int(self->stream, &index))
-            return dp_text_expected(self->stream, self->diag,
-                                    "a vertex number of face %" PRId64 " of %" PRId64, face,
-                                    self->faces);
+            return expected(self, "a vertex number of face", face, self->faces);
         if (!dp_builder_corner(self->builder, index))
             return dp_builder_fail(self->builder, self->diag);
     }
