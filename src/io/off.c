@@ -58,11 +58,18 @@ static dp_result read_keyword(off *self) {
                         "binary OFF: export it as ASCII OFF, PLY or STL");
 }
 
+/* A number that is not negative; what is none stays at the cursor, to be told. */
+static bool next_natural(dp_stream *stream, int64_t *value) {
+    next_word(stream);
+    const uint8_t *const start = stream->cursor;
+    if (!dp_text_int(stream, value)) return false;
+    if (*value < 0) stream->cursor = start;
+    return *value >= 0;
+}
+
 static dp_result read_count(off *self, const char *what, int64_t *count) {
-    next_word(self->stream);
-    if (!dp_text_int(self->stream, count) || *count < 0)
-        return dp_text_expected(self->stream, self->diag, "the number of %s", what);
-    return DP_OK;
+    if (next_natural(self->stream, count)) return DP_OK;
+    return dp_text_expected(self->stream, self->diag, "the number of %s", what);
 }
 
 /* `what` of vertex or face number `item` of `count` is not there. */
@@ -87,8 +94,7 @@ static dp_result read_vertex(off *self, int64_t vertex) {
 
 static dp_result read_face(off *self, int64_t face) {
     int64_t corners, index;
-    next_word(self->stream);
-    if (!dp_text_int(self->stream, &corners) || corners < 0)
+    if (!next_natural(self->stream, &corners))
         return expected(self, "the number of corners of face", face, self->faces);
     for (int64_t c = 0; c < corners; c++) {
         next_word(self->stream);

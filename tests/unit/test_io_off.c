@@ -53,13 +53,13 @@ static void broken_files_are_told_with_their_line(void **state) {
     assert_contains(trace_text("OFF\n"), "the file ends where the number of vertices");
     assert_contains(trace_text("OFF\nx 1 0\n"),
                     "at line 2, byte 0: expected the number of vertices");
-    assert_contains(trace_text("OFF\n3 -1 0\n"), "number of faces");
+    assert_contains(trace_text("OFF\n3 -1 0\n"), "number of faces, found `-1`");
     assert_contains(trace_text("OFF\n3 1 0\n0 0 0\n1 a 0\n"),
                     "at line 4, byte 0: expected a coordinate of vertex 1 of 3, found `a`");
     assert_contains(trace_text("OFF\n3 2 0\n" TRIANGLE), "number of corners of face 1 of 2");
     assert_contains(trace_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1.5 2\n"),
                     "at line 6, byte 0: expected a vertex number of face 0 of 1, found `1.5`");
-    assert_contains(trace_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "number of corners");
+    assert_contains(trace_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "found `-3`");
     assert_contains(trace_text("OFF\n353535235358 1 0\n0 0 0\n"), "vertex 1 of 353535235358");
     assert_contains(trace_text("OFF\n3 99999999999 0\n" TRIANGLE), "face 1 of 99999999999");
     assert_contains(trace_text("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n"), "points but no polygons");
