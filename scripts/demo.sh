@@ -9,12 +9,12 @@ mkdir -p build/demo
 "$program" "$model" -o demo.png --quiet
 cat <<END
 
-A line drawing is in $(pwd)/demo.png
+A line drawing of a generated model is in $(pwd)/demo.png
 
-Next, try:
-  $program MODEL.stl -o drawing.png                 your own STL, PLY, OBJ, OFF, glTF, FBX, 3MF, …
+What to try next:
   $program $model -o demo.png --width silhouette=6 --color valley=#c03020
-  $program make gear -o gear.ply                    more models: bolt, torus, stairs, terrain, …
-  $program --help                                   everything else
-  make check                                          run all tests
+  $program your-model.stl -o drawing.png     (or PLY, OBJ, OFF, glTF, FBX, 3MF, …)
+  $program make gear -o gear.ply             (bolt, torus, stairs, terrain, … too)
+  $program --help
+  make check
 END

@@ -6,19 +6,17 @@
 
 enum { INDENT = 26, COLUMNS = 80 };
 
-/* Words of `text` from column `column` on, in lines that start at INDENT. */
-static void wrap(FILE *out, const char *text, int column) {
+/* Words of `text` in lines that start at INDENT; the first begins where the cursor is: there. */
+static void wrap(FILE *out, const char *text) {
+    int column = INDENT;
     while (*text) {
         const int length = (int)strcspn(text, " ");
-        if (column + length > COLUMNS && column > INDENT) {
-            fprintf(out, "\n%*s", INDENT, "");
-            column = INDENT;
-        }
-        fprintf(out, "%.*s", length, text);
-        column += length + 1;
+        const bool fits = column + 1 + length <= COLUMNS;
+        if (column > INDENT && fits) column += fprintf(out, " ");
+        if (column > INDENT && !fits) column = fprintf(out, "\n%*s", INDENT, "") - 1;
+        column += fprintf(out, "%.*s", length, text);
         text += length;
-        if (*text) text++;
-        if (*text && column < COLUMNS) fputc(' ', out);
+        text += strspn(text, " ");
     }
     fputc('\n', out);
 }
@@ -29,10 +27,8 @@ static void help_option(FILE *out, const option *o) {
     snprintf(head, sizeof head, "  %s--%s%s%s", o->letter ? letter : "", o->name,
              o->argument ? " " : "", o->argument ? o->argument : "");
     fprintf(out, "%-*s", INDENT, head);
-    int column = (int)strlen(head);
-    if (column >= INDENT) fprintf(out, "\n%*s", INDENT, "");
-    column = INDENT;
-    wrap(out, o->help, column);
+    if (strlen(head) >= INDENT) fprintf(out, "\n%*s", INDENT, "");
+    wrap(out, o->help);
 }
 
 static bool shown(const option *o, tool_command command, option_group group) {

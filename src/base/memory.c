@@ -1,6 +1,8 @@
 /* Memory through the caller's allocator: sizes are checked for overflow here and nowhere else. */
 #include "base/memory.h"
 
+#include "base/hostile.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,9 +46,9 @@ void dp_free(const dp_allocator *allocator, void *block) {
 bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capacity, size_t need,
                 size_t item_size) {
     if (need <= *capacity) return true;
-    size_t grown = *capacity + *capacity / 2;
+    size_t grown = *capacity + *capacity / DP_TUNED(2, 8);
     if (grown < need) grown = need;
-    if (grown < 64) grown = 64;
+    if (grown < DP_TUNED(64, 1)) grown = DP_TUNED(64, 1);
     if (grown > SIZE_MAX / item_size) return false;
     void *block;
     memcpy(&block, block_address, sizeof block);

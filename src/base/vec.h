@@ -4,6 +4,12 @@
 
 #include <math.h>
 
+/* One instruction each where fminf and fmaxf, which must respect NaN, are calls. A NaN gives b. */
+static inline float dp_minf(float a, float b) { return a < b ? a : b; }
+static inline float dp_maxf(float a, float b) { return a > b ? a : b; }
+static inline double dp_min(double a, double b) { return a < b ? a : b; }
+static inline double dp_max(double a, double b) { return a > b ? a : b; }
+
 typedef struct dp_vec3 {
     double x, y, z;
 } dp_vec3;

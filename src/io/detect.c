@@ -1,8 +1,8 @@
 /* Which format a stream is in: by its first bytes, and only then by its name.
  *
- * Looks at the window as it lies there and consumes nothing but a byte order mark. An STL file of
- * the binary kind has no mark of its own (and may begin with "solid"): what gives it away is its
- * size, and in a pipe, where the size is unknown, triangles that make sense.
+ * Looks at the window as it lies there and consumes nothing. An STL file of the binary kind has no
+ * mark of its own (and may begin with "solid"): what gives it away is its size, and in a pipe, where
+ * the size is unknown, triangles that make sense.
  *
  * Does not handle: UTF-16; compressed files, which are named in the message. */
 #include "io/readers.h"
@@ -143,8 +143,12 @@ static bool is_binary_stl(const dp_stream *stream) {
 bool dp_detect_binary_stl(dp_stream *stream) {
     dp_stream_have(stream, DP_STREAM_AHEAD);
     if (is_binary_stl(stream)) return true;
+    const uint8_t *const start = stream->cursor;
     const size_t looked = here(stream) < 512 ? here(stream) : 512;
-    return !is_solid(stream) || !is_text(stream->cursor, looked);
+    dp_text_skip_mark(stream);
+    const bool ascii = is_solid(stream) && is_text(start, looked);
+    stream->cursor = start;
+    return !ascii;
 }
 
 /* By the last dot of the name; any case. */
@@ -195,18 +199,22 @@ static const char *foreign(const dp_stream *stream) {
     return NULL;
 }
 
-static bool by_content(const dp_stream *stream, dp_file_format *format) {
-    *format = DP_FORMAT_AUTO;
-    if (is_ply(stream))
-        *format = DP_FORMAT_PLY;
-    else if (is_binary_stl(stream))
+static dp_file_format text_format(const dp_stream *stream) {
+    if (is_ply(stream)) return DP_FORMAT_PLY;
+    if (is_off(stream)) return DP_FORMAT_OFF;
+    if (is_solid(stream)) return DP_FORMAT_STL;
+    return is_obj(stream) ? DP_FORMAT_OBJ : DP_FORMAT_AUTO;
+}
+
+static bool by_content(dp_stream *stream, dp_file_format *format) {
+    const uint8_t *const start = stream->cursor;
+    if (!is_ply(stream) && is_binary_stl(stream)) {
         *format = DP_FORMAT_STL;
-    else if (is_off(stream))
-        *format = DP_FORMAT_OFF;
-    else if (is_solid(stream))
-        *format = DP_FORMAT_STL;
-    else if (is_obj(stream))
-        *format = DP_FORMAT_OBJ;
+        return true;
+    }
+    dp_text_skip_mark(stream);
+    *format = text_format(stream);
+    stream->cursor = start;
     return *format != DP_FORMAT_AUTO;
 }
 
@@ -214,7 +222,6 @@ dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format,
     const bool any = dp_stream_have(stream, 1);
     if (stream->result) return dp_stream_fail(stream, diag);
     if (!any) return dp_fail(diag, DP_ERR_FORMAT, "the file is empty: export the model again");
-    dp_text_skip_mark(stream);
     if (by_content(stream, format)) return DP_OK;
     const char *const advice = foreign(stream);
     if (advice) return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s", advice);

@@ -14,8 +14,13 @@
 #include <inttypes.h>
 #include <string.h>
 
+#if defined(DP_HOSTILE)
+enum { BATCH = 3 };
+#else
+enum { BATCH = 8192 /* triangles: 288 KiB of positions */ };
+#endif
+
 enum {
-    BATCH = 8192,    /* triangles: 288 KiB of positions */
     HEADER = 84,     /* bytes: title and count */
     RECORD = 50,     /* bytes: normal, corners, attribute */
     CORNERS_AT = 12, /* bytes: behind the normal */

@@ -25,7 +25,7 @@ static const entry entries[] = {
     {"cylinder", "two round ridges and straight silhouettes", dp_build_cylinder, 16},
     {"gear", "a toothed wheel with hub, web and six holes: ridges and valleys", dp_build_gear, 2},
     {"bolt", "a hexagonal head, a shank and a real helical thread", dp_build_bolt, 8},
-    {"bracket", "a bearing bracket with a fillet and three holes", dp_build_bracket, 8},
+    {"bracket", "a bearing bracket with a fillet and three holes", dp_build_bracket, 16},
     {"stairs", "ten steps: ridges and valleys in turn, all of 90 degrees", dp_build_stairs, 1},
     {"boxes", "two boxes that cross without sharing a vertex: intersections", dp_build_boxes, 1},
     {"terrain", "an open sheet of hills with a border; the seed changes it", dp_build_terrain, 256},

@@ -1,5 +1,5 @@
 /* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box. */
-#include "pipe/tile.h"
+#include "pipe/intersect.h"
 
 /* Plane through the points by Newell's method, which takes any number of them. */
 static void plane_setup(const dp_point *p, uint32_t n, dp_tile_polygon *out) {
@@ -23,9 +23,9 @@ static uint8_t clamp_px(float v) { return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 
 static void box_setup(const dp_point *p, uint32_t n, dp_tile_polygon *out) {
     float x0 = p[0].x, x1 = x0, y0 = p[0].y, y1 = y0, nearest = p[0].d;
     for (uint32_t i = 1; i < n; i++) {
-        x0 = fminf(x0, p[i].x), x1 = fmaxf(x1, p[i].x);
-        y0 = fminf(y0, p[i].y), y1 = fmaxf(y1, p[i].y);
-        nearest = fmaxf(nearest, p[i].d);
+        x0 = dp_minf(x0, p[i].x), x1 = dp_maxf(x1, p[i].x);
+        y0 = dp_minf(y0, p[i].y), y1 = dp_maxf(y1, p[i].y);
+        nearest = dp_maxf(nearest, p[i].d);
     }
     out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
     out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
@@ -40,11 +40,10 @@ static void add_polygon(dp_tile_worker *w, uint32_t id) {
     if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
         !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + n))
         return;
-    const dp_facing facing = dp_outline_facing(outline.points, n);
+    const dp_facing facing = dp_outline_facing(w->frame, id, &outline);
     dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
     *out = (dp_tile_polygon){.id = id, .point = w->point_count, .points = n};
-    out->flags = (facing == DP_FACING_FRONT ? DP_POLYGON_FRONT : 0) |
-                 (facing == DP_FACING_EDGE_ON ? DP_POLYGON_EDGE_ON : 0) |
+    out->flags = (facing.front ? DP_POLYGON_FRONT : 0) | (facing.edge_on ? DP_POLYGON_EDGE_ON : 0) |
                  (outline.clipped ? DP_POLYGON_CLIPPED : 0);
     dp_point *const points = w->points + w->point_count;
     for (uint32_t i = 0; i < n; i++)
@@ -53,6 +52,7 @@ static void add_polygon(dp_tile_worker *w, uint32_t id) {
     w->point_count += n;
     plane_setup(points, n, out);
     box_setup(points, n, out);
+    out->watch = dp_watch_reach(w, out);
 }
 
 void dp_tile_assemble(dp_tile_worker *w) {

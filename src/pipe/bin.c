@@ -5,9 +5,11 @@
  * order, so it meets its items in submission order, whatever thread did which chunk. */
 #include "pipe/bin.h"
 
+#include "base/hostile.h"
+
 #include <string.h>
 
-enum { CHUNK = 8192, FEW_TILES = 4 };
+enum { CHUNK = DP_TUNED(8192, 3), FEW_TILES = 4 };
 
 typedef struct job {
     dp_bins *bins;

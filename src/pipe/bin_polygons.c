@@ -15,8 +15,8 @@ static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
     float x0 = outline->points[0].x, x1 = x0, y0 = outline->points[0].y, y1 = y0;
     for (uint32_t i = 1; i < outline->count; i++) {
         const dp_point p = outline->points[i];
-        x0 = fminf(x0, p.x), x1 = fmaxf(x1, p.x);
-        y0 = fminf(y0, p.y), y1 = fmaxf(y1, p.y);
+        x0 = dp_minf(x0, p.x), x1 = dp_maxf(x1, p.x);
+        y0 = dp_minf(y0, p.y), y1 = dp_maxf(y1, p.y);
     }
     return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), tile_of(x1 + j->margin) + 1,
                           tile_of(y1 + j->margin) + 1};
@@ -33,8 +33,7 @@ static dp_tile_rect place(void *arg, uint32_t polygon, uint32_t worker) {
     case DP_OUTLINE_MEMORY: self->failed = true; return NOWHERE;
     case DP_OUTLINE_OK: break;
     }
-    if (dp_outline_facing(outline.points, outline.count) == DP_FACING_EDGE_ON &&
-        dp_polygon_has_no_area(j->frame, polygon)) {
+    if (dp_outline_facing(j->frame, polygon, &outline).edge_on && dp_polygon_has_no_area(j->frame, polygon)) {
         self->stats.dropped_area++;
         return NOWHERE;
     }
@@ -48,9 +47,9 @@ static bool touches(void *arg, uint32_t polygon, int32_t tile_x, int32_t tile_y,
     const job *const j = arg;
     dp_outline outline;
     if (dp_outline_make(j->frame, polygon, &j->workers[worker].scratch, &outline)) return true;
-    const dp_facing facing = dp_outline_facing(outline.points, outline.count);
-    if (facing == DP_FACING_EDGE_ON) return true;
-    const double sign = facing == DP_FACING_FRONT ? -1 : 1;
+    const dp_facing facing = dp_outline_facing(j->frame, polygon, &outline);
+    if (facing.edge_on) return true;
+    const double sign = facing.front ? -1 : 1;
     const double x0 = (double)tile_x * DP_TILE - j->margin, x1 = x0 + DP_TILE + 2 * j->margin;
     const double y0 = (double)tile_y * DP_TILE - j->margin, y1 = y0 + DP_TILE + 2 * j->margin;
     for (uint32_t i = 0; i < outline.count; i++) {

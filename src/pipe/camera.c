@@ -69,12 +69,12 @@ void dp_camera_near_far(const dp_camera *camera, const float min[3], const float
     for (int i = 0; i < 8; i++) {
         const double d = distance_along(camera, i & 1 ? max[0] : min[0], i & 2 ? max[1] : min[1],
                                         i & 4 ? max[2] : min[2]);
-        lo = fmin(lo, d);
-        hi = fmax(hi, d);
+        lo = dp_min(lo, d);
+        hi = dp_max(hi, d);
     }
     if (!(hi > 0)) hi = 1; /* all of it is behind the eye: any range draws nothing */
     *far_z = hi * 1.01;
-    *near_z = fmax(lo * 0.99, *far_z * 1e-4);
+    *near_z = dp_max(lo * 0.99, *far_z * 1e-4);
     if (*near_z >= *far_z) *near_z = *far_z * 0.5;
 }
 
@@ -98,7 +98,7 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     const dp_vec3 towards = dp_unit(or_default(fit->direction, dp_v3(1, 0.6, 1)));
     const dp_vec3 up = or_default(fit->up, dp_v3(0, 1, 0));
     const double half_y = fov * PI / 360;
-    const double half = fmin(half_y, atan(tan(half_y) * aspect));
+    const double half = dp_min(half_y, atan(tan(half_y) * aspect));
     const double distance = radius / sin(half);
     const dp_vec3 eye = dp_mad(centre, towards, distance);
     const dp_result result = dp_camera_look_at(camera, (const double[3]){eye.x, eye.y, eye.z},
@@ -106,12 +106,12 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
                                                (const double[3]){up.x, up.y, up.z});
     if (result) return result;
     if (fit->orthographic) {
-        const double fitted = 2 * radius / fmin(1, aspect);
+        const double fitted = 2 * radius / dp_min(1, aspect);
         return dp_camera_orthographic(camera, (fit->height > 0 ? fit->height : fitted) / zoom, aspect,
                                       distance - 1.01 * radius, distance + 1.01 * radius);
     }
     /* Zoom narrows the field of view rather than moving the eye: the perspective stays. */
     const double zoomed = 2 * atan(tan(half_y) / zoom) * 180 / PI;
-    const double near_z = fmax(distance - 1.01 * radius, 1e-4 * distance);
+    const double near_z = dp_max(distance - 1.01 * radius, 1e-4 * distance);
     return dp_camera_perspective(camera, zoomed, aspect, near_z, distance + 1.01 * radius);
 }

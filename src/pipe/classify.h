@@ -4,20 +4,18 @@
 
 #include "pipe/tile.h"
 
-/* Unit normal by Newell's method, world space; zero for a polygon without area. */
-dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon);
-
-typedef struct dp_edge_geometry {
+typedef struct dp_fold {
     dp_vec3 normal_a, normal_b; /* unit */
     dp_vec3 normal;             /* mean, unit: away from the surface */
     bool concave;
-} dp_edge_geometry;
+} dp_fold;
 
-/* Of the edge where frame polygons a and b meet; b's normal is turned to agree with a's winding. */
-dp_edge_geometry dp_edge_geometry_of(const dp_frame *frame, const dp_edge_entry *edge, uint32_t a,
-                                     uint32_t b);
+/* The fold between frame polygons a and b, whose edge number `edge_b` they share. A polygon that is not
+ * `as_wound` has its normal turned round. */
+dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound,
+                     uint32_t edge_b);
 
 /* Degrees: 180 is flat, less is convex (Raskar 2001, 2.2). */
-double dp_edge_dihedral(const dp_edge_geometry *geometry);
+double dp_fold_dihedral(const dp_fold *fold);
 
 #endif

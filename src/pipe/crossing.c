@@ -24,7 +24,7 @@ static cut cut_polygon(const dp_polygons *polygons, uint32_t p, dp_vec3 at, dp_v
     for (uint32_t i = 0; i < count; i++) {
         const dp_vec3 a = corner(polygons, p, i), b = corner(polygons, p, i + 1);
         const double da = dp_dot(dp_sub(a, at), n), db = dp_dot(dp_sub(b, at), n);
-        least = fmin(least, da), most = fmax(most, da);
+        least = dp_min(least, da), most = dp_max(most, da);
         if ((da < 0) == (db < 0)) continue;
         const dp_vec3 q = dp_mix(a, b, da / (da - db));
         if (ends == 0) out.from = q;
@@ -39,7 +39,7 @@ static double reach(const dp_polygons *polygons, uint32_t p) {
     const dp_vec3 o = corner(polygons, p, 0);
     double most = 0;
     for (uint32_t i = 1; i < dp_corner_count(polygons, p); i++)
-        most = fmax(most, dp_length(dp_sub(corner(polygons, p, i), o)));
+        most = dp_max(most, dp_length(dp_sub(corner(polygons, p, i), o)));
     return most;
 }
 
@@ -53,7 +53,7 @@ bool dp_crossing_find(const dp_frame *frame, uint32_t a, uint32_t b, dp_vec3 *fr
     const dp_vec3 na = dp_polygon_normal(frame, a), nb = dp_polygon_normal(frame, b);
     const dp_vec3 line = dp_cross(na, nb);
     if (dp_length(line) < 1e-6) return false; /* one plane, or as good as one */
-    const double flat = 1e-6 * fmin(reach(polygons, a), reach(polygons, b));
+    const double flat = 1e-6 * dp_min(reach(polygons, a), reach(polygons, b));
     const cut ca = cut_polygon(polygons, a, corner(polygons, b, 0), nb, flat);
     if (!ca.found) return false;
     const cut cb = cut_polygon(polygons, b, corner(polygons, a, 0), na, flat);
@@ -66,7 +66,7 @@ bool dp_crossing_find(const dp_frame *frame, uint32_t a, uint32_t b, dp_vec3 *fr
         const double swap = b0;
         b0 = b1, b1 = swap;
     }
-    const double t0 = fmax(a0, b0), t1 = fmin(a1, b1);
+    const double t0 = dp_max(a0, b0), t1 = dp_min(a1, b1);
     if (t1 - t0 <= flat) return false;
     *from = dp_mad(o, u, t0), *to = dp_mad(o, u, t1);
     *normal = dp_unit(dp_add(towards_eye(&frame->view, na, *from), towards_eye(&frame->view, nb, *from)));

@@ -1,12 +1,12 @@
 /* The edge table of a tile: which two polygons meet at an edge, found while the tile is drawn.
  *
  * Every polygon that touches an edge within the tile is in the tile's bin, so an edge's polygons always
- * meet here, without adjacency (DESIGN: docs/architecture.md). Edges are named by the bits of their
+ * meet here, without adjacency (docs/architecture.md). Edges are named by the bits of their
  * ends' positions: an index buffer, split vertices and a bare soup give the same names.
  *
  * Data structure: open addressing over (hash, 1 + entry) pairs; entries in order of first meeting, so
  * that what is found does not depend on the hash. Invariant: at most half of the slots are used.
- * Not resolved here: edges where one or more than two polygons meet (emerge.c). */
+ * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/classify.h"
 #include "pipe/tile.h"
 
@@ -25,23 +25,28 @@ static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_
     if (p->flags & DP_POLYGON_CLIPPED) return true;
     const dp_point a = w->points[p->point + i];
     const dp_point b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
-    return fmaxf(a.x, b.x) >= -MARGIN && fminf(a.x, b.x) <= DP_TILE + MARGIN &&
-           fmaxf(a.y, b.y) >= -MARGIN && fminf(a.y, b.y) <= DP_TILE + MARGIN;
+    return dp_maxf(a.x, b.x) >= -MARGIN && dp_minf(a.x, b.x) <= DP_TILE + MARGIN &&
+           dp_maxf(a.y, b.y) >= -MARGIN && dp_minf(a.y, b.y) <= DP_TILE + MARGIN;
 }
 
 static bool clear_table(dp_tile_worker *w) {
     uint32_t slots = 64;
     while (slots < 2 * w->point_count) slots *= 2;
     w->slot_count = slots;
-    w->edge_count = 0;
+    w->edge_count = w->meeting_count = 0;
     if (!DP_WORKER_RESERVE(w, edge_slots, slots_cap, 2 * (size_t)slots)) return false;
     memset(w->edge_slots, 0, 2 * (size_t)slots * sizeof *w->edge_slots);
     return DP_WORKER_RESERVE(w, edges, edges_cap, (size_t)w->point_count + 3 * (size_t)w->polygon_count);
 }
 
-static void meet(dp_edge_entry *e, uint32_t polygon, uint32_t edge, bool opposed) {
-    if (e->met == 1) e->b = polygon, e->edge_b = edge, e->opposed = opposed;
-    e->met++;
+static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t edge, bool opposed) {
+    if (e->met++ == 1) {
+        e->b = polygon, e->edge_b = edge, e->opposed = opposed;
+        return;
+    }
+    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u)) return;
+    w->meetings[w->meeting_count] = (dp_meeting){polygon, edge, e->more};
+    e->more = ++w->meeting_count;
 }
 
 static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb) {
@@ -55,14 +60,14 @@ static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t 
         if (!slot[1]) {
             slot[0] = hash;
             slot[1] = ++w->edge_count;
-            w->edges[w->edge_count - 1] = (dp_edge_entry){va, vb, polygon, UINT32_MAX, edge, 0, 1, false};
+            w->edges[w->edge_count - 1] = (dp_edge_entry){va, vb, polygon, UINT32_MAX, edge, 0, 1, 0, false};
             return;
         }
         if (slot[0] != hash) continue;
         dp_edge_entry *const e = &w->edges[slot[1] - 1];
         const bool opposed = same_position(polygons, e->va, vb) && same_position(polygons, e->vb, va);
         if (opposed || (same_position(polygons, e->va, va) && same_position(polygons, e->vb, vb))) {
-            meet(e, polygon, edge, opposed);
+            meet(w, e, polygon, edge, opposed);
             return;
         }
     }
@@ -96,25 +101,84 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
                           &spine);
 }
 
+static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *fold) {
+    const dp_style *const style = dp_polygon_style(w->frame, w->polygons[e->a].id);
+    const double dihedral = dp_fold_dihedral(fold);
+    if (dihedral <= style->ridge_angle) add_line(w, e, DP_LINE_RIDGE, fold->normal);
+    else if (dihedral > style->valley_angle) add_line(w, e, DP_LINE_VALLEY, fold->normal);
+}
+
 static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *e) {
     const uint32_t front_a = w->polygons[e->a].flags & DP_POLYGON_FRONT;
     const uint32_t front_b = w->polygons[e->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
-    const dp_edge_geometry g = dp_edge_geometry_of(w->frame, e, w->polygons[e->a].id, w->polygons[e->b].id);
-    if (front_a && front_b) {
-        const dp_style *const style = dp_polygon_style(w->frame, w->polygons[e->a].id);
-        const double dihedral = dp_edge_dihedral(&g);
-        if (dihedral <= style->ridge_angle) add_line(w, e, DP_LINE_RIDGE, g.normal);
-        else if (dihedral > style->valley_angle) add_line(w, e, DP_LINE_VALLEY, g.normal);
+    const dp_fold fold = dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
+    if (front_a && front_b) add_fold(w, e, &fold);
+    else add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
+}
+
+/* A polygon at an edge as the eye sees it: on which side of the edge it lies on the screen, and how fast
+ * it comes nearer going away from the edge. */
+typedef struct flap {
+    uint32_t polygon, edge;
+    bool front;
+    double side;  /* px; the sign tells left or right of va -> vb */
+    double rise;  /* change of depth per px away from the edge */
+} flap;
+
+static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polygon, uint32_t edge) {
+    const dp_tile_polygon *const p = &w->polygons[polygon];
+    flap f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
+    const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = hypot(ex, ey);
+    if (!(length > 0)) return f;
+    const dp_point *const points = w->points + p->point;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const double x = points[i].x + (double)w->tile_x - s->a.x, y = points[i].y + (double)w->tile_y - s->a.y;
+        const double across = (ex * y - ey * x) / length;
+        if (fabs(across) > fabs(f.side)) f.side = across;
+    }
+    const double sign = f.side < 0 ? -1 : 1;
+    f.rise = sign * (ex * p->dy - ey * p->dx) / length;
+    return f;
+}
+
+/* Keeps the flap that is nearest to the eye on its side. */
+static void offer_flap(flap best[2], uint32_t count[2], flap f) {
+    const int side = f.side < 0;
+    if (!count[side]++ || f.rise > best[side].rise) best[side] = f;
+}
+
+/* Edges where the winding disagrees or more than two polygons meet: what the eye sees decides. The
+ * nearest polygon on either side of the edge hides the others; the two make the line that two
+ * polygons would make there, and when all lie on one side the edge is an outline. */
+static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
+    dp_spine s;
+    const dp_polygons *const polygons = &w->frame->polygons;
+    if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
+                       dp_v3f(dp_vertex_position(polygons, e->vb)), dp_v3(0, 0, 0), &s))
+        return;
+    flap best[2] = {{0}};
+    uint32_t count[2] = {0, 0};
+    offer_flap(best, count, make_flap(w, &s, e->a, e->edge_a));
+    offer_flap(best, count, make_flap(w, &s, e->b, e->edge_b));
+    for (uint32_t i = e->more; i; i = w->meetings[i - 1].next)
+        offer_flap(best, count, make_flap(w, &s, w->meetings[i - 1].polygon, w->meetings[i - 1].edge));
+    if (!count[0] || !count[1]) {
+        const flap f = best[count[0] ? 0 : 1];
+        dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[f.polygon].id);
+        if (!f.front) normal = dp_scale(normal, -1);
+        add_line(w, e, DP_LINE_SILHOUETTE, normal);
         return;
     }
-    add_line(w, e, DP_LINE_SILHOUETTE, g.normal);
+    if (!best[0].front && !best[1].front) return;
+    const dp_fold fold = dp_fold_seen(w->frame, w->polygons[best[0].polygon].id, best[0].front,
+                                      w->polygons[best[1].polygon].id, best[1].front, best[1].edge);
+    add_fold(w, e, &fold);
 }
 
 static void resolve_border(dp_tile_worker *w, const dp_edge_entry *e) {
     dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[e->a].id);
     if (!(w->polygons[e->a].flags & DP_POLYGON_FRONT)) normal = dp_scale(normal, -1);
-    w->stats.open_edges++;
     add_line(w, e, DP_LINE_BORDER, normal);
 }
 
@@ -124,7 +188,8 @@ void dp_tile_edges(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->edge_count && !w->failed; i++) {
         const dp_edge_entry *const e = &w->edges[i];
         if (e->met == 1) resolve_border(w, e);
-        else resolve_pair(w, e);
+        else if (e->met == 2 && e->opposed) resolve_pair(w, e);
+        else resolve_fan(w, e);
         w->stats.edges_resolved++;
     }
 }

@@ -2,6 +2,7 @@
 #ifndef DP_PIPE_FRAME_H
 #define DP_PIPE_FRAME_H
 
+#include "base/hostile.h"
 #include "base/memory.h"
 #include "base/threads.h"
 #include "mesh/polygons.h"
@@ -9,7 +10,7 @@
 #include "pipe/view.h"
 #include <drypoint/draw.h>
 
-enum { DP_TILE = 64 /* px; a row of a tile is one 64-bit mask */ };
+enum { DP_TILE = DP_TUNED(64, 16) /* px; a row of a tile is one 64-bit mask */ };
 
 /* A vertex after transformation; 16 bytes, so that a triangle's corners take three cache lines at most. */
 typedef struct dp_vertex {

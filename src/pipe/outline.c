@@ -56,34 +56,61 @@ dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon, dp_out
     return DP_OUTLINE_OK;
 }
 
-/* Thinner than this on the screen, a polygon's facing is a matter of float32 rounding (px). */
-static const double EDGE_ON = 1.0 / 4096;
+static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
+    return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
+}
 
-dp_facing dp_outline_facing(const dp_point *points, uint32_t count) {
+dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
+    const dp_vec3 o = corner_position(polygons, first);
+    dp_vec3 sum = {0, 0, 0}, a = dp_sub(corner_position(polygons, first + 1), o);
+    for (uint32_t i = 2; i < n; i++) {
+        const dp_vec3 b = dp_sub(corner_position(polygons, first + i), o);
+        sum = dp_add(sum, dp_cross(a, b));
+        a = b;
+    }
+    return dp_unit(sum);
+}
+
+/* Thinner than this on the screen (px) a polygon covers nothing, and its area there is rounding. */
+static const double EDGE_ON = 1.0 / 4096;
+/* Below this the area on the screen does not tell the facing; the world does. */
+static const double NEARLY_EDGE_ON = 1.0 / 64;
+
+/* The sine of the angle at which a plane is seen; within rounding of zero it is seen edge-on. */
+static bool faces_eye(const dp_frame *frame, uint32_t polygon) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const dp_vec3 at = corner_position(polygons, dp_first_corner(polygons, polygon));
+    return dp_dot(dp_polygon_normal(frame, polygon), dp_view_vector(&frame->view, at)) < -1e-12;
+}
+
+/* The screen's y runs down, so a front face's area is negative. */
+dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline) {
+    const dp_point *const p = outline->points;
     double area = 0, reach = 0;
-    for (uint32_t i = 1; i < count; i++) {
-        const double ax = (double)points[i].x - points[0].x, ay = (double)points[i].y - points[0].y;
-        reach = fmax(reach, fmax(fabs(ax), fabs(ay)));
-        if (i + 1 == count) break;
-        const double bx = (double)points[i + 1].x - points[0].x;
-        const double by = (double)points[i + 1].y - points[0].y;
+    for (uint32_t i = 1; i < outline->count; i++) {
+        const double ax = (double)p[i].x - p[0].x, ay = (double)p[i].y - p[0].y;
+        reach = dp_max(reach, dp_max(fabs(ax), fabs(ay)));
+        if (i + 1 == outline->count) break;
+        const double bx = (double)p[i + 1].x - p[0].x, by = (double)p[i + 1].y - p[0].y;
         area += ax * by - ay * bx;
     }
-    if (fabs(area) <= EDGE_ON * reach) return DP_FACING_EDGE_ON;
-    return area < 0 ? DP_FACING_FRONT : DP_FACING_BACK;
+    if (fabs(area) > NEARLY_EDGE_ON * reach) return (dp_facing){area < 0, false};
+    return (dp_facing){faces_eye(frame, polygon), fabs(area) <= EDGE_ON * reach};
 }
 
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
     const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
-    const dp_vec3 o = dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first)));
+    const dp_vec3 o = corner_position(polygons, first);
     dp_vec3 sum = {0, 0, 0};
     double size = 0;
     for (uint32_t i = 1; i + 1 < n; i++) {
-        const dp_vec3 a = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i))), o);
-        const dp_vec3 b = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i + 1))), o);
+        const dp_vec3 a = dp_sub(corner_position(polygons, first + i), o);
+        const dp_vec3 b = dp_sub(corner_position(polygons, first + i + 1), o);
         sum = dp_add(sum, dp_cross(a, b));
-        size = fmax(size, fmax(dp_dot(a, a), dp_dot(b, b)));
+        size = dp_max(size, dp_max(dp_dot(a, a), dp_dot(b, b)));
     }
     /* the cross product of float32 coordinates is exact to about 1e-15 of the squared size */
     return dp_length(sum) <= 1e-12 * size;

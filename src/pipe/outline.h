@@ -30,9 +30,15 @@ typedef struct dp_outline {
 dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon, dp_outline_scratch *scratch,
                                  dp_outline *out);
 
-/* Front, back or edge-on. The screen's y runs down, so a front face's area is negative here. */
-typedef enum dp_facing { DP_FACING_FRONT, DP_FACING_BACK, DP_FACING_EDGE_ON } dp_facing;
-dp_facing dp_outline_facing(const dp_point *points, uint32_t count);
+/* How the outline of frame polygon `polygon` lies to the eye. */
+typedef struct dp_facing {
+    bool front;
+    bool edge_on; /* too thin on the screen to cover anything */
+} dp_facing;
+dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline);
+
+/* Unit normal by Newell's method, world space; zero for a polygon without area. */
+dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon);
 
 /* No area in space: all corners on one line. */
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon);

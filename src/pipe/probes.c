@@ -24,8 +24,8 @@ static void cut(double from, double to, double lo, double hi, double *t0, double
         return;
     }
     const double a = (lo - from) / step, b = (hi - from) / step;
-    *t0 = fmax(*t0, fmin(a, b));
-    *t1 = fmin(*t1, fmax(a, b));
+    *t0 = dp_max(*t0, dp_min(a, b));
+    *t1 = dp_min(*t1, dp_max(a, b));
 }
 
 static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
@@ -95,7 +95,7 @@ static void hide_in_pixel(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t 
         dp_probe *const probe = &w->probes[i];
         if (probe->hidden || p->nearest <= probe->limit) continue;
         if (p->id == probe->own_a || p->id == probe->own_b) continue;
-        const float d = fminf(dp_plane_at(p, probe->x, probe->y), p->nearest);
+        const float d = dp_minf(dp_plane_at(p, probe->x, probe->y), p->nearest);
         if (d <= probe->limit) continue;
         probe->hidden = covers(w->points + p->point, p->points, p->flags & DP_POLYGON_FRONT, probe->x, probe->y);
     }

@@ -34,7 +34,7 @@ static void trim_row(const edge *e, float y, int *x0, int *x1) {
 
 static inline __attribute__((always_inline)) void
 fill(dp_tile_worker *w, const edge e[3], const dp_tile_polygon *p, uint32_t index, const int box[4],
-     const uint32_t vectors) {
+     const uint32_t vectors, const bool watch) {
     const dp_sampling *const s = &w->sampling;
     const int width = (int)s->cell_width;
     dp_f4 le[3][4], ld[4]; /* what lane offsets add */
@@ -65,6 +65,11 @@ fill(dp_tile_worker *w, const edge e[3], const dp_tile_polygon *p, uint32_t inde
                 dp_i4 *const winner = (dp_i4 *)(void *)(w->winner + lane + 4 * v);
                 dp_f4 d = bd + ld[v];
                 d = dp_select(d < nearest, d, nearest); /* a plane seen edge-on must not overshoot */
+                if (watch) {
+                    const dp_f4 gap = d - *depth;
+                    const dp_i4 close = in & (gap < dp_splat(p->watch)) & (gap > dp_splat(-p->watch));
+                    if (dp_any(close)) dp_tile_watch(w, index, lane + 4 * v, close, d);
+                }
                 const dp_i4 win = in & (d > *depth);
                 *depth = dp_select(win, d, *depth);
                 *winner = dp_selecti(win, ids, *winner);
@@ -73,8 +78,8 @@ fill(dp_tile_worker *w, const edge e[3], const dp_tile_polygon *p, uint32_t inde
     }
 }
 
-static float min3(float a, float b, float c) { return fminf(a, fminf(b, c)); }
-static float max3(float a, float b, float c) { return fmaxf(a, fmaxf(b, c)); }
+static float min3(float a, float b, float c) { return dp_minf(a, dp_minf(b, c)); }
+static float max3(float a, float b, float c) { return dp_maxf(a, dp_maxf(b, c)); }
 static int clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v; }
 
 static void raster_triangle(dp_tile_worker *w, dp_point a, dp_point b, dp_point c,
@@ -86,10 +91,14 @@ static void raster_triangle(dp_tile_worker *w, dp_point a, dp_point b, dp_point 
     const bool flip = area < 0;
     const edge e[3] = {edge_setup(a, b, flip), edge_setup(b, c, flip), edge_setup(c, a, flip)};
     const int box[4] = {clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1)};
-    switch (w->sampling.vectors) {
-    case 1: fill(w, e, p, index, box, 1); break;
-    case 2: fill(w, e, p, index, box, 2); break;
-    default: fill(w, e, p, index, box, 4); break;
+    const bool watch = w->frame->lines & DP_INTERSECTION;
+    switch (w->sampling.vectors + watch * 8u) {
+    case 1: fill(w, e, p, index, box, 1, false); break;
+    case 2: fill(w, e, p, index, box, 2, false); break;
+    case 4: fill(w, e, p, index, box, 4, false); break;
+    case 9: fill(w, e, p, index, box, 1, true); break;
+    case 10: fill(w, e, p, index, box, 2, true); break;
+    default: fill(w, e, p, index, box, 4, true); break;
     }
 }
 

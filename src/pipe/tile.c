@@ -23,7 +23,10 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->polygons);
     dp_free(&memory, worker->points);
     dp_free(&memory, worker->edges);
+    dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
+    dp_free(&memory, worker->crowd);
+    dp_free(&memory, worker->pairs);
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);
     dp_free(&memory, worker->pieces);
@@ -34,6 +37,7 @@ static void clear(dp_tile_worker *w) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
     memset(w->row, 0, sizeof w->row);
+    memset(w->suspects, 0, sizeof w->suspects);
     w->candidate_count = w->probe_count = 0;
 }
 
@@ -58,6 +62,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     dp_tile_surface(w);
     if (w->frame->lines) {
         dp_tile_edges(w);
+        dp_tile_intersections(w);
         dp_tile_probe(w);
     }
     w->frame->tile_pieces[tile].first = first;

@@ -26,6 +26,7 @@ typedef struct dp_tile_polygon {
     uint8_t x0, y0, x1, y1;  /* pixels it may cover, inclusive, clamped to the tile */
     float nearest;           /* largest d of its points */
     float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
+    float watch;             /* a sample this close in depth may be of a polygon that crosses it */
 } dp_tile_polygon;
 
 /* An edge of the tile's table: what met there. */
@@ -34,8 +35,15 @@ typedef struct dp_edge_entry {
     uint32_t a, b;              /* tile polygons; b UINT32_MAX while alone */
     uint32_t edge_a, edge_b;    /* corner number within the polygon */
     uint32_t met;               /* how many polygons */
+    uint32_t more;              /* 1 + first of the meetings beyond b, 0: none */
     bool opposed;               /* b runs it from vb to va, as it should */
 } dp_edge_entry;
+
+/* A third or later polygon at an edge. */
+typedef struct dp_meeting {
+    uint32_t polygon, edge;
+    uint32_t next; /* 1 + meeting, 0: none */
+} dp_meeting;
 
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
@@ -70,13 +78,20 @@ struct dp_tile_worker {
     dp_tile_polygon *polygons;
     dp_point *points;
     dp_edge_entry *edges;
+    dp_meeting *meetings;
     uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t polygons_cap, points_cap, edges_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
-    uint32_t polygon_count, point_count, edge_count, slot_count, candidate_count, probe_count;
+    size_t polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
+    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
     size_t piece_count;
+
+    uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
+    struct dp_crowd *crowd;     /* intersect.c: polygons by suspect pixel */
+    uint64_t *pairs;            /* pairs of polygons that were tested; open addressing, 0: free */
+    size_t crowd_cap;
+    uint32_t pair_slots, pair_count;
 
     uint32_t cell[DP_TILE * DP_TILE]; /* first probe of a pixel; valid where `row` has its bit */
     uint64_t row[DP_TILE];            /* pixels that hold probes */
@@ -101,9 +116,13 @@ void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c */
 void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index); /* raster.c */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
+void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
 void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+
+/* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
+void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);
 
 /* Adds a candidate (k0, k1, n, probe are filled here) and its probes in this tile (probes.c). */
 void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine);

@@ -4,9 +4,11 @@
  * x = NaN; polygons that use it take the slow way through clipping (outline.c). */
 #include "pipe/stages.h"
 
+#include "base/hostile.h"
+
 #include <string.h>
 
-enum { BLOCK = 16384 };
+enum { BLOCK = DP_TUNED(16384, 5) };
 
 static uint32_t mix(uint32_t h) {
     h ^= h >> 16;

@@ -120,8 +120,8 @@ bool dp_clip_segment(const dp_view *view, dp_clip_point a, dp_clip_point b, doub
     for (int plane = DP_CLIP_NEAR; plane <= DP_CLIP_TOP; plane <<= 1) {
         const double da = inside(view, plane, a), db = inside(view, plane, b);
         if (da < 0 && db < 0) return false;
-        if (da < 0) *t0 = fmax(*t0, da / (da - db));
-        if (db < 0) *t1 = fmin(*t1, da / (da - db));
+        if (da < 0) *t0 = dp_max(*t0, da / (da - db));
+        if (db < 0) *t1 = dp_min(*t1, da / (da - db));
     }
     return *t0 < *t1 && dp_clip_mix(a, b, *t0).w > 0 && dp_clip_mix(a, b, *t1).w > 0;
 }

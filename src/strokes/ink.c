@@ -6,7 +6,9 @@
  * each class is laid over the picture in the order of LAYERS.
  *
  * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke the
- * surface may come nearer (a valley's sides, a rounded outline) and still belong to it. */
+ * surface may come nearer (a valley's sides, a rounded outline) and still belong to it. It is cut so
+ * where outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
+ * looks like a defect, and strokes end round. */
 #include "strokes/stroke.h"
 
 #include "pipe/samples.h"
@@ -18,10 +20,10 @@ static const dp_line LAYERS[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTI
                                               DP_LINE_BORDER, DP_LINE_SILHOUETTE};
 
 /* How much nearer than the spine (in pixel sizes) a surface may be, at `distance` px from it, and still
- * not hide the stroke: sides that rise by up to four to one, and outlines that curve towards the eye
- * with a radius of up to an eighth of the picture (a circle rises by sqrt(2 r x)). */
+ * not hide the stroke: sides that rise by up to eight to one, and outlines that curve towards the eye
+ * with a radius of up to half the picture (a circle rises by sqrt(2 r x)). */
 static float nearer_allowed(const dp_frame *frame, float distance) {
-    return 2 + 4 * distance + sqrtf(0.25f * (float)frame->view.height * distance);
+    return 2 + 8 * distance + sqrtf((float)frame->view.height * distance);
 }
 
 static dp_tile_rect place(void *arg, uint32_t index, uint32_t worker) {
@@ -29,8 +31,8 @@ static dp_tile_rect place(void *arg, uint32_t index, uint32_t worker) {
     const dp_stroke *const s = &frame->strokes[index];
     (void)worker;
     const float r = s->half_width + 1;
-    const float x0 = fminf(s->a.x, s->b.x) - r, x1 = fmaxf(s->a.x, s->b.x) + r;
-    const float y0 = fminf(s->a.y, s->b.y) - r, y1 = fmaxf(s->a.y, s->b.y) + r;
+    const float x0 = dp_minf(s->a.x, s->b.x) - r, x1 = dp_maxf(s->a.x, s->b.x) + r;
+    const float y0 = dp_minf(s->a.y, s->b.y) - r, y1 = dp_maxf(s->a.y, s->b.y) + r;
     if (!(x1 > x0 && y1 > y0)) return (dp_tile_rect){0, 0, 0, 0};
     return (dp_tile_rect){(int32_t)floorf(x0 / DP_TILE), (int32_t)floorf(y0 / DP_TILE),
                           (int32_t)floorf(x1 / DP_TILE) + 1, (int32_t)floorf(y1 / DP_TILE) + 1};
@@ -40,7 +42,7 @@ static float distance_to(const dp_stroke *s, float x, float y, float *t) {
     const float ex = s->b.x - s->a.x, ey = s->b.y - s->a.y;
     const float length2 = ex * ex + ey * ey;
     const float along = length2 > 0 ? ((x - s->a.x) * ex + (y - s->a.y) * ey) / length2 : 0;
-    *t = fminf(fmaxf(along, 0), 1);
+    *t = dp_minf(dp_maxf(along, 0), 1);
     return hypotf(x - s->a.x - *t * ex, y - s->a.y - *t * ey);
 }
 
@@ -60,8 +62,8 @@ bool dp_bin_strokes(dp_frame *frame) {
 }
 
 static float coverage_at(float half_width, float distance) {
-    const float in = fminf(distance + 0.5f, half_width) - fmaxf(distance - 0.5f, -half_width);
-    return fminf(fmaxf(in, 0), 1);
+    const float in = dp_minf(distance + 0.5f, half_width) - dp_maxf(distance - 0.5f, -half_width);
+    return dp_minf(dp_maxf(in, 0), 1);
 }
 
 typedef struct tile_ink {
@@ -79,6 +81,7 @@ static bool on_plane(const float plane[3], float x, float y, float d, float tole
 /* Share of the pixel's samples that do not hide the stroke. */
 static float visible_share(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, float t,
                            float distance) {
+    if (!(ink->frame->lines & DP_SILHOUETTE)) return 1;
     const uint32_t samples = ink->frame->target.samples;
     const float *const depth = ink->depth + (size_t)((y - ink->y0) * DP_TILE + (x - ink->x0)) * samples;
     const float spine = s->a.d + (s->b.d - s->a.d) * t;
@@ -115,11 +118,11 @@ static bool row_span(const dp_stroke *s, float y, float r, float *x0, float *x1)
     float t0 = 0, t1 = 1;
     if (fabsf(ey) > 1e-6f) {
         const float u = (y - r - s->a.y) / ey, v = (y + r - s->a.y) / ey;
-        t0 = fmaxf(0, fminf(u, v)), t1 = fminf(1, fmaxf(u, v));
+        t0 = dp_maxf(0, dp_minf(u, v)), t1 = dp_minf(1, dp_maxf(u, v));
         if (t0 > t1) return false;
     }
     const float p = s->a.x + (s->b.x - s->a.x) * t0, q = s->a.x + (s->b.x - s->a.x) * t1;
-    *x0 = fminf(p, q) - r, *x1 = fmaxf(p, q) + r;
+    *x0 = dp_minf(p, q) - r, *x1 = dp_maxf(p, q) + r;
     return true;
 }
 
@@ -129,8 +132,8 @@ static uint32_t clamp_to(float v, uint32_t lo, uint32_t hi) {
 
 static void cover(const tile_ink *ink, const dp_stroke *s) {
     const float r = s->half_width + 0.5f;
-    const uint32_t y0 = clamp_to(fminf(s->a.y, s->b.y) - r, ink->y0, ink->y1);
-    const uint32_t y1 = clamp_to(fmaxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
+    const uint32_t y0 = clamp_to(dp_minf(s->a.y, s->b.y) - r, ink->y0, ink->y1);
+    const uint32_t y1 = clamp_to(dp_maxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
     for (uint32_t y = y0; y < y1; y++) {
         float from, to;
         if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;

@@ -6,13 +6,14 @@
  * does not depend on threads. */
 #include "strokes/stroke.h"
 
+#include "base/hostile.h"
 #include "pipe/classify.h"
 #include "pipe/crossing.h"
 #include "pipe/tile.h"
 
 #include <stdlib.h>
 
-enum { BLOCK = 4096 };
+enum { BLOCK = DP_TUNED(4096, 7) };
 
 void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory) {
     dp_free(memory, store->pieces);

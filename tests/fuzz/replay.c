@@ -1,5 +1,6 @@
 /* Runs a fuzzer's entry point over the files of directories, where libFuzzer is not there to do it:
- * what was once found stays found, with every compiler. One line per file, as the other tests print. */
+ * what was once found stays found, with every compiler. One line per file, as the other tests
+ * print. */
 #include <dirent.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,0 +1,177 @@
+/* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one depth.
+ *
+ * The paper's between-test finds them sample by sample; here it only says where to look. While a face is
+ * rasterized and falls close to what a sample already holds, the two planes are compared: if they
+ * cross within DP_WATCH_PX of the sample, its pixel is a suspect. As the two frontmost surfaces meet at
+ * every visible sample of a crossing, whichever comes first, one pass finds all of them. Around
+ * suspects, all pairs of polygons are then tested exactly, and each crossing segment becomes a
+ * candidate line like an edge, with the same probes.
+ *
+ * Data structure: polygons in lists by suspect pixel (`crowd`); a set of pairs that were tested. */
+#include "pipe/intersect.h"
+
+#include "pipe/crossing.h"
+
+#include <string.h>
+
+typedef struct dp_crowd {
+    uint32_t polygon;
+    uint32_t next; /* in the same pixel, or UINT32_MAX */
+} dp_crowd;
+
+/* How many corner positions two polygons share (their keys are hashes: a false match costs one
+ * crossing in four thousand million). */
+static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t fa = dp_first_corner(polygons, a), na = dp_corner_count(polygons, a);
+    const uint32_t fb = dp_first_corner(polygons, b), nb = dp_corner_count(polygons, b);
+    uint32_t shared = 0;
+    for (uint32_t i = 0; i < na; i++) {
+        const uint32_t key = frame->vertices[dp_corner_vertex(polygons, fa + i)].key;
+        for (uint32_t j = 0; j < nb; j++) shared += key == frame->vertices[dp_corner_vertex(polygons, fb + j)].key;
+    }
+    return shared;
+}
+
+void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth) {
+    const dp_tile_polygon *const p = &w->polygons[index];
+    for (uint32_t i = 0; i < 4; i++) {
+        const uint32_t other = w->winner[lane + i];
+        if (!close[i] || other == UINT32_MAX || other == index) continue;
+        const size_t pixel = (lane + i) / w->sampling.samples;
+        const uint32_t x = (uint32_t)pixel % DP_TILE, y = (uint32_t)pixel / DP_TILE;
+        const dp_tile_polygon *const q = &w->polygons[other];
+        if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) continue;
+        uint64_t *const row = &w->suspects[!(p->flags & q->flags & DP_POLYGON_FRONT)][y];
+        if (*row >> x & 1) continue;
+        const float reach = DP_WATCH_PX * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
+        if (fabsf(depth[i] - w->depth[lane + i]) > reach) continue;
+        if (!shared_corners(w->frame, p->id, q->id)) *row |= (uint64_t)1 << x;
+    }
+}
+
+/* Pixels and their neighbours. False when there are none. */
+static bool widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
+    uint64_t any = 0;
+    for (int y = 0; y < DP_TILE; y++) {
+        uint64_t r = pixels[y];
+        if (y > 0) r |= pixels[y - 1];
+        if (y + 1 < DP_TILE) r |= pixels[y + 1];
+        out[y] = r | r << 1 | r >> 1;
+        any |= r;
+    }
+    return any;
+}
+
+/* A front and a back face come close along every outline of a closed model. They cross in sight only
+ * where the back face is seen too: keeps the suspects near a pixel whose winner is a back face. */
+static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
+    uint64_t any = 0, seen[DP_TILE] = {0};
+    for (int y = 0; y < DP_TILE; y++) any |= suspects[y];
+    if (!any) return;
+    const uint32_t samples = w->sampling.samples;
+    for (size_t i = 0; i < w->frame->tile_samples; i++) {
+        const uint32_t winner = w->winner[i];
+        if (winner == UINT32_MAX || w->polygons[winner].flags & DP_POLYGON_FRONT) continue;
+        const size_t pixel = i / samples;
+        seen[pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+    }
+    uint64_t near[DP_TILE];
+    widen(seen, near);
+    for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
+}
+
+/* ------- pairs ------- */
+
+static bool grow_pairs(dp_tile_worker *w) {
+    const uint32_t slots = w->pair_slots ? 2 * w->pair_slots : 1024;
+    uint64_t *const pairs = dp_alloc_zeroed(&w->memory, slots * sizeof *pairs);
+    if (!pairs) {
+        w->failed = true;
+        return false;
+    }
+    for (uint32_t i = 0; i < w->pair_slots; i++) {
+        if (!w->pairs[i]) continue;
+        uint32_t s = (uint32_t)(w->pairs[i] * 0x9e3779b97f4a7c15u >> 32) & (slots - 1);
+        while (pairs[s]) s = (s + 1) & (slots - 1);
+        pairs[s] = w->pairs[i];
+    }
+    dp_free(&w->memory, w->pairs);
+    w->pairs = pairs;
+    w->pair_slots = slots;
+    return true;
+}
+
+/* Adds a pair to those tested; false when it was there. */
+static bool is_new_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
+    if (2 * (w->pair_count + 1) > w->pair_slots && !grow_pairs(w)) return false;
+    const uint64_t pair = (uint64_t)(a + 1) << 32 | (b + 1);
+    uint32_t s = (uint32_t)(pair * 0x9e3779b97f4a7c15u >> 32) & (w->pair_slots - 1);
+    for (; w->pairs[s]; s = (s + 1) & (w->pair_slots - 1))
+        if (w->pairs[s] == pair) return false;
+    w->pairs[s] = pair;
+    w->pair_count++;
+    return true;
+}
+
+/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. */
+static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+    bool nearer = false, further = false;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_point at = w->points[p->point + i];
+        const float gap = at.d - dp_plane_at(q, at.x, at.y);
+        nearer = nearer || gap >= 0;
+        further = further || gap <= 0;
+    }
+    return !(nearer && further);
+}
+
+static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
+    const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
+    if (p->x1 < q->x0 || q->x1 < p->x0 || p->y1 < q->y0 || q->y1 < p->y0) return;
+    const bool thin = (p->flags | q->flags) & DP_POLYGON_EDGE_ON;
+    if (!thin && (is_beside(w, p, q) || is_beside(w, q, p))) return;
+    if (shared_corners(w->frame, p->id, q->id) > 1 || !is_new_pair(w, a, b)) return;
+    dp_vec3 from, to, normal;
+    dp_spine spine;
+    if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
+    if (!dp_crossing_find(w->frame, p->id, q->id, &from, &to, &normal)) return;
+    if (!dp_spine_make(&w->frame->view, from, to, normal, &spine)) return;
+    dp_tile_add_candidate(w, (dp_candidate){.a = p->id, .b = q->id, .edge = DP_CROSSING, .line = DP_LINE_INTERSECTION},
+                          &spine);
+}
+
+/* ------- crowds ------- */
+
+/* Puts a polygon into the suspect pixels of its box and tests it against those already there. */
+static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[DP_TILE],
+                        uint32_t heads[DP_TILE][DP_TILE], uint32_t *count) {
+    const dp_tile_polygon *const p = &w->polygons[index];
+    const uint64_t span = (~(uint64_t)0 >> (63 - (p->x1 - p->x0))) << p->x0;
+    for (uint32_t y = p->y0; y <= p->y1; y++)
+        for (uint64_t bits = rows[y] & span; bits && !w->failed; bits &= bits - 1) {
+            uint32_t *const head = &heads[y][__builtin_ctzll(bits)];
+            for (uint32_t i = *head; i != UINT32_MAX; i = w->crowd[i].next) test_pair(w, w->crowd[i].polygon, index);
+            if (!DP_WORKER_RESERVE(w, crowd, crowd_cap, *count + 1u)) return;
+            w->crowd[*count] = (dp_crowd){index, *head};
+            *head = (*count)++;
+        }
+}
+
+void dp_tile_intersections(dp_tile_worker *w) {
+    uint64_t front[DP_TILE], back[DP_TILE];
+    uint32_t heads[DP_TILE][DP_TILE], count = 0;
+    keep_seen_back_faces(w, w->suspects[1]);
+    const bool mixed = widen(w->suspects[1], back);
+    for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
+    if (!widen(w->suspects[0], front)) return;
+    memset(heads, 0xff, sizeof heads);
+    if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
+    w->pair_count = 0;
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
+        if (p->flags & DP_POLYGON_FRONT) join_crowds(w, i, front, heads, &count);
+        else if (mixed) join_crowds(w, i, back, heads, &count);
+    }
+}

@@ -1,0 +1,209 @@
+/* mesh/source: arrays and callbacks as sources, tables that contradict themselves, extents. */
+#include <drypoint/source.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static const float quad[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0};
+static const uint32_t two_triangles[] = {0, 1, 2, 0, 2, 3};
+
+static dp_batch quad_batch(void) {
+    return (dp_batch){.positions = quad,
+                      .vertex_count = 4,
+                      .indices = two_triangles,
+                      .corner_count = 6,
+                      .polygon_count = 2};
+}
+
+static void arrays_come_once_per_rewind(void **state) {
+    (void)state;
+    const dp_batch arrays = quad_batch();
+    dp_source *source;
+    assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);
+    assert_true(dp_source_rewindable(source));
+    for (int round = 0; round < 2; round++) {
+        dp_batch batch;
+        assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+        assert_int_equal(batch.polygon_count, 2);
+        assert_int_equal(batch.position_stride, 12);
+        assert_true(batch.stable && batch.positions == quad);
+        assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+        assert_int_equal(batch.polygon_count, 0);
+        assert_int_equal(dp_source_rewind(source, NULL), DP_OK);
+    }
+    assert_null(dp_source_group_name(source, 0));
+    dp_source_destroy(source);
+    dp_source_destroy(NULL);
+}
+
+static void extent_counts_and_skips_what_is_not_usable(void **state) {
+    (void)state;
+    static const float positions[] = {-1, 0, 0, 2, 0, 5, 2, 1, 0, NAN, 1, 0, 99, 99, 99};
+    static const uint32_t indices[] = {0, 1, 2, /* */ 0, 1, 3, /* */ 0, 1, 7};
+    const dp_batch arrays = {.positions = positions,
+                             .vertex_count = 5,
+                             .indices = indices,
+                             .corner_count = 9,
+                             .polygon_count = 3};
+    dp_source *source;
+    dp_extent extent;
+    assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);
+    for (int round = 0; round < 2; round++) { /* it rewinds by itself */
+        assert_int_equal(dp_source_extent(source, &extent, NULL), DP_OK);
+        assert_int_equal(extent.polygons, 3);
+        assert_int_equal(extent.corners, 9);
+        assert_int_equal(extent.vertices, 5);
+        assert_int_equal(extent.not_finite, 1);
+        assert_int_equal(extent.bad_index, 1);
+        assert_true(extent.min[0] == -1 && extent.max[0] == 2 && extent.max[2] == 5);
+    }
+    dp_source_destroy(source);
+}
+
+static void the_extent_of_nothing_is_zero(void **state) {
+    (void)state;
+    const dp_batch arrays = {0};
+    dp_source *source;
+    dp_extent extent;
+    assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_source_extent(source, &extent, NULL), DP_OK);
+    assert_true(extent.min[0] == 0 && extent.max[0] == 0 && extent.polygons == 0);
+    dp_source_destroy(source);
+}
+
+/* An application's source that counts its calls and hands out whatever batch it is given. */
+typedef struct app {
+    dp_batch batch;
+    dp_result result;
+    int left, destroyed;
+} app;
+
+static dp_result app_next(void *user, dp_batch *batch, dp_diag *diag) {
+    app *const self = user;
+    assert_non_null(diag);
+    if (self->left-- > 0) *batch = self->batch;
+    return self->result;
+}
+static void app_destroy(void *user) { ((app *)user)->destroyed++; }
+
+static dp_source *open_app(app *self) {
+    const dp_source_callbacks callbacks = {.user = self, .next = app_next, .destroy = app_destroy};
+    dp_source *source = NULL;
+    assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, NULL), DP_OK);
+    return source;
+}
+
+static void a_stream_is_read_once_and_destroyed_once(void **state) {
+    (void)state;
+    app self = {.batch = quad_batch(), .left = 3};
+    dp_source *const source = open_app(&self);
+    assert_false(dp_source_rewindable(source));
+    dp_extent extent;
+    assert_int_equal(dp_source_extent(source, &extent, NULL), DP_OK);
+    assert_int_equal(extent.polygons, 6);
+    dp_diag diag;
+    assert_int_equal(dp_source_rewind(source, &diag), DP_ERR_UNSUPPORTED);
+    assert_int_equal(diag.result, DP_ERR_UNSUPPORTED);
+    assert_int_equal(self.destroyed, 0);
+    dp_source_destroy(source);
+    assert_int_equal(self.destroyed, 1);
+}
+
+static void a_failing_stream_always_says_something(void **state) {
+    (void)state;
+    app self = {.result = DP_ERR_IO};
+    dp_source *const source = open_app(&self);
+    dp_batch batch;
+    dp_diag diag = {0};
+    assert_int_equal(dp_source_next(source, &batch, &diag), DP_ERR_IO);
+    assert_int_equal(diag.result, DP_ERR_IO);
+    assert_true(diag.message[0] != 0);
+    dp_source_destroy(source);
+}
+
+static void tables_that_contradict_themselves_are_refused(void **state) {
+    (void)state;
+    static const uint32_t backwards[] = {0, 4, 3}, beyond[] = {0, 3, 7}, good[] = {0, 3, 6};
+    dp_batch bad[5];
+    for (int i = 0; i < 5; i++) bad[i] = quad_batch();
+    bad[0].corner_count = 5;
+    bad[1].firsts = backwards;
+    bad[2].firsts = beyond;
+    bad[3].positions = NULL;
+    bad[4].vertex_count = (size_t)UINT32_MAX + 1;
+    for (int i = 0; i < 5; i++) {
+        app self = {.batch = bad[i], .left = 1};
+        dp_source *const source = open_app(&self);
+        dp_batch batch;
+        assert_int_equal(dp_source_next(source, &batch, NULL), DP_ERR_ARGUMENT);
+        dp_source_destroy(source);
+    }
+    app self = {.batch = quad_batch(), .left = 1};
+    self.batch.firsts = good;
+    dp_source *const source = open_app(&self);
+    dp_batch batch;
+    assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+    dp_source_destroy(source);
+}
+
+/* An allocator that fails at its n-th call; everything is given back all the same. */
+typedef struct stingy {
+    int left, held;
+} stingy;
+
+static void *stingy_alloc(size_t size, void *user) {
+    stingy *const s = user;
+    if (s->left-- <= 0) return NULL;
+    s->held++;
+    return malloc(size);
+}
+static void *stingy_realloc(void *block, size_t size, void *user) {
+    stingy *const s = user;
+    if (s->left-- <= 0) return NULL;
+    if (!block) s->held++;
+    return realloc(block, size);
+}
+static void stingy_free(void *block, void *user) {
+    if (block) ((stingy *)user)->held--;
+    free(block);
+}
+
+static void failing_memory_leaves_nothing_behind(void **state) {
+    (void)state;
+    const dp_batch arrays = quad_batch();
+    dp_result result = DP_ERR_MEMORY;
+    for (int allowed = 0; result; allowed++) {
+        stingy s = {.left = allowed};
+        const dp_allocator memory = {stingy_alloc, stingy_realloc, stingy_free, &s};
+        dp_source *source;
+        dp_diag diag = {0};
+        result = dp_source_from_arrays(&arrays, &memory, &source, &diag);
+        if (result) {
+            assert_int_equal(result, DP_ERR_MEMORY);
+            assert_int_equal(diag.result, DP_ERR_MEMORY);
+            assert_null(source);
+        }
+        dp_source_destroy(source);
+        assert_int_equal(s.held, 0);
+        assert_true(allowed < 10);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(arrays_come_once_per_rewind),
+        cmocka_unit_test(extent_counts_and_skips_what_is_not_usable),
+        cmocka_unit_test(the_extent_of_nothing_is_zero),
+        cmocka_unit_test(a_stream_is_read_once_and_destroyed_once),
+        cmocka_unit_test(a_failing_stream_always_says_something),
+        cmocka_unit_test(tables_that_contradict_themselves_are_refused),
+        cmocka_unit_test(failing_memory_leaves_nothing_behind),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

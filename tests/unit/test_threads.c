@@ -1,0 +1,138 @@
+/* base/threads: every index once, no worker number twice at a time, on own and foreign threads. */
+#include "base/threads.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+enum { PIECES = 1000, LOOPS = 50 };
+
+typedef struct tally {
+    uint32_t workers;
+    atomic_uint done[PIECES];
+    atomic_uint busy[256];
+    atomic_uint overlaps, strangers;
+} tally;
+
+static void count_piece(void *arg, uint32_t index, uint32_t worker) {
+    tally *const t = arg;
+    if (worker >= t->workers) {
+        atomic_fetch_add(&t->strangers, 1);
+        return;
+    }
+    if (atomic_fetch_add(&t->busy[worker], 1)) atomic_fetch_add(&t->overlaps, 1);
+    atomic_fetch_add(&t->done[index], 1);
+    atomic_fetch_sub(&t->busy[worker], 1);
+}
+
+static void check_loops(dp_threads *threads) {
+    assert_non_null(threads);
+    static tally t;
+    t = (tally){.workers = dp_threads_count(threads)};
+    for (int i = 0; i < LOOPS; i++) dp_parallel(threads, PIECES, count_piece, &t);
+    for (int i = 0; i < PIECES; i++) assert_int_equal(atomic_load(&t.done[i]), LOOPS);
+    assert_int_equal(atomic_load(&t.overlaps), 0);
+    assert_int_equal(atomic_load(&t.strangers), 0);
+}
+
+static void every_piece_is_done_once_per_loop(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    for (uint32_t count = 1; count <= 9; count += 2) {
+        dp_threads *const threads = dp_threads_create(count, NULL, NULL, &memory);
+        check_loops(threads);
+        assert_int_equal(dp_threads_count(threads), count);
+        dp_threads_destroy(threads);
+    }
+}
+
+static void zero_means_a_thread_per_processor(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    dp_threads *const threads = dp_threads_create(0, NULL, NULL, &memory);
+    assert_true(dp_threads_count(threads) >= 1);
+    check_loops(threads);
+    dp_threads_destroy(threads);
+}
+
+static void no_work_calls_nobody(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    dp_threads *const threads = dp_threads_create(3, NULL, NULL, &memory);
+    dp_parallel(threads, 0, NULL, NULL);
+    dp_threads_destroy(threads);
+    dp_threads_destroy(NULL);
+}
+
+/* Results of one loop are visible to the next without anybody's locks. */
+typedef struct chain {
+    uint32_t values[2][PIECES]; /* read from one, written to the other */
+    int from;
+} chain;
+
+static void copy_and_add(void *arg, uint32_t index, uint32_t worker) {
+    chain *const c = arg;
+    (void)worker;
+    c->values[!c->from][index] = c->values[c->from][PIECES - 1 - index] + 1;
+}
+
+static void a_loop_sees_what_the_last_one_wrote(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    dp_threads *const threads = dp_threads_create(4, NULL, NULL, &memory);
+    static chain c;
+    for (int i = 0; i < LOOPS; i++, c.from = !c.from)
+        dp_parallel(threads, PIECES, copy_and_add, &c);
+    for (int i = 0; i < PIECES; i++) assert_int_equal(c.values[c.from][i], LOOPS);
+    dp_threads_destroy(threads);
+}
+
+/* An application's loop: more threads than workers were promised. */
+typedef struct crowd {
+    void (*task)(void *arg, uint32_t index);
+    void *arg;
+    uint32_t count;
+    atomic_uint next;
+} crowd;
+
+static void *crowd_main(void *arg) {
+    crowd *const c = arg;
+    for (uint32_t i; (i = atomic_fetch_add(&c->next, 1)) < c->count;) c->task(c->arg, i);
+    return NULL;
+}
+
+static void crowd_loop(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
+                       void *arg) {
+    pthread_t threads[4];
+    crowd c = {.task = task, .arg = arg, .count = count};
+    (*(int *)user)++;
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, crowd_main, &c), 0);
+    for (int i = 0; i < 4; i++) pthread_join(threads[i], NULL);
+}
+
+static void the_application_can_bring_its_own_threads(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    int calls = 0;
+    dp_threads *const threads = dp_threads_create(2, crowd_loop, &calls, &memory);
+    check_loops(threads);
+    assert_int_equal(calls, LOOPS);
+    dp_threads_destroy(threads);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_piece_is_done_once_per_loop),
+        cmocka_unit_test(zero_means_a_thread_per_processor),
+        cmocka_unit_test(no_work_calls_nobody),
+        cmocka_unit_test(a_loop_sees_what_the_last_one_wrote),
+        cmocka_unit_test(the_application_can_bring_its_own_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
