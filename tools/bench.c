@@ -64,10 +64,6 @@ static int measure(const tool_settings *s, bench *b) {
     int code = measure_model(s, b->source, &extent);
     if (!code) code = make_camera(s, &extent, &camera);
     if (code) return code;
-    if (!dp_source_rewindable(b->source)) {
-        wrong_usage("%s can be read only once; give a file to draw it many times", s->model);
-        return EXIT_FAILED;
-    }
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
     return draw_frames(b, &camera, &style, s->model);
 }

@@ -1,5 +1,6 @@
 /* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before the drawing is done. */
 #include "commands.h"
+#include "output.h"
 #include "progress.h"
 #include "report.h"
 
@@ -7,18 +8,12 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
-/* A picture is a PNG: any other ending is a slip. Devices and pipes have no ending. */
-static bool check_output(const char *path) {
-    struct stat status;
-    const char *const slash = strrchr(path, '/');
-    const char *const dot = strrchr(slash ? slash : path, '.');
-    if (!strcmp(path, "-") || (dot && !strcasecmp(dot, ".png"))) return true;
-    if (!stat(path, &status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return true;
+/* A picture is a PNG: any other ending is a slip. */
+static bool check_ending(const char *path) {
+    if (output_in_place(path) || output_has_ending(path, ".png")) return true;
     return wrong_usage("-o %s: pictures are written as PNG; name it %.*s.png", path,
-                       dot ? (int)(dot - path) : (int)strlen(path), path);
+                       output_stem(path), path);
 }
 
 typedef struct drawing {
@@ -86,7 +81,8 @@ static int run(const tool_settings *s, drawing *d) {
 }
 
 int command_draw(const tool_settings *s) {
-    if (!check_output(s->output)) return EXIT_USAGE;
+    if (!check_ending(s->output)) return EXIT_USAGE;
+    if (!output_possible(s->output)) return EXIT_FAILED;
     drawing d = {0};
     const int code = run(s, &d);
     dp_context_destroy(d.context);

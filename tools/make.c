@@ -1,13 +1,10 @@
 /* drypoint make SHAPE -o FILE: a generated model as a file, streamed. */
 #include "commands.h"
+#include "output.h"
 #include "progress.h"
 #include "report.h"
 
 #include <drypoint/io.h>
-
-#include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 /* By the ending; PLY for standard output, devices and pipes. */
 static bool file_kind(const char *path, dp_mesh_file *kind) {
@@ -16,17 +13,13 @@ static bool file_kind(const char *path, dp_mesh_file *kind) {
         dp_mesh_file kind;
     } endings[] = {
         {".ply", DP_MESH_FILE_PLY}, {".stl", DP_MESH_FILE_STL}, {".obj", DP_MESH_FILE_OBJ}};
-    struct stat status;
-    const char *const slash = strrchr(path, '/');
-    const char *const dot = strrchr(slash ? slash : path, '.');
-    for (size_t k = 0; dot && k < sizeof endings / sizeof *endings; k++) {
+    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
         *kind = endings[k].kind;
-        if (!strcasecmp(dot, endings[k].ending)) return true;
+        if (output_has_ending(path, endings[k].ending)) return true;
     }
     *kind = DP_MESH_FILE_PLY;
-    if (!strcmp(path, "-")) return true;
-    if (!stat(path, &status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return true;
-    const int stem = dot ? (int)(dot - path) : (int)strlen(path);
+    if (output_in_place(path)) return true;
+    const int stem = output_stem(path);
     return wrong_usage("-o %s: models are written as PLY, STL or OBJ; name it %.*s.ply, %.*s.stl or "
                        "%.*s.obj",
                        path, stem, path, stem, path, stem, path);
@@ -46,6 +39,7 @@ static int write_model(const tool_settings *s, dp_mesh_file kind, dp_source *sou
 int command_make(const tool_settings *s) {
     dp_mesh_file kind;
     if (!file_kind(s->output, &kind)) return EXIT_USAGE;
+    if (!output_possible(s->output)) return EXIT_FAILED;
     const dp_shape shape = {.name = s->model,
                             .triangles = s->triangles,
                             .size = s->shape_size,

@@ -1,5 +1,6 @@
 /* Opening models for every command: files, standard input, generated shapes. */
 #include "commands.h"
+#include "keep.h"
 #include "progress.h"
 #include "report.h"
 
@@ -53,7 +54,8 @@ int open_model(const tool_settings *s, dp_source **out) {
     const dp_file_options options = {.progress = progress_report};
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
-    const dp_result result = dp_io_open(s->model, &options, out, &diag);
+    dp_result result = dp_io_open(s->model, &options, out, &diag);
+    if (!result && !dp_source_rewindable(*out)) result = keep_source(out, &diag);
     progress_end();
     if (!result) return 0;
     report_failure(standard ? "standard input" : s->model, &diag);

@@ -30,21 +30,26 @@ static const option *find_letter(char letter, unsigned commands) {
     return NULL;
 }
 
+static const char *spoken_name(unsigned command) {
+    return command == COMMAND_DRAW ? "MODEL" : command_table[command].name;
+}
+
+static bool misplaced_option(const option *o, tool_command command) {
+    unsigned owner = 0;
+    while (!(o->commands >> owner & 1)) owner++;
+    return wrong_usage("option --%s does not belong to \"drypoint %s\" but to \"drypoint %s\"",
+                       o->name, spoken_name(command), spoken_name(owner));
+}
+
 static bool unknown_option(const char *name, tool_command command) {
     const unsigned here = 1u << command;
     const option *best = NULL;
     const option *const elsewhere = find_name(name, strlen(name), ~here);
+    if (elsewhere) return misplaced_option(elsewhere, command);
     for (const option *o = option_table; o < option_table + option_count; o++)
         if (o->commands & here && o->group != GROUP_HIDDEN &&
             (!best || spelling_distance(name, o->name) < spelling_distance(name, best->name)))
             best = o;
-    if (elsewhere) {
-        unsigned owner = 0;
-        while (!(elsewhere->commands >> owner & 1)) owner++;
-        return wrong_usage("option --%s does not belong to \"drypoint %s\" but to \"drypoint %s\"",
-                           name, *command_table[command].name ? command_table[command].name : "MODEL",
-                           *command_table[owner].name ? command_table[owner].name : "MODEL");
-    }
     return wrong_usage("unknown option --%s; did you mean --%s?", name, best->name);
 }
 
@@ -86,9 +91,12 @@ static bool take_long(walk *w, const char *text) {
 }
 
 static bool take_short(walk *w, const char *text) {
-    const option *const o = find_letter(*text, 1u << w->settings->command);
+    const unsigned here = 1u << w->settings->command;
+    const option *const o = find_letter(*text, here);
     if (o) return take_option(w, o, text[1] ? text + 1 : NULL);
-    const option *const whole = find_name(text, strcspn(text, "="), 1u << w->settings->command);
+    const option *const whole = find_name(text, strcspn(text, "="), here);
+    const option *const elsewhere = find_letter(*text, ~here);
+    if (elsewhere && !text[1]) return misplaced_option(elsewhere, w->settings->command);
     if (whole) return wrong_usage("unknown option -%s; did you mean --%s?", text, whole->name);
     return wrong_usage("unknown option -%c; did you mean -o, -q or -h?", *text);
 }

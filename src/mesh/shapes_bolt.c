@@ -135,6 +135,7 @@ void dp_build_bolt(dp_model *model) {
         dp_model_add(model, model->n[AROUND], PARTS * model->n[ROWS] * (TURNS + 1));
     thread->point = thread_point;
     thread->reversed = true;
+    thread->shrinks = true;
     add_end(model, HEAD_TOP, false);
     add_end(model, TIP_EDGE, true);
     const double low = thread_y(1, 1) - TIP;

@@ -123,16 +123,17 @@ static double noise(uint32_t seed, double x, double y) {
     return low * (1 - sv) + high * sv;
 }
 
-/* Octaves of folded noise, each weighted by the one before: sharp crests, smooth valley floors. */
+/* Octaves of folded noise, each weighted by the one before: crests above smooth valley floors. */
 static double height(uint32_t seed, double x, double y) {
-    enum { OCTAVES = 9 };
-    double sum = 0, amplitude = 1, frequency = 1.6, weight = 1;
+    enum { OCTAVES = 7 };
+    double sum = 0, amplitude = 1, frequency = 2.6, weight = 1;
     for (uint32_t k = 0; k < OCTAVES; k++) {
-        const double folded = 1 - fabs(noise(seed + k, x * frequency, y * frequency)) / 0.7;
+        const double n = noise(seed + k, (x + 7.37) * frequency, (y + 5.61) * frequency);
+        const double folded = 1 - sqrt(n * n + 0.004) / 0.7; /* a crest rounded a little */
         const double crest = folded * folded * weight;
         weight = crest < 0 ? 0 : crest > 1 ? 1 : crest;
         sum += crest * amplitude;
-        amplitude *= 0.5;
+        amplitude *= 0.42;
         frequency *= 2.03;
     }
     return sum;
@@ -142,12 +143,12 @@ static void terrain_point(const dp_model *model, const dp_sheet *sheet, uint32_t
                           double p[3]) {
     const double x = (double)i / sheet->nu, y = (double)j / sheet->nv;
     p[0] = 2 * x - 1;
-    p[1] = 0.36 * height(model->seed, x, y);
+    p[1] = 0.3 * height(model->seed, x, y);
     p[2] = 1 - 2 * y;
 }
 
 void dp_build_terrain(dp_model *model) {
     dp_model_add(model, model->fine, model->fine)->point = terrain_point;
     model->extent = 2;
-    model->centre[1] = 0.3;
+    model->centre[1] = 0.21; /* about; the box depends on the seed */
 }

@@ -151,6 +151,11 @@ uint64_t dp_model_triangles(const dp_model *model) {
 
 /* ---- a block of cells ---- */
 
+static uint32_t append(generator *self, const float p[3]) {
+    memcpy(self->points[self->point_count], p, 3 * sizeof *p);
+    return self->point_count++;
+}
+
 /* The batch's vertex at this position. */
 static uint32_t weld(generator *self, const float p[3]) {
     uint32_t bits[3];
@@ -163,20 +168,18 @@ static uint32_t weld(generator *self, const float p[3]) {
         slot *const s = &self->slots[at];
         if (s->batch != self->batch) {
             *s = (slot){self->point_count, self->batch};
-            memcpy(self->points[self->point_count], p, 3 * sizeof *p);
-            return self->point_count++;
+            return append(self, p);
         }
         if (!memcmp(self->points[s->vertex], p, 3 * sizeof *p)) return s->vertex;
     }
 }
 
-static uint32_t make_point(generator *self, const dp_sheet *sheet, uint32_t i, uint32_t j) {
+static void make_point(const generator *self, const dp_sheet *sheet, uint32_t i, uint32_t j,
+                       float q[3]) {
     double p[3];
-    float q[3];
     sheet->point(&self->model, sheet, i, j, p);
     for (int c = 0; c < 3; c++) /* + 0: minus zero becomes zero */
         q[c] = (float)((p[c] - self->model.centre[c]) * self->scale) + 0.0F;
-    return weld(self, q);
 }
 
 static void add_triangle(generator *self, bool reversed, uint32_t a, uint32_t b, uint32_t c) {
@@ -218,13 +221,25 @@ static void add_half_cell(generator *self, const dp_sheet *sheet, uint32_t rest,
 
 static uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-static void add_block(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0) {
-    const uint32_t w = smaller(BLOCK, sheet->nu - i0), h = smaller(BLOCK, sheet->nv - j0);
+/* Only points on the block's edge can be another block's too, unless cells shrink to nothing. */
+static void add_points(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0,
+                       uint32_t w, uint32_t h) {
     for (uint32_t j = 0; j <= h; j++)
         for (uint32_t i = 0; i <= w; i++) {
-            const bool outside = sheet->triangular && i0 + i + j0 + j > sheet->nu;
-            self->grid[j * (w + 1) + i] = outside ? 0 : make_point(self, sheet, i0 + i, j0 + j);
+            uint32_t *const at = self->grid + j * (w + 1) + i;
+            const uint32_t left = sheet->nu - (i0 + i);
+            float p[3];
+            *at = 0;
+            if (sheet->triangular && j0 + j > left) continue;
+            make_point(self, sheet, i0 + i, j0 + j, p);
+            const bool edge = !i || !j || i == w || j == h || (sheet->triangular && j0 + j == left);
+            *at = edge || sheet->shrinks ? weld(self, p) : append(self, p);
         }
+}
+
+static void add_block(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0) {
+    const uint32_t w = smaller(BLOCK, sheet->nu - i0), h = smaller(BLOCK, sheet->nv - j0);
+    add_points(self, sheet, i0, j0, w, h);
     for (uint32_t j = 0; j < h; j++)
         for (uint32_t i = 0; i < w; i++) {
             const uint32_t *const row = self->grid + j * (w + 1) + i;

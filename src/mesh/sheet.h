@@ -22,9 +22,10 @@ struct dp_sheet {
     uint32_t nu, nv;      /* cells; (u, v, outward) is right-handed */
     bool reversed;        /* … or left-handed */
     bool triangular;      /* only points with i + j <= nu; nv = nu */
+    bool shrinks;         /* cells inside may shrink to a line or point */
     int from, to;         /* what the point function makes of them: curves, say */
-    dp_curve *curve;      /* of dp_sheet_loft */
-    double corner[4][3];  /* of dp_sheet_bilinear and triangular faces */
+    dp_curve *curve;      /* of dp_model_loft */
+    double corner[4][3];  /* of dp_model_quad and _triangle */
 };
 
 struct dp_model {

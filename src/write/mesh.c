@@ -30,7 +30,7 @@ typedef struct writer {
     uint64_t vertices, polygons, triangles; /* of the whole source, once counted */
     uint32_t most_corners;                  /* of one polygon */
     uint64_t done;                          /* polygons handled so far, over all readings */
-    int readings;
+    int readings; /* that write; 0 while counting, when the end is unknown */
 } writer;
 
 /* What a reading does with a batch; `base` is the number of its first vertex. */
@@ -99,9 +99,11 @@ static dp_result count_batch(writer *w, const dp_batch *batch, uint64_t base) {
     return DP_OK;
 }
 
-static dp_result count(writer *w) {
+/* `readings` will follow that write. */
+static dp_result count(writer *w, int readings) {
     const dp_result result = read_source(w, count_batch);
     w->done = 0;
+    w->readings = readings;
     return result;
 }
 
@@ -171,11 +173,12 @@ static dp_result ply_polygon(writer *w, const dp_batch *batch, uint64_t base, si
     return result;
 }
 
-/* "prefix v v v\n"; with numbers from `origin` on. */
+/* "prefix v v v\n", vertices counted from `origin`; without a prefix the number of corners. */
 static dp_result text_polygon(writer *w, const dp_batch *batch, uint64_t origin, size_t first,
                               size_t last, const char *prefix) {
     char text[32];
-    dp_result result = put(w, prefix, strlen(prefix));
+    if (!prefix) snprintf(text, sizeof text, "%zu", last - first);
+    dp_result result = prefix ? put(w, prefix, strlen(prefix)) : put(w, text, strlen(text));
     for (size_t c = first; c < last && !result; c++)
         result = put_text(w, text,
                           snprintf(text, sizeof text, " %llu",
@@ -187,11 +190,9 @@ static dp_result ply_polygons(writer *w, const dp_batch *batch, uint64_t base) {
     dp_result result = DP_OK;
     for (size_t i = 0; i < batch->polygon_count && !result; i++) {
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
-        char corners[16];
         if (!usable(batch, first, last)) continue;
-        snprintf(corners, sizeof corners, "%zu", last - first);
         result = w->kind == DP_MESH_FILE_PLY ? ply_polygon(w, batch, base, first, last)
-                                             : text_polygon(w, batch, base, first, last, corners);
+                                             : text_polygon(w, batch, base, first, last, NULL);
     }
     return result;
 }
@@ -201,8 +202,7 @@ static dp_result write_ply(writer *w) {
         return dp_fail(w->diag, DP_ERR_UNSUPPORTED,
                        "a PLY needs its counts first, and this source can be read only once; "
                        "write an OBJ");
-    w->readings = 2;
-    dp_result result = count(w);
+    dp_result result = count(w, 2);
     if (!result && w->vertices > UINT32_MAX)
         result = dp_fail(w->diag, DP_ERR_LIMIT,
                          "a PLY numbers at most %u vertices, not %llu; write an STL", UINT32_MAX,
@@ -277,8 +277,7 @@ static dp_result write_stl_once(writer *w) {
 
 static dp_result write_stl(writer *w) {
     if (!dp_source_rewindable(w->source)) return write_stl_once(w);
-    w->readings = 1;
-    dp_result result = count(w);
+    dp_result result = count(w, 1);
     if (!result) result = stl_header(w, w->triangles);
     return result ? result : read_source(w, stl_triangles);
 }
@@ -299,9 +298,8 @@ static dp_result obj_batch(writer *w, const dp_batch *batch, uint64_t base) {
 
 static dp_result write_obj(writer *w) {
     char text[80];
-    w->readings = 1;
     dp_result result = DP_OK;
-    if (w->progress && dp_source_rewindable(w->source)) result = count(w); /* for the progress */
+    if (w->progress && dp_source_rewindable(w->source)) result = count(w, 1); /* for the progress */
     if (!result)
         result = put_text(w, text, snprintf(text, sizeof text, "# written by Drypoint %s\n",
                                             dp_version()));

@@ -1,0 +1,436 @@
+#!/usr/bin/env bash
+# Tests of the program as people meet it: exit codes, messages, what is left on disk.
+# Usage: run.sh PATH/TO/drypoint [NAME-PATTERN]. Prints TAP and a closing count.
+set -u
+program=$(realpath "${1:?usage: run.sh PATH/TO/drypoint [PATTERN]}")
+pattern=${2:-}
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d "${TMPDIR:-/tmp}/drypoint-cli-XXXXXX")
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+passed=0 failed=0 number=0 problem=
+
+# fail TEXT: the test that runs has failed; the first reason is told.
+fail() { [ -n "$problem" ] || problem=$1; }
+
+# run CODE ARGS...: runs the program; its exit code must be CODE. Fills out and err.
+run() {
+    local wanted=$1 code=0
+    shift
+    "$program" "$@" >out 2>err </dev/null || code=$?
+    [ "$code" = "$wanted" ] || fail "drypoint $*: exit code $code, not $wanted: $(head -c 300 err)"
+}
+
+# says FILE TEXT: a line of FILE holds TEXT.
+says() { grep -qF -e "$2" "$1" || fail "$1 does not say \"$2\" but: $(head -c 400 "$1")"; }
+silent() { [ ! -s "$1" ] || fail "$1 is not empty: $(head -c 300 "$1")"; }
+# one_line: errors are one line and begin with the program's name.
+one_line() {
+    [ "$(wc -l <err)" = 1 ] || fail "not one line: $(head -c 400 err)"
+    grep -q '^drypoint: ' err || fail "does not begin with drypoint: $(head -c 300 err)"
+}
+absent() { [ ! -e "$1" ] || fail "$1 is there"; }
+no_temporary() {
+    [ -z "$(find . -name '.drypoint-*')" ] || fail "a temporary file is left: $(find . -name '.drypoint-*')"
+}
+is_png() {
+    [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$1 is no PNG"
+    [ "$(tail -c 8 "$1" | head -c 4)" = IEND ] || fail "$1 is cut short"
+}
+# png_size FILE: width and height, from its header.
+png_size() { od -An -tu1 -j16 -N8 "$1" | awk '{print $1*16777216+$2*65536+$3*256+$4 "x" $5*16777216+$6*65536+$7*256+$8}'; }
+
+# wrong ARGS... -- TEXT: wrong usage that says TEXT, leaves nothing.
+wrong() {
+    local arguments=()
+    while [ "$1" != -- ]; do arguments+=("$1"); shift; done
+    run 2 "${arguments[@]}"
+    one_line
+    says err "$2"
+    silent out
+    absent out.png
+}
+
+# bad FILE TEXT: a model that cannot be drawn; TEXT is said, nothing is left.
+bad() {
+    run 1 "$1" -o out.png
+    one_line
+    says err "$2"
+    silent out
+    absent out.png
+    no_temporary
+}
+
+small="--size 160x120"
+
+# ---- what it does ----
+
+draws() {
+    run 0 shape:gear $small -o out.png
+    silent out
+    silent err
+    is_png out.png
+    [ "$(png_size out.png)" = 160x120 ] || fail "size is $(png_size out.png)"
+}
+default_size() {
+    run 0 shape:cube -o out.png
+    [ "$(png_size out.png)" = 1600x1200 ] || fail "size is $(png_size out.png)"
+}
+standard_output() {
+    run 0 shape:bolt $small -o -
+    is_png out
+    cp out first
+    run 0 shape:bolt $small -o out.png
+    cmp -s first out.png || fail "differs from the same picture in a file"
+}
+standard_input() {
+    run 0 make bracket -o b.stl
+    run 0 b.stl $small -o file.png
+    "$program" - $small -o - <b.stl >redirected.png || fail "redirected"
+    cat b.stl | "$program" - $small -o - >piped.png || fail "piped"
+    cmp -s file.png redirected.png || fail "standard input from a file differs"
+    cmp -s file.png piped.png || fail "standard input from a pipe differs"
+}
+same_for_any_threads() {
+    for threads in 1 2 7; do
+        run 0 shape:gear --size 320x240 --threads $threads -o $threads.png
+        cmp -s 1.png $threads.png || fail "$threads threads differ from one"
+    done
+}
+equals_sign() {
+    run 0 shape:cube --size=160x120 --width=silhouette=4,ridge=1 --color=valley=#f00 --output=out.png
+    run 0 shape:cube $small --width silhouette=4,ridge=1 --color valley=#ff0000 -oother.png
+    cmp -s out.png other.png || fail "--name=value differs from --name value"
+}
+every_option() {
+    run 0 shape:boxes $small --samples 8 --threads 2 --eye 3,2,4 --target 0,0,0 --up 0,1,0 --fov 30 \
+        --zoom 1.2 --lines silhouette,ridge,valley,intersection,border --width 3 --color '#204060' \
+        --paper '#FFFDF5' --surface '#EEEEEE' --ridge-angle 140 --valley-angle 220 --method exact \
+        --between plane --ink strokes --edge-table on --cull-back-faces --quiet -o out.png
+    run 0 shape:boxes $small --view iso --ortho 0 --azimuth 30 --elevation -20 --lines all \
+        --paper none --surface none -o out.png
+    is_png out.png
+}
+views_differ() {
+    for view in front back left right top bottom iso; do
+        run 0 shape:bracket $small --view $view -o $view.png
+    done
+    cmp -s front.png right.png && fail "front and right are the same"
+    cmp -s top.png bottom.png && fail "top and bottom are the same"
+    run 0 shape:bracket $small --azimuth 90 --elevation 0 -o angles.png
+    cmp -s right.png angles.png || fail "--view right differs from --azimuth 90 --elevation 0"
+}
+eye_alone_looks_at_the_centre() {
+    run 0 shape:cube $small --eye 5,3,5 --fov 30 -o a.png
+    run 0 shape:cube $small --eye 5,3,5 --fov 30 --target 0,0,0 -o b.png
+    cmp -s a.png b.png || fail "--eye alone does not look at the centre"
+    run 0 shape:cube $small -o a.png
+    run 0 shape:cube $small --target 0,0,0 -o b.png
+    cmp -s a.png b.png || fail "--target at the centre is not the fitted view"
+}
+made_models() {
+    for shape in cube tetrahedron sphere torus cylinder gear bolt bracket stairs boxes terrain; do
+        for ending in ply stl obj; do
+            run 0 make $shape -o $shape.$ending --triangles 2000
+            run 0 info --json $shape.$ending
+            says out '"dropped": 0'
+            [ $shape = terrain ] || says out '"open_edges": 0'
+            cp out $ending.json
+        done
+        [ "$(grep -o '"polygons": [0-9]*' stl.json)" = "$(grep -o '"polygons": [0-9]*' obj.json)" ] ||
+            fail "$shape: STL and OBJ differ"
+    done
+}
+sizes_and_seeds() {
+    run 0 make cube --size 7 -o c.obj
+    run 0 info --json c.obj
+    says out '"min": [-3.5, -3.5, -3.5]'
+    run 0 make terrain --seed 1 -o a.ply
+    run 0 make terrain --seed 2 -o b.ply
+    cmp -s a.ply b.ply && fail "seeds 1 and 2 are the same"
+}
+info_table() {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 9\n' >m.obj
+    run 0 info m.obj
+    says out 'polygons                         4'
+    says out 'open edges met                   3'
+    says out 'would be dropped                 3'
+    run 0 info m.obj --json
+    says out '"dropped_finite": 1'
+    says out '"dropped_index": 1'
+    says out '"dropped_area": 1'
+}
+stats() {
+    run 0 shape:cube $small --stats -o out.png
+    says err 'polygons'
+    silent out
+    run 0 shape:cube $small --stats json -o out.png
+    says out '"frame_ms"'
+    silent err
+    run 0 shape:cube $small --stats=json -o -
+    says err '"frame_ms"'
+    is_png out
+}
+bench_json() {
+    run 0 bench shape:gear $small --frames 3
+    silent err
+    for key in frames frame_ms frame_ms_min frame_ms_max stages triangles added_polygons segments \
+        width height samples threads; do
+        says out "\"$key\": "
+    done
+    [ "$(wc -l <out)" = 1 ] || fail "not one line"
+    ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null || fail "no JSON"
+}
+helps() {
+    for command in '' info make bench; do
+        run 0 $command --help
+        says out "Usage: drypoint $command"
+        says out 'Examples:'
+        silent err
+        [ "$(awk 'length > 80' out | grep -vc '^  drypoint')" = 0 ] || fail "lines longer than 80"
+    done
+    run 0 --help make
+    says out 'Usage: drypoint make'
+    run 0 -h
+    for name in size samples threads eye target up fov ortho view azimuth elevation zoom lines width \
+        color paper surface ridge-angle valley-angle method between ink passes stats quiet; do
+        says out "--$name"
+    done
+    run 0 --version
+    grep -qE '^drypoint [0-9]+\.[0-9]+\.[0-9]+$' out || fail "version: $(cat out)"
+}
+man_page() {
+    run 0 --man
+    cmp -s out "$here/../../docs/man/drypoint.1" ||
+        fail "docs/man/drypoint.1 is out of date: build/drypoint --man > docs/man/drypoint.1"
+}
+
+# ---- wrong usage ----
+
+nearest_option() {
+    wrong shape:cube --widht 3 -o out.png -- 'unknown option --widht; did you mean --width?'
+    wrong shape:cube --sample=8 -o out.png -- 'did you mean --samples?'
+    wrong shape:cube -width 3 -o out.png -- 'did you mean --width?'
+    wrong info --jsn x -- 'did you mean --json?'
+    wrong shape:cube --vew top -o out.png -- 'did you mean --view?'
+    wrong shape:cube --view topp -o out.png -- 'did you mean top?'
+    wrong shape:cube --lines ridge,vally -o out.png -- 'did you mean valley?'
+    wrong make geer -o out.ply -- 'did you mean "gear"?'
+    wrong shape:gaer -o out.png -- 'did you mean "gear"?'
+}
+wrong_values() {
+    for value in nan inf 3x '' 1e999 0x10 180 0 -5; do
+        wrong shape:cube --fov "$value" -o out.png -- '--fov: '
+    done
+    for value in 0 33000x10 10 x 10x 10x10x10 -1x5 1.5x2; do
+        wrong shape:cube --size "$value" -o out.png -- '--size: '
+    done
+    for value in 1,2 1,2,3,4 1,2,x nan,0,0 ,,; do
+        wrong shape:cube --eye "$value" -o out.png -- '--eye: '
+    done
+    for value in 0 65 ridge=0.1 ridge= =3 3,; do
+        wrong shape:cube --width "$value" -o out.png -- '--width: '
+    done
+    for value in red '#12345' '#GGGGGG' ridge=none; do
+        wrong shape:cube --color "$value" -o out.png -- '--color: '
+    done
+    wrong shape:cube --samples 3 -o out.png -- '1|4|8|16'
+    wrong shape:cube --threads 0 -o out.png -- '--threads: '
+    wrong shape:cube --elevation 91 -o out.png -- '--elevation: '
+    wrong shape:cube --ridge-angle 360 -o out.png -- '--ridge-angle: '
+    wrong shape:cube --stats=xml -o out.png -- '--stats: '
+    wrong shape:cube --quiet=1 -o out.png -- 'takes no value'
+    wrong bench shape:cube --frames 0 -- '--frames: '
+    wrong make cube -o out.ply --triangles 99999999999999999999 -- '--triangles: '
+    wrong shape:cube:12x -o out.png -- 'not a whole number'
+}
+missing_words() {
+    wrong -- 'no model given'
+    wrong shape:cube -- 'add -o OUT.png'
+    wrong make -o out.ply -- 'no shape given'
+    wrong make cube -- 'add -o OUT.ply'
+    wrong shape:cube -o -- 'needs a value'
+    wrong shape:cube --width --samples 4 -o out.png -- 'needs a value'
+    wrong shape:cube other.obj -o out.png -- 'one model at a time'
+    wrong info shape:cube --width 3 -- 'does not belong to'
+    wrong bench shape:cube -o out.png -- 'does not belong to'
+}
+wrong_endings() {
+    wrong shape:cube -o out.jpg -- 'out.png'
+    wrong shape:cube -o out -- 'out.png'
+    wrong make cube -o out.off -- 'out.ply'
+    absent out.jpg
+    absent out.off
+}
+contradictions() {
+    wrong shape:cube --fov 30 --ortho 2 -o out.png -- 'exclude each other'
+    wrong shape:cube --eye 1,2,3 --view top -o out.png -- '--eye already says'
+    wrong shape:cube --eye 1,2,3 --target 1,2,3 -o out.png -- 'the eye is where it looks at'
+}
+a_shape_is_no_file() {
+    run 1 gear -o out.png
+    one_line
+    says err 'shape:gear'
+    says err 'drypoint make gear'
+}
+
+# ---- bad input ----
+
+bad_files() {
+    bad missing.obj 'missing.obj: '
+    mkdir -p folder
+    bad folder 'folder: '
+    : >empty.ply
+    bad empty.ply 'empty.ply: '
+    printf 'v 0 0 0\nv 1 0 0\nv 0 one 0\nf 1 2 3\n' >number.obj
+    bad number.obj 'number.obj:3: '
+    printf 'v 0 0 0\n' >points.obj
+    bad points.obj 'points.obj: '
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' >index.obj
+    bad index.obj 'index.obj'
+    printf 'v 0 0 0\nv 1 0 0\nv inf 1 0\nf 1 2 3\n' >infinite.obj
+    bad infinite.obj 'infinite.obj'
+    printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
+    bad flat.obj 'flat.obj'
+    head -c 3000 /dev/urandom >noise.xyz
+    bad noise.xyz 'noise.xyz'
+}
+cut_files() {
+    run 0 make gear -o whole.ply
+    run 0 make gear -o whole.stl
+    head -c 100000 whole.ply >cut.ply
+    bad cut.ply 'cut.ply: byte '
+    head -c 100000 whole.stl >cut.stl
+    bad cut.stl 'cut.stl'
+}
+huge_counts() {
+    printf 'ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nelement face 4000000000\nproperty list uchar int vertex_indices\nend_header\n1234' >huge.ply
+    bad huge.ply 'huge.ply'
+    printf 'OFF\n4000000000 4000000000 0\n0 0 0\n' >huge.off
+    bad huge.off 'huge.off'
+}
+dropped_are_counted() {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 9\n' >some.obj
+    run 0 some.obj $small -o out.png
+    one_line
+    says err 'warning: 3 of 4 polygons dropped'
+    is_png out.png
+    run 0 some.obj $small --quiet -o out.png
+    silent err
+}
+
+# ---- outputs ----
+
+old_file_stays_on_error() {
+    echo old >out.png
+    run 1 missing.obj -o out.png
+    [ "$(cat out.png)" = old ] || fail "the old file is gone"
+    no_temporary
+}
+full_disk() {
+    [ -w /dev/full ] || return
+    run 1 shape:cube $small -o /dev/full
+    one_line
+    says err 'No space left on device'
+    run 1 make cube -o /dev/full
+    says err 'No space left on device'
+    "$program" shape:cube $small -o - >/dev/full 2>err && fail "no error on a full standard output"
+    says err 'No space left on device'
+    "$program" info shape:cube >/dev/full 2>err && fail "no error from info"
+    says err 'cannot write standard output'
+}
+devices() {
+    run 0 shape:cube $small -o /dev/null
+    [ -c /dev/null ] || fail "/dev/null is no device any more"
+    mkfifo pipe.png
+    cat pipe.png >through &
+    run 0 shape:cube $small -o pipe.png
+    wait $!
+    is_png through
+    [ -p pipe.png ] || fail "the pipe was replaced"
+}
+unwritable_places() {
+    run 1 shape:cube $small -o none/out.png
+    one_line
+    says err 'none/out.png'
+    [ "$(id -u)" = 0 ] && return # the superuser may write anywhere
+    mkdir closed
+    chmod a-w closed
+    run 1 shape:cube $small -o closed/out.png
+    says err 'closed/out.png'
+    says err 'Permission denied'
+}
+strange_names() {
+    run 0 shape:cube $small -o 'a b'\''c "d" – é.png'
+    is_png 'a b'\''c "d" – é.png'
+    run 0 make cube -o -x.obj
+    run 0 info -- -x.obj
+    local long
+    long=$(printf 'n%.0s' $(seq 1 250)).png
+    run 0 shape:cube $small -o "$long"
+    is_png "$long"
+    no_temporary
+}
+
+# interrupt SIGNAL SECONDS ARGS...: sends a signal that late; fills code.
+interrupt() {
+    local signal=$1 seconds=$2
+    shift 2
+    code=0
+    timeout --preserve-status -s "$signal" "$seconds" "$program" "$@" >out 2>err </dev/null || code=$?
+}
+interrupted() {
+    echo old >out.png
+    interrupt INT 0.7 shape:terrain:60000000 -o out.png
+    [ "$code" = 130 ] || fail "drawing: exit code $code"
+    [ "$(cat out.png)" = old ] || fail "drawing: the old file is gone"
+    echo old >out.stl
+    interrupt INT 0.7 make terrain --triangles 100000000 -o out.stl
+    [ "$code" = 130 ] || fail "writing: exit code $code"
+    [ "$(cat out.stl)" = old ] || fail "writing: the old file is gone"
+    interrupt TERM 0.7 make terrain --triangles 100000000 -o other.ply
+    [ "$code" = 143 ] || fail "SIGTERM: exit code $code"
+    absent other.ply
+    no_temporary
+}
+progress_on_a_terminal() {
+    command -v script >/dev/null || return
+    script -qec "$program make terrain --triangles 12000000 -o /dev/null" /dev/null >seen </dev/null
+    grep -q 'writing \[' seen || fail "no progress bar"
+    grep -q '%' seen || fail "no percent"
+    [ "$(tail -c 4 seen | od -An -c | tr -d ' \n')" = '\r033[K' ] || fail "the bar is not cleared"
+    script -qec "$program make terrain --triangles 12000000 --quiet -o /dev/null" /dev/null >seen </dev/null
+    [ ! -s seen ] || fail "--quiet shows something"
+    run 0 make terrain --triangles 12000000 -o /dev/null
+    silent err
+}
+
+tests="draws default_size standard_output standard_input same_for_any_threads equals_sign every_option
+    views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
+    man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
+    cut_files huge_counts dropped_are_counted old_file_stays_on_error full_disk devices unwritable_places
+    strange_names interrupted progress_on_a_terminal"
+
+for test in $tests; do
+    case $test in *"$pattern"*) ;; *) continue ;; esac
+    number=$((number + 1))
+    problem=
+    mkdir "$work/$test" && cd "$work/$test" || exit 1
+    $test
+    cd "$work" || exit 1
+    chmod -R u+w "$test"
+    rm -rf "$test"
+    if [ -z "$problem" ]; then
+        passed=$((passed + 1))
+        echo "ok $number - $test"
+    else
+        failed=$((failed + 1))
+        echo "not ok $number - $test"
+        echo "# $problem" | tr '\n' ' '
+        echo
+    fi
+done
+echo "1..$number"
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ] && [ "$number" -gt 0 ]

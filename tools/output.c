@@ -1,0 +1,50 @@
+/* Looking at an output's path before the work begins, so that no hour of drawing ends in a typing
+ * error. Not a promise: the writer checks again. */
+#include "output.h"
+#include "report.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char *name_of(const char *path) {
+    const char *const slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool output_in_place(const char *path) {
+    struct stat status;
+    if (!strcmp(path, "-")) return true;
+    return !stat(path, &status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+bool output_has_ending(const char *path, const char *ending) {
+    const char *const dot = strrchr(name_of(path), '.');
+    return dot && !strcasecmp(dot, ending);
+}
+
+int output_stem(const char *path) {
+    const char *const dot = strrchr(name_of(path), '.');
+    return (int)(dot ? (size_t)(dot - path) : strlen(path));
+}
+
+bool output_possible(const char *path) {
+    char directory[PATH_MAX];
+    struct stat status;
+    if (output_in_place(path)) return true;
+    const int length = (int)(name_of(path) - path);
+    snprintf(directory, sizeof directory, "%.*s", length ? length : 1, length ? path : ".");
+    if (stat(directory, &status))
+        return wrong_usage("cannot write %s: %s: %s; make the directory first", path, directory,
+                           strerror(errno));
+    if (!S_ISDIR(status.st_mode))
+        return wrong_usage("cannot write %s: %s is not a directory", path, directory);
+    if (access(directory, W_OK | X_OK) || (!access(path, F_OK) && access(path, W_OK)))
+        return wrong_usage("cannot write %s: %s; choose a place you may write to", path,
+                           strerror(errno));
+    return true;
+}

@@ -1,0 +1,16 @@
+/* Where results go: questions about an output's path, answered before any work is done. */
+#ifndef TOOL_OUTPUT_H
+#define TOOL_OUTPUT_H
+
+#include <stdbool.h>
+
+/* Standard output, a device or a pipe: has no ending to go by, and is written in place. */
+bool output_in_place(const char *path);
+/* ".png", in either case. */
+bool output_has_ending(const char *path, const char *ending);
+/* Length of the path without its ending. */
+int output_stem(const char *path);
+/* Can a file be made there? A message on stderr if not; the writing itself may still fail. */
+bool output_possible(const char *path);
+
+#endif
