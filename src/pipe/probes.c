@@ -127,7 +127,7 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 void dp_tile_probe(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
-        if (dp_is_surface(w, p)) hide_under(w, p);
+        if (dp_is_surface(w, p) && !(p->flags & DP_POLYGON_HIDDEN)) hide_under(w, p);
     }
     for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
 }
