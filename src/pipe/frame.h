@@ -18,6 +18,12 @@ typedef struct dp_vertex {
     uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
 } dp_vertex;
 
+/* True where a triangle's corners must go through clipping (x is NaN). */
+static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
+    const float sum = a.x + b.x + c.x;
+    return sum != sum;
+}
+
 /* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
 typedef struct dp_piece {
     uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */

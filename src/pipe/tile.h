@@ -92,7 +92,7 @@ struct dp_tile_worker {
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
     dp_tile_polygon *polygons;
-    dp_point *points;
+    dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     dp_edge_entry *edges;
     dp_meeting *meetings;
     uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
