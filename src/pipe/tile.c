@@ -49,6 +49,14 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     w->tile_x = tile % w->frame->tiles_x * DP_TILE;
     w->tile_y = tile / w->frame->tiles_x * DP_TILE;
     w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
+    dp_tile_pieces *const out = &w->frame->tile_pieces[tile];
+    out->first = first;
+    out->count = 0;
+    out->bare = dp_bins_tile_count(&w->frame->polygon_bins, tile) == 0;
+    if (out->bare) {
+        dp_tile_bare_surface(w);
+        return;
+    }
     clear(w);
     dp_tile_assemble(w);
     dp_tile_faces(w);
@@ -59,6 +67,5 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
         dp_tile_intersections(w);
         dp_tile_probe(w);
     }
-    w->frame->tile_pieces[tile].first = first;
-    w->frame->tile_pieces[tile].count = w->piece_count - first;
+    out->count = w->piece_count - first;
 }

@@ -141,6 +141,7 @@ void dp_tile_intersections(dp_tile_worker *worker);                        /* in
 void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+void dp_tile_bare_surface(dp_tile_worker *worker);
 
 /* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);
