@@ -1,6 +1,9 @@
 #!/bin/sh
-# accuracy.sh [OPTIONS]: the accuracy tests, then, where the independent oracle is at hand, its scores.
+# accuracy.sh [MODEL or FOLDER]...: how well pictures agree with exact visible lines, as tables: by the
+# project's own reference, then, where the independent oracle is at hand, by that.
 set -eu
 cd "$(dirname "$0")/.."
 scripts/check.sh accuracy
-if [ -e tests/accuracy/oracle.py ]; then exec python3 tests/accuracy/oracle.py --build build/check-gcc "$@"; fi
+build/check-gcc/tests/bench_accuracy "$@"
+echo
+exec python3 tests/accuracy/oracle.py --build build/check-gcc --quick

@@ -20,6 +20,7 @@ count() {
         split($0, part, "#"); id = part[2] + 0
         result[id] = ($0 ~ /\.\.\.+ +Passed +[0-9.]+ sec/) ? "passed" : "failed"
         if ($0 ~ /\*\*\*(Exception|Timeout)/) bad[id]++
+        if ($0 ~ /\*\*\*Skipped/) delete result[id]
         next
     }
     match($0, /^[0-9]+: /) {
@@ -61,8 +62,8 @@ phase() {
         cmake --build "build/$name" --parallel "$jobs" --target "$target"; } >"$log.build" 2>&1; then
         failed=$((failed + 1))
         printf 'does not build (%s)\n' "$log.build"
-        grep -E -A3 '(error|Error|warning):|undefined reference|^CMake Error' "$log.build" |
-            head -n 40 | sed 's/^/    /'
+        grep -E -A2 '(error|Error|warning):|undefined reference|^CMake Error' "$log.build" |
+            head -n 15 | sed 's/^/    /'
         return
     fi
     ctest --test-dir "build/$name" -V --no-tests=error --parallel "$jobs" "$@" >"$log" 2>&1

@@ -1,8 +1,8 @@
 /* Which format a stream is in: by its first bytes, and only then by its name.
  *
  * Looks at the window as it lies there and consumes nothing. An STL file of the binary kind has no
- * mark of its own (and may begin with "solid"): what gives it away is its size, and in a pipe, where
- * the size is unknown, triangles that make sense.
+ * mark of its own (and may begin with "solid"): what gives it away is its size, and in a pipe,
+ * where the size is unknown, triangles that make sense.
  *
  * Does not handle: UTF-16; compressed files, which are named in the message. */
 #include "io/readers.h"
@@ -219,9 +219,6 @@ static bool by_content(dp_stream *stream, dp_file_format *format) {
 }
 
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag) {
-    const bool any = dp_stream_have(stream, 1);
-    if (stream->result) return dp_stream_fail(stream, diag);
-    if (!any) return dp_fail(diag, DP_ERR_FORMAT, "the file is empty: export the model again");
     if (by_content(stream, format)) return DP_OK;
     const char *const advice = foreign(stream);
     if (advice) return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s", advice);

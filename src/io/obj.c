@@ -57,8 +57,12 @@ static dp_result find_group(obj *self) {
 }
 
 /* v, v/vt, v//vn or v/vt/vn at the cursor: only v counts. */
-static bool read_corner(dp_stream *stream, int64_t *index) {
-    const uint8_t *p = dp_number_int(stream->cursor, index);
+static inline bool read_corner(dp_stream *stream, int64_t *index) {
+    const uint8_t *p = stream->cursor;
+    uint32_t number = 0;
+    for (uint32_t digit; (digit = (uint32_t)*p - '0') <= 9; p++) number = number * 10 + digit;
+    *index = number;
+    if ((size_t)(p - stream->cursor) - 1 > 8) p = dp_number_int(stream->cursor, index);
     if (!p) return false;
     while (*p == '/' || *p == '-' || (*p >= '0' && *p <= '9')) p++;
     const bool ended = p == stream->end ? stream->at_end : *p <= ' ' || *p == '\\';

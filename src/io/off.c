@@ -27,15 +27,28 @@ static bool next_word(dp_stream *stream) {
     return false;
 }
 
-/* The letters of [ST][C][N][4][n]OFF, whose counts may follow without a blank. */
+/* Passes over [ST][C][N][4][n]OFF, whose counts may follow without a blank; false if it is none.
+ * *dimensions: the vertices have other than three coordinates. */
+static bool take_keyword(dp_stream *stream, bool *dimensions) {
+    const uint8_t *p = stream->cursor;
+    if (p[0] == 'S' && p[1] == 'T') p += 2;
+    p += *p == 'C';
+    p += *p == 'N';
+    *dimensions = *p == '4' || *p == 'n';
+    p += *p == '4';
+    p += *p == 'n';
+    if (p[0] != 'O' || p[1] != 'F' || p[2] != 'F') return false;
+    stream->cursor = p + 3;
+    return true;
+}
+
 static dp_result read_keyword(off *self) {
     dp_stream *const stream = self->stream;
     bool dimensions = false;
-    if (!next_word(stream)) return dp_text_expected(stream, self->diag, "the counts");
-    for (const uint8_t *p; p = stream->cursor, (*p | 0x20) >= 'a' && (*p | 0x20) <= 'z';
-         stream->cursor++)
-        dimensions |= *p == 'n';
-    if (*stream->cursor == '4' && stream->cursor[1] == 'O') dimensions = true;
+    if (!next_word(stream)) return dp_text_expected(stream, self->diag, "`OFF`");
+    const bool number = *stream->cursor >= '0' && *stream->cursor <= '9';
+    if (!take_keyword(stream, &dimensions) && !number)
+        return dp_text_expected(stream, self->diag, "`OFF`");
     if (dimensions)
         return dp_fail_line(self->diag, DP_ERR_UNSUPPORTED, stream->line,
                             "OFF with other than three coordinates: export it as plain OFF");
@@ -45,11 +58,26 @@ static dp_result read_keyword(off *self) {
                         "binary OFF: export it as ASCII OFF, PLY or STL");
 }
 
+/* A number that is not negative; what is none stays at the cursor, to be told. */
+static bool next_natural(dp_stream *stream, int64_t *value) {
+    next_word(stream);
+    const uint8_t *const start = stream->cursor;
+    if (!dp_text_int(stream, value)) return false;
+    if (*value < 0) stream->cursor = start;
+    return *value >= 0;
+}
+
 static dp_result read_count(off *self, const char *what, int64_t *count) {
-    next_word(self->stream);
-    if (!dp_text_int(self->stream, count) || *count < 0)
-        return dp_text_expected(self->stream, self->diag, "the number of %s", what);
-    return DP_OK;
+    if (next_natural(self->stream, count)) return DP_OK;
+    return dp_text_expected(self->stream, self->diag, "the number of %s", what);
+}
+
+/* `what` of vertex or face number `item` of `count` is not there. */
+static dp_result expected(off *self, const char *what, int64_t item, int64_t count) {
+    const dp_result result =
+        dp_text_expected(self->stream, self->diag, "%s %" PRId64 " of %" PRId64, what, item, count);
+    if (self->diag) self->diag->item = (uint64_t)item;
+    return result;
 }
 
 static dp_result read_vertex(off *self, int64_t vertex) {
@@ -58,9 +86,7 @@ static dp_result read_vertex(off *self, int64_t vertex) {
     for (int k = 0; k < 3; k++) {
         next_word(self->stream);
         if (!dp_text_float(self->stream, &to[k]))
-            return dp_text_expected(self->stream, self->diag,
-                                    "%c of vertex %" PRId64 " of %" PRId64, 'x' + k, vertex,
-                                    self->vertices);
+            return expected(self, "a coordinate of vertex", vertex, self->vertices);
     }
     dp_text_skip_line(self->stream);
     return DP_OK;
@@ -68,17 +94,12 @@ static dp_result read_vertex(off *self, int64_t vertex) {
 
 static dp_result read_face(off *self, int64_t face) {
     int64_t corners, index;
-    next_word(self->stream);
-    if (!dp_text_int(self->stream, &corners) || corners < 0)
-        return dp_text_expected(self->stream, self->diag,
-                                "the number of corners of face %" PRId64 " of %" PRId64, face,
-                                self->faces);
+    if (!next_natural(self->stream, &corners))
+        return expected(self, "the number of corners of face", face, self->faces);
     for (int64_t c = 0; c < corners; c++) {
         next_word(self->stream);
         if (!dp_text_int(self->stream, &index))
-            return dp_text_expected(self->stream, self->diag,
-                                    "a vertex number of face %" PRId64 " of %" PRId64, face,
-                                    self->faces);
+            return expected(self, "a vertex number of face", face, self->faces);
         if (!dp_builder_corner(self->builder, index))
             return dp_builder_fail(self->builder, self->diag);
     }

@@ -33,10 +33,17 @@ static dp_result read_as(dp_stream *stream, dp_file_format format, dp_source **o
     return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_open: %d is not a file format", (int)format);
 }
 
+/* Loads the first window. */
+static dp_result check_any(dp_stream *stream, dp_diag *diag) {
+    if (dp_stream_have(stream, 1)) return DP_OK;
+    if (stream->result) return dp_stream_fail(stream, diag);
+    return dp_fail(diag, DP_ERR_FORMAT, "the file is empty: export the model again");
+}
+
 dp_result dp_read_stream(dp_stream *stream, const char *name, dp_file_format format,
                          dp_source **out, dp_diag *diag) {
-    dp_result result = DP_OK;
-    if (format == DP_FORMAT_AUTO) result = dp_detect(stream, name, &format, diag);
+    dp_result result = check_any(stream, diag);
+    if (!result && format == DP_FORMAT_AUTO) result = dp_detect(stream, name, &format, diag);
     if (!result) result = read_as(stream, format, out, diag);
     if (result || format != DP_FORMAT_STL) dp_stream_close(stream); /* STL reads on */
     return result;

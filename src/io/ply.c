@@ -29,19 +29,29 @@ typedef struct ply {
 
 static const uint8_t size_of_type[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-/* The scalar's bytes as a number, whatever the machine's own order; NULL at the file's end. */
+/* Bytes of either order as a number, whatever the machine's own order. */
+static inline uint32_t load16(const uint8_t *p, bool big) {
+    return big ? (uint32_t)p[0] << 8 | p[1] : (uint32_t)p[1] << 8 | p[0];
+}
+static inline uint32_t load32(const uint8_t *p, bool big) {
+    if (big) return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+    return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
+}
+static inline uint64_t load(const uint8_t *p, size_t size, bool big) {
+    if (size == 4) return load32(p, big);
+    if (size == 1) return *p;
+    if (size == 2) return load16(p, big);
+    const uint64_t first = load32(p, big), second = load32(p + 4, big);
+    return big ? first << 32 | second : second << 32 | first;
+}
+
+/* The next scalar's bits; false at the file's end. */
 static inline bool take_bits(ply *self, dp_ply_type type, uint64_t *bits) {
     dp_stream *const stream = self->stream;
     const size_t size = size_of_type[type];
     if (!dp_stream_have(stream, size)) return false;
-    const uint8_t *const p = stream->cursor;
-    uint64_t value = 0;
-    if (self->header.encoding == DP_PLY_LITTLE)
-        for (size_t i = size; i > 0; i--) value = value << 8 | p[i - 1];
-    else
-        for (size_t i = 0; i < size; i++) value = value << 8 | p[i];
+    *bits = load(stream->cursor, size, self->header.encoding == DP_PLY_BIG);
     stream->cursor += size;
-    *bits = value;
     return true;
 }
 
@@ -133,14 +143,19 @@ static bool skip_scalars(ply *self, dp_ply_type type, uint64_t count) {
 
 static dp_result expected(ply *self, const char *what) {
     const char *const kind = dp_ply_kind_name(self->element->kind);
+    dp_result result;
     if (self->header.encoding == DP_PLY_ASCII)
-        return dp_text_expected(self->stream, self->diag, "%s of %s %" PRIu64 " of %" PRIu64, what,
+        result = dp_text_expected(self->stream, self->diag, "%s of %s %" PRIu64 " of %" PRIu64,
+                                  what, kind, self->item, self->element->count);
+    else if (self->stream->result)
+        result = dp_stream_fail(self->stream, self->diag);
+    else
+        result = dp_fail_offset(self->diag, DP_ERR_FORMAT, self->stream->loaded,
+                                "the file ends in %s %" PRIu64 " of %" PRIu64
+                                ": it is cut short, copy or export it again",
                                 kind, self->item, self->element->count);
-    if (self->stream->result) return dp_stream_fail(self->stream, self->diag);
-    return dp_fail_offset(self->diag, DP_ERR_FORMAT, self->stream->loaded,
-                          "the file ends in %s %" PRIu64 " of %" PRIu64
-                          ": it is cut short, copy or export it again",
-                          kind, self->item, self->element->count);
+    if (self->diag) self->diag->item = self->item;
+    return result;
 }
 
 static dp_result read_length(ply *self, const dp_ply_property *property, int64_t *length) {
@@ -154,9 +169,25 @@ static dp_result read_length(ply *self, const dp_ply_property *property, int64_t
                           "a list's length is %" PRId64 ": export the model again", *length);
 }
 
+/* The usual binary case, a few corners of 32 bits, without asking for each. How many were taken:
+ * none in other cases, fewer where memory is out; read_polygon goes on from there. */
+static inline int64_t take_corners(ply *self, dp_ply_type type, int64_t length) {
+    dp_stream *const stream = self->stream;
+    const bool usual = type == DP_PLY_INT32 || type == DP_PLY_UINT32;
+    if (!usual || self->header.encoding == DP_PLY_ASCII || length > 64) return 0;
+    if (!dp_stream_have(stream, 4 * (size_t)length)) return 0;
+    const bool big = self->header.encoding == DP_PLY_BIG;
+    int64_t taken = 0;
+    for (; taken < length; taken++, stream->cursor += 4) {
+        const uint32_t bits = load32(stream->cursor, big);
+        if (!dp_builder_corner(self->builder, int_of_bits(bits, type))) break;
+    }
+    return taken;
+}
+
 static dp_result read_polygon(ply *self, const dp_ply_property *property, int64_t length) {
     int64_t vertex;
-    for (int64_t i = 0; i < length; i++) {
+    for (int64_t i = take_corners(self, property->type, length); i < length; i++) {
         if (!next_int(self, property->type, &vertex)) return expected(self, "a vertex number");
         if (!dp_builder_corner(self->builder, vertex))
             return dp_builder_fail(self->builder, self->diag);

@@ -99,8 +99,11 @@ static dp_result read_element(header_reader *self) {
         if (strcmp(word, dp_ply_kind_name(kind)) == 0) element.kind = kind;
     int64_t count = -1;
     dp_text_blank(self->stream);
-    if (!dp_text_int(self->stream, &count) || count < 0)
+    const uint8_t *const number = self->stream->cursor;
+    if (!dp_text_int(self->stream, &count) || count < 0) {
+        self->stream->cursor = number; /* so that it is told */
         return dp_text_expected(self->stream, self->diag, "the number of %s elements", word);
+    }
     element.count = (uint64_t)count;
     if (!dp_reserve(&header->allocator, &header->elements, &header->element_capacity,
                     header->element_count + 1, sizeof *header->elements))

@@ -5,8 +5,8 @@
 #include "io/builder.h"
 #include "io/stream.h"
 
-/* The stream's format, from what it begins with, then from the ending of `name` (NULL allowed).
- * DP_ERR_UNSUPPORTED, DP_ERR_FORMAT (nothing in the file), or the stream's failure. */
+/* The stream's format, from what its first window holds, then from the ending of `name` (NULL
+ * allowed). DP_ERR_UNSUPPORTED. */
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag);
 /* Whether an STL file is the binary kind. */
 bool dp_detect_binary_stl(dp_stream *stream);

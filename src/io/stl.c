@@ -51,11 +51,12 @@ static uint32_t little32(const uint8_t *p) {
 
 static dp_result cut_short(stl *self) {
     if (self->stream->result) return dp_stream_fail(self->stream, &self->diag);
-    return dp_fail_offset(&self->diag, DP_ERR_FORMAT, self->stream->loaded,
-                          "binary STL that announces %" PRIu32
-                          " triangles ends in triangle %" PRIu64
-                          ": it is cut short, copy or export it again",
-                          self->announced, self->read);
+    dp_fail_offset(&self->diag, DP_ERR_FORMAT, self->stream->loaded,
+                   "binary STL that announces %" PRIu32 " triangles ends in triangle %" PRIu64
+                   ": it is cut short, copy or export it again",
+                   self->announced, self->read);
+    self->diag.item = self->read;
+    return DP_ERR_FORMAT;
 }
 
 static dp_result read_binary_header(stl *self) {
@@ -111,8 +112,10 @@ static dp_result read_binary(stl *self, size_t *count) {
 /* ------- ASCII ------- */
 
 static dp_result expected(stl *self, const char *what) {
-    return dp_text_expected(self->stream, &self->diag, "%s (triangle %" PRIu64 ")", what,
-                            self->read);
+    const dp_result result =
+        dp_text_expected(self->stream, &self->diag, "%s (triangle %" PRIu64 ")", what, self->read);
+    self->diag.item = self->read;
+    return result;
 }
 
 static bool next_is(stl *self, const char *word) {

@@ -17,13 +17,20 @@ static inline bool is_blank(uint8_t byte) {
 static inline bool is_line_end(uint8_t byte) { return byte == '\n' || byte == '\r'; }
 static inline bool ends_word(uint8_t byte) { return is_blank(byte) || is_line_end(byte); }
 
+/* Bytes of a backslash and the line end behind it, or 0. */
+static size_t continuation(const uint8_t *p) {
+    if (p[0] != '\\') return 0;
+    if (p[1] == '\r' && p[2] == '\n') return 3;
+    return is_line_end(p[1]) ? 2 : 0;
+}
+
 /* At a line end: behind it. The window holds the LF of a CR LF. */
 static inline const uint8_t *pass_line_end(dp_stream *stream, const uint8_t *p) {
     stream->line += p[0] == '\n' || p[1] != '\n';
     return p + 1;
 }
 
-bool dp_text_space(dp_stream *stream) {
+bool dp_text_space_slow(dp_stream *stream) {
     for (;;) {
         const uint8_t *p = stream->cursor;
         while (p < stream->limit) {
@@ -41,14 +48,7 @@ bool dp_text_space(dp_stream *stream) {
     }
 }
 
-/* Bytes of a backslash and the line end behind it, or 0. */
-static size_t continuation(const uint8_t *p) {
-    if (p[0] != '\\') return 0;
-    if (p[1] == '\r' && p[2] == '\n') return 3;
-    return is_line_end(p[1]) ? 2 : 0;
-}
-
-bool dp_text_blank(dp_stream *stream) {
+bool dp_text_blank_slow(dp_stream *stream) {
     for (;;) {
         const uint8_t *p = stream->cursor;
         while (is_blank(*p)) p++;
@@ -88,7 +88,7 @@ void dp_text_skip_word(dp_stream *stream) {
 /* Whether a number that stops at `p` is the whole word, and passes over it. */
 static inline bool take(dp_stream *stream, const uint8_t *p) {
     if (!p) return false;
-    if (p == stream->end ? !stream->at_end : !ends_word(*p)) return false;
+    if (p == stream->end ? !stream->at_end : !ends_word(*p) && !continuation(p)) return false;
     stream->cursor = p;
     return true;
 }
@@ -97,7 +97,7 @@ bool dp_text_float(dp_stream *stream, float *value) {
     return take(stream, dp_number_float(stream->cursor, value));
 }
 
-bool dp_text_int(dp_stream *stream, int64_t *value) {
+bool dp_text_int_slow(dp_stream *stream, int64_t *value) {
     return take(stream, dp_number_int(stream->cursor, value));
 }
 
@@ -142,7 +142,7 @@ void dp_text_skip_mark(dp_stream *stream) {
 /* The word at the cursor, cut and made printable: it may be binary. */
 static void quote(dp_stream *stream, char *text, size_t size) {
     const size_t length = dp_text_word(stream, text, size);
-    for (char *p = text; *p; p++)
+    for (char *p = text; p < text + length && p < text + size - 1; p++)
         if ((uint8_t)*p < ' ' || (uint8_t)*p >= 0x7f) *p = '?';
     if (length >= size) memcpy(text + size - 4, "...", 4);
 }

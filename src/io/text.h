@@ -1,4 +1,4 @@
-/* Words and numbers from a stream of text. */
+/* Words and numbers from a stream of text. What most words and numbers need is inline. */
 #ifndef DP_IO_TEXT_H
 #define DP_IO_TEXT_H
 
@@ -6,9 +6,25 @@
 #include "io/stream.h"
 
 /* To the next word, across line ends; false at the end of the text. */
-bool dp_text_space(dp_stream *stream);
+bool dp_text_space_slow(dp_stream *stream);
+static inline bool dp_text_space(dp_stream *stream) {
+    const uint8_t *p = stream->cursor;
+    if (p >= stream->limit) return dp_text_space_slow(stream);
+    p += *p == ' '; /* one blank between two words is the rule */
+    if (*p <= ' ' || p >= stream->limit) return dp_text_space_slow(stream);
+    stream->cursor = p;
+    return true;
+}
 /* To the next word of this line, across a backslash before a line end; false at the line's end. */
-bool dp_text_blank(dp_stream *stream);
+bool dp_text_blank_slow(dp_stream *stream);
+static inline bool dp_text_blank(dp_stream *stream) {
+    const uint8_t *p = stream->cursor;
+    if (p >= stream->limit) return dp_text_blank_slow(stream);
+    p += *p == ' ';
+    if (*p <= ' ' || *p == '\\' || p >= stream->limit) return dp_text_blank_slow(stream);
+    stream->cursor = p;
+    return true;
+}
 /* Behind this line's end. */
 void dp_text_skip_line(dp_stream *stream);
 /* Behind this word. */
@@ -17,7 +33,17 @@ void dp_text_skip_word(dp_stream *stream);
 /* The number at the cursor. False, with the cursor left before it, where there is none or where
  * something sticks to it. */
 bool dp_text_float(dp_stream *stream, float *value);
-bool dp_text_int(dp_stream *stream, int64_t *value);
+bool dp_text_int_slow(dp_stream *stream, int64_t *value);
+static inline bool dp_text_int(dp_stream *stream, int64_t *value) {
+    const uint8_t *p = stream->cursor;
+    uint32_t number = 0;
+    for (uint32_t digit; (digit = (uint32_t)*p - '0') <= 9; p++) number = number * 10 + digit;
+    const size_t digits = (size_t)(p - stream->cursor);
+    if (digits - 1 > 8 || (*p != ' ' && *p != '\n')) return dp_text_int_slow(stream, value);
+    stream->cursor = p;
+    *value = number;
+    return true;
+}
 
 /* The word at the cursor, cut to size - 1 bytes; its full length. */
 size_t dp_text_word(dp_stream *stream, char *word, size_t size);

@@ -97,7 +97,7 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
                        dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
         return;
     const uint32_t b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id;
-    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = b, .edge = e->edge_a, .line = (uint8_t)line},
+    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
                           &spine);
 }
 
@@ -176,20 +176,34 @@ static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
     add_fold(w, e, &fold);
 }
 
-static void resolve_border(dp_tile_worker *w, const dp_edge_entry *e) {
-    dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[e->a].id);
-    if (!(w->polygons[e->a].flags & DP_POLYGON_FRONT)) normal = dp_scale(normal, -1);
-    add_line(w, e, DP_LINE_BORDER, normal);
+static void leave(dp_tile_worker *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_WORKER_RESERVE(w, loose, loose_cap, w->loose_count + 1u)) return;
+    w->loose[w->loose_count++] = (dp_loose_edge){polygon, edge};
+}
+
+/* Every edge of every polygon is left to emerge (dp_style.edge_table_off). */
+static void leave_all(dp_tile_worker *w) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+        for (uint32_t e = 0; e < n; e++)
+            if ((!polygons->edge_flags || polygons->edge_flags[first + e]) && near_tile(w, p, e)) leave(w, i, e);
+    }
 }
 
 void dp_tile_edges(dp_tile_worker *w) {
+    if (w->frame->styles[0].edge_table_off) {
+        leave_all(w);
+        return;
+    }
     if (!clear_table(w)) return;
     for (uint32_t i = 0; i < w->polygon_count; i++) insert_polygon(w, i);
     for (uint32_t i = 0; i < w->edge_count && !w->failed; i++) {
         const dp_edge_entry *const e = &w->edges[i];
-        if (e->met == 1) resolve_border(w, e);
+        if (e->met == 1) leave(w, e->a, e->edge_a);
         else if (e->met == 2 && e->opposed) resolve_pair(w, e);
         else resolve_fan(w, e);
-        w->stats.edges_resolved++;
+        w->stats.edges_resolved += e->met > 1;
     }
 }

@@ -243,11 +243,14 @@ def missed_figures(case):
 
 
 def width_error(case):
-    """Relative error of the median width over long edges; None where there are too few."""
+    """Relative error of the median width over long edges; None where there are too few. The oracle
+    adds up all ink within three widths, neighbouring lines' too: a median that is too wide says
+    something only where the widths hardly vary."""
     s = case.scores
     if s["width_median"] <= 0 or s["truth_samples"] < WIDTH_EDGES * case.width:
         return None
-    return s["width_median"] / case.width - 1
+    off = s["width_median"] / case.width - 1
+    return None if off > 0 and s["width_spread"] > WIDTH_TOLERANCE * case.width else off
 
 
 def print_table(cases):

@@ -1,0 +1,27 @@
+#!/bin/sh
+# hostile.sh HOSTILE REFERENCE: both builds of the program draw the same pictures, byte for byte: tiles,
+# batches and chunks may be of any size. 77 where the reference has not been built.
+set -eu
+hostile=$1 reference=$2
+[ -x "$reference" ] || exit 77
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+same() {
+    name=$1
+    shift
+    "$hostile" "$@" --size 500x400 --threads 3 --quiet -o "$work/hostile.png"
+    "$reference" "$@" --size 500x400 --quiet -o "$work/reference.png"
+    if cmp -s "$work/hostile.png" "$work/reference.png"; then
+        echo "ok $name"
+    else
+        echo "not ok $name"
+        failed=1
+    fi
+}
+for shape in $("$reference" make --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
+    "$reference" make "$shape" -o "$work/$shape.ply" --quiet 2>/dev/null || continue
+    same "$shape" "$work/$shape.ply"
+    same "$shape, 12 px, orthographic" "$work/$shape.ply" --width 12 --ortho 3
+done
+exit $failed

@@ -1,0 +1,122 @@
+/* dp_io_open: own formats by own readers, others through Assimp with their transforms and names. */
+#include "reading.h"
+
+#include <drypoint/io.h>
+
+/* AC3D: a square moved by (10, 0, 0), the same one mirrored, and a line. */
+#define QUAD                                                                                       \
+    "numvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF 0x10\nmat 0\nrefs 4\n0 0 0\n1 0 0\n"   \
+    "2 0 0\n3 0 0\nkids 0\n"
+#define AC3D                                                                                       \
+    "AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"              \
+    "OBJECT world\nkids 3\nOBJECT poly\nname \"moved\"\nloc 10 0 0\n" QUAD                         \
+    "OBJECT poly\nname \"mirrored\"\nrot -1 0 0 0 1 0 0 0 1\n" QUAD                                \
+    "OBJECT poly\nname \"line\"\nnumvert 2\n0 0 0\n1 0 0\nnumsurf 1\nSURF 0x12\nmat 0\nrefs 2\n"   \
+    "0 0 0\n1 0 0\nkids 0\n"
+
+static const char *trace_file(const char *ending, const char *content,
+                              const dp_file_options *options) {
+    const char *const path = write_file(ending, content, strlen(content));
+    dp_source *source = NULL;
+    dp_diag diag;
+    const dp_result result = dp_io_open(path, options, &source, &diag);
+    const char *const text = trace_opened(result, source, &diag);
+    if (strstr(text, path)) fail_msg("the message names the file: %s", text);
+    unlink(path);
+    return text;
+}
+
+static void own_formats_come_through_own_readers(void **state) {
+    (void)state;
+    assert_string_equal(trace_file(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", NULL),
+                        "(0 0 0)(1 0 0)(out)\n"); /* Assimp would refuse */
+    assert_contains(trace_file(".obj", "v 0 0 zero\n", NULL),
+                    "at line 1, byte 0: expected a vertex's z");
+}
+
+static void scenes_are_transformed_and_named(void **state) {
+    (void)state;
+    const char *const text = trace_file(".ac", AC3D, NULL);
+    assert_contains(text, "(10 0 0)(11 0 0)(11 1 0)(10 1 0)@moved");
+    assert_contains(text, "(0 1 0)(-1 1 0)(-1 0 0)(0 0 0)@mirrored");
+    const char *const end = strrchr(text, '@');
+    assert_true(end && !strstr(text, "line"));
+}
+
+static void what_assimp_refuses_is_said_in_one_line(void **state) {
+    (void)state;
+    const char *const text = trace_file(".ac", "AC3Db rubbish \x01\n", NULL);
+    assert_true(!strchr(text, '\n'));
+    assert_contains(trace_file(".dae", "<?xml version=\"1.0\"?>\n<nothing/>\n", NULL),
+                    "Assimp cannot read it: ");
+    assert_contains(trace_file(".xyzzy", "hello\n", NULL), "not in a known format");
+    assert_contains(trace_file(".gz", "\x1f\x8b\x08 x", NULL), "unpack it first");
+}
+
+static void wrong_calls_are_refused(void **state) {
+    dp_source *source = NULL;
+    dp_diag diag;
+    (void)state;
+    assert_int_equal(dp_io_open("/nonexistent.fbx", NULL, &source, &diag), DP_ERR_IO);
+    assert_int_equal(dp_io_open(NULL, NULL, &source, &diag), DP_ERR_ARGUMENT);
+    assert_int_equal(dp_io_open("x", NULL, NULL, NULL), DP_ERR_ARGUMENT);
+    const dp_file_options options = {.format = DP_FORMAT_OBJ};
+    assert_contains(trace_file(".ac", AC3D, &options), "no polygons"); /* a named format is final */
+}
+
+static int stop_at_end(void *user, double fraction) {
+    ++*(int *)user;
+    return fraction == 1;
+}
+
+static void reading_is_stopped(void **state) {
+    int calls = 0;
+    const dp_file_options options = {.progress = stop_at_end, .user = &calls};
+    (void)state;
+    assert_contains(trace_file(".ac", AC3D, &options), "cancelled");
+    assert_true(calls > 0);
+}
+
+/* The n-th allocation fails; Assimp's own are not ours to count. */
+static int until_failure;
+static void *failing_alloc(size_t size, void *user) {
+    (void)user;
+    return until_failure-- ? malloc(size) : NULL;
+}
+static void *failing_realloc(void *block, size_t size, void *user) {
+    (void)user;
+    return until_failure-- ? realloc(block, size) : NULL;
+}
+static void failing_free(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+static void failing_allocations_are_reported(void **state) {
+    const dp_allocator memory = {failing_alloc, failing_realloc, failing_free, NULL};
+    const dp_file_options options = {.allocator = &memory};
+    int failures = 0;
+    (void)state;
+    for (int n = 0; n < 100; n++) {
+        until_failure = n;
+        const char *const text = trace_file(".ac", AC3D, &options);
+        if (until_failure >= 0) break;
+        if (strstr(text, "out of memory"))
+            failures++;
+        else
+            assert_contains(text, "@moved"); /* an array that could not be cut to size */
+    }
+    assert_true(failures > 5 && until_failure >= 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(own_formats_come_through_own_readers),
+        cmocka_unit_test(scenes_are_transformed_and_named),
+        cmocka_unit_test(what_assimp_refuses_is_said_in_one_line),
+        cmocka_unit_test(wrong_calls_are_refused),
+        cmocka_unit_test(reading_is_stopped),
+        cmocka_unit_test(failing_allocations_are_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
