@@ -18,6 +18,12 @@ typedef struct dp_vertex {
     uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
 } dp_vertex;
 
+/* True where a triangle's corners must go through clipping (x is NaN). */
+static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
+    const float sum = a.x + b.x + c.x;
+    return sum != sum;
+}
+
 /* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
 typedef struct dp_piece {
     uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
@@ -43,7 +49,8 @@ typedef struct dp_frame {
     const dp_style *styles; /* by group, resolved; [style_count] */
     uint32_t style_count;
     dp_target target;
-    uint32_t lines; /* classes that any group draws */
+    uint32_t lines;     /* classes that any group draws */
+    float flat_cosine;  /* normals closer than this make no fold, whatever the group; above 1: unknown */
 
     dp_polygons polygons;
     dp_vertex *vertices;

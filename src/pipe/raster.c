@@ -12,9 +12,9 @@ typedef struct edge {
     float threshold;
 } edge;
 
-static edge edge_setup(dp_point p, dp_point q, bool flip) {
+static edge edge_setup(dp_vertex p, dp_vertex q, bool flip) {
     const bool swap = p.y > q.y || (p.y == q.y && p.x > q.x);
-    const dp_point s = swap ? q : p, t = swap ? p : q;
+    const dp_vertex s = swap ? q : p, t = swap ? p : q;
     const float a = s.y - t.y, b = t.x - s.x;
     const float c = -(a * s.x + b * s.y);
     const bool negative = swap != flip;
@@ -82,7 +82,7 @@ static float min3(float a, float b, float c) { return dp_minf(a, dp_minf(b, c));
 static float max3(float a, float b, float c) { return dp_maxf(a, dp_maxf(b, c)); }
 static int clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v; }
 
-static void raster_triangle(dp_tile_worker *w, dp_point a, dp_point b, dp_point c,
+static void raster_triangle(dp_tile_worker *w, dp_vertex a, dp_vertex b, dp_vertex c,
                             const dp_tile_polygon *p, uint32_t index) {
     const float x0 = min3(a.x, b.x, c.x), x1 = max3(a.x, b.x, c.x);
     const float y0 = min3(a.y, b.y, c.y), y1 = max3(a.y, b.y, c.y);
@@ -103,7 +103,7 @@ static void raster_triangle(dp_tile_worker *w, dp_point a, dp_point b, dp_point 
 }
 
 void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index) {
-    const dp_point *const p = worker->points + polygon->point;
+    const dp_vertex *const p = worker->points + polygon->point;
     for (uint32_t i = 2; i < polygon->points; i++)
         raster_triangle(worker, p[0], p[i - 1], p[i], polygon, index);
 }

@@ -43,13 +43,6 @@ static void clear(dp_tile_worker *w) {
     w->candidate_count = w->probe_count = w->loose_count = 0;
 }
 
-static void draw_faces(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (dp_is_surface(w, p)) dp_tile_raster(w, p, i);
-    }
-}
-
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     const size_t first = w->piece_count;
     w->tile = tile;
@@ -58,7 +51,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
     clear(w);
     dp_tile_assemble(w);
-    draw_faces(w);
+    dp_tile_faces(w);
     dp_tile_surface(w);
     if (w->frame->lines) {
         dp_tile_edges(w);
