@@ -75,8 +75,10 @@ static int run(const tool_settings *s, bench *b) {
     b->frames = calloc(b->count, sizeof *b->frames);
     double *const times = calloc(b->count, sizeof *times);
     int code = EXIT_FAILED;
-    if (b->target.rgba && b->frames && times) code = open_model(s, &b->source);
-    else wrong_usage("out of memory for the picture; give a smaller --size");
+    if (b->target.rgba && b->frames && times)
+        code = open_model(s, &b->source);
+    else
+        wrong_usage("out of memory for the picture; give a smaller --size");
     if (b->source) code = measure(s, b);
     if (!code) print_result(s, b, times);
     free(times);

@@ -1,4 +1,4 @@
-/* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before the drawing is done. */
+/* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before all is drawn. */
 #include "commands.h"
 #include "output.h"
 #include "progress.h"
@@ -40,8 +40,7 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     }
     if (dp_context_create(&desc, &d->context, &diag)) return report_failure(NULL, &diag);
     progress_begin("drawing", s->quiet);
-    const dp_result result =
-        dp_draw(d->context, d->source, &camera, &style, &d->target, &diag);
+    const dp_result result = dp_draw(d->context, d->source, &camera, &style, &d->target, &diag);
     progress_end();
     if (result == DP_ERR_ARGUMENT) return report_failure(NULL, &diag);
     if (result) return report_failure(s->model, &diag);

@@ -2,8 +2,8 @@
  * without shared vertices (STL) count right too. The table grows with the model: this is a tool for
  * looking at files, the drawing itself needs nothing like it.
  *
- * Invariant: a slot is free while its count is 0; the table is never more than half full. An edge is
- * known by a 64-bit fingerprint of both ends' bits: at a hundred million edges the odds that two
+ * Invariant: a slot is free while its count is 0; the table is never more than half full. An edge
+ * is known by a 64-bit fingerprint of both ends' bits: at a hundred million edges the odds that two
  * fall together are about one in four thousand, and the price one wrong count. */
 #include "edges.h"
 
@@ -77,7 +77,8 @@ static bool add_edge(table *t, const float a[3], const float b[3]) {
 static const float *corner(const dp_batch *batch, size_t c) {
     const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
     if (v >= batch->vertex_count) return NULL;
-    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         v * batch->position_stride);
 }
 
 /* Twice the area, by Newell's sum about the first corner. */

@@ -12,9 +12,12 @@ static void json_string(FILE *out, const char *text) {
     fputc('"', out);
     for (; *text; text++) {
         const unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\') fprintf(out, "\\%c", c);
-        else if (c < ' ') fprintf(out, "\\u%04x", c);
-        else fputc(c, out);
+        if (c == '"' || c == '\\')
+            fprintf(out, "\\%c", c);
+        else if (c < ' ')
+            fprintf(out, "\\u%04x", c);
+        else
+            fputc(c, out);
     }
     fputc('"', out);
 }
@@ -27,8 +30,7 @@ typedef struct line {
 enum { LINES = 10 };
 
 static void fill_lines(const dp_extent *e, const edge_counts *edges, line lines[LINES]) {
-    const uint64_t dropped =
-        edges->index + edges->finite + edges->area + edges->corners;
+    const uint64_t dropped = edges->index + edges->finite + edges->area + edges->corners;
     const line filled[LINES] = {
         {"polygons", "polygons", e->polygons},
         {"corners", "corners", e->corners},
@@ -80,8 +82,10 @@ static int inspect(const tool_settings *s, dp_source *source) {
     }
     line lines[LINES];
     fill_lines(&extent, &edges, lines);
-    if (s->json) print_json(s, &extent, lines);
-    else print_table(s, &extent, lines);
+    if (s->json)
+        print_json(s, &extent, lines);
+    else
+        print_table(s, &extent, lines);
     return 0;
 }
 

@@ -1,8 +1,8 @@
 /* Reads a source whole into arrays: a pipe of STL can be read only once, but fitting a camera and
  * drawing take two readings.
  *
- * Invariant: `batch` describes what has been kept so far; all arrays grow by half at least. Edge flags
- * are kept only once a batch brings some: then earlier corners count as flagged. */
+ * Invariant: `batch` describes what has been kept so far; all arrays grow by half at least. Edge
+ * flags are kept only once a batch brings some: then earlier corners count as flagged. */
 #include "keep.h"
 
 #include <stdio.h>
@@ -106,8 +106,10 @@ static dp_result read_all(kept *k, dp_source *source, dp_diag *diag) {
         dp_batch batch;
         const dp_result result = dp_source_next(source, &batch, diag);
         if (result || !batch.polygon_count) return result;
-        if (k->corners + batch.corner_count >= UINT32_MAX || k->vertices + batch.vertex_count >= UINT32_MAX)
-            return refuse(diag, DP_ERR_LIMIT, "too large to be kept; give a file instead of a pipe");
+        if (k->corners + batch.corner_count >= UINT32_MAX ||
+            k->vertices + batch.vertex_count >= UINT32_MAX)
+            return refuse(diag, DP_ERR_LIMIT,
+                          "too large to be kept; give a file instead of a pipe");
         if (!add(k, &batch))
             return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");
     }

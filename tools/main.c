@@ -23,8 +23,10 @@ int main(int argc, char **argv) {
     if (!options_parse(argc, argv, &settings)) return EXIT_USAGE;
     interrupt_install();
     int code = 0;
-    if (settings.question) answer(&settings);
-    else code = commands[settings.command](&settings);
+    if (settings.question)
+        answer(&settings);
+    else
+        code = commands[settings.command](&settings);
     if (!fflush(stdout) && !ferror(stdout)) return code;
     wrong_usage("cannot write standard output: %s", strerror(errno));
     return code ? code : EXIT_FAILED;

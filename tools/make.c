@@ -20,9 +20,10 @@ static bool file_kind(const char *path, dp_mesh_file *kind) {
     *kind = DP_MESH_FILE_PLY;
     if (output_in_place(path)) return true;
     const int stem = output_stem(path);
-    return wrong_usage("-o %s: models are written as PLY, STL or OBJ; name it %.*s.ply, %.*s.stl or "
-                       "%.*s.obj",
-                       path, stem, path, stem, path, stem, path);
+    return wrong_usage(
+        "-o %s: models are written as PLY, STL or OBJ; name it %.*s.ply, %.*s.stl or "
+        "%.*s.obj",
+        path, stem, path, stem, path, stem, path);
 }
 
 static int write_model(const tool_settings *s, dp_mesh_file kind, dp_source *source) {
@@ -40,10 +41,8 @@ int command_make(const tool_settings *s) {
     dp_mesh_file kind;
     if (!file_kind(s->output, &kind)) return EXIT_USAGE;
     if (!output_possible(s->output)) return EXIT_FAILED;
-    const dp_shape shape = {.name = s->model,
-                            .triangles = s->triangles,
-                            .size = s->shape_size,
-                            .seed = s->seed};
+    const dp_shape shape = {
+        .name = s->model, .triangles = s->triangles, .size = s->shape_size, .seed = s->seed};
     dp_source *source = NULL;
     dp_diag diag = {0};
     if (dp_source_from_shape(&shape, &source, &diag)) return report_failure(NULL, &diag);

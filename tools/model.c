@@ -73,10 +73,10 @@ int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) 
     if (!extent->polygons)
         wrong_usage("%s: there are no polygons in it; give a model with faces", name);
     else
-        wrong_usage("%s: none of its %llu polygons can be drawn: %llu have coordinates that are not "
-                    "numbers, %llu name a vertex that is not there; mend the file",
-                    name, (unsigned long long)extent->polygons,
-                    (unsigned long long)extent->not_finite,
-                    (unsigned long long)extent->bad_index);
+        wrong_usage(
+            "%s: none of its %llu polygons can be drawn: %llu have coordinates that are not "
+            "numbers, %llu name a vertex that is not there; mend the file",
+            name, (unsigned long long)extent->polygons, (unsigned long long)extent->not_finite,
+            (unsigned long long)extent->bad_index);
     return EXIT_FAILED;
 }

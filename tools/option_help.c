@@ -60,7 +60,8 @@ static void help_examples(FILE *out, tool_command command) {
 }
 
 static void usage_line(FILE *out, const char *before, const command_text *text) {
-    fprintf(out, "%sdrypoint %s%s%s\n", before, text->name, *text->name ? " " : "", text->arguments);
+    fprintf(out, "%sdrypoint %s%s%s\n", before, text->name, *text->name ? " " : "",
+            text->arguments);
 }
 
 void options_help(FILE *out, tool_command command) {
@@ -87,10 +88,14 @@ void options_help(FILE *out, tool_command command) {
 /* Text with troff's special characters made harmless. */
 static void troff(FILE *out, const char *text) {
     for (; *text; text++) {
-        if (*text == '-') fputs("\\-", out);
-        else if (*text == '\\') fputs("\\e", out);
-        else if (*text == '\'') fputs("\\(aq", out);
-        else fputc(*text, out);
+        if (*text == '-')
+            fputs("\\-", out);
+        else if (*text == '\\')
+            fputs("\\e", out);
+        else if (*text == '\'')
+            fputs("\\(aq", out);
+        else
+            fputc(*text, out);
     }
 }
 

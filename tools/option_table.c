@@ -40,12 +40,15 @@ const option option_table[] = {
      "Vertical field of view. Default: 35."},
     {"ortho", 0, "HEIGHT", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(ortho), AT(has_ortho), 0, 1e30,
      "Orthographic projection; HEIGHT is what is seen, in the model's units, 0 is fitted."},
-    {"view", 0, "front|back|left|right|top|bottom|iso", OPTION_WORD, GROUP_CAMERA, PICTURE, AT(view), 0, 0, 0,
+    {"view", 0, "front|back|left|right|top|bottom|iso",
+     OPTION_WORD, GROUP_CAMERA, PICTURE, AT(view), 0, 0, 0,
      "Look from this side (front is +z, right +x, top +y). Default: a three-quarter view from "
      "direction 1,0.6,1."},
-    {"azimuth", 0, "DEG", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(azimuth), AT(has_azimuth), -1e6, 1e6,
+    {"azimuth", 0, "DEG",
+     OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(azimuth), AT(has_azimuth), -1e6, 1e6,
      "Walk round the model: 0 is the front, 90 the right side. Default: 45, or the view's."},
-    {"elevation", 0, "DEG", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(elevation), AT(has_elevation), -90, 90,
+    {"elevation", 0, "DEG",
+     OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(elevation), AT(has_elevation), -90, 90,
      "Look from above (90) or below (-90). Default: 23, or the view's."},
     {"zoom", 0, "F", OPTION_INSIDE, GROUP_CAMERA, PICTURE, AT(zoom), 0, 0, 1e6,
      "2 shows everything twice as large. Default: 1."},
@@ -54,7 +57,8 @@ const option option_table[] = {
      "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
     {"width", 0, "PX or CLASS=PX,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(style), 0, 0.5, 64,
      "Whole width of the lines in pixels, of all classes or of each. Default: 2."},
-    {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...", OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
+    {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...",
+     OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of the lines, of all classes or of each. Default: black."},
     {"ridge-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(ridge_angle), 0, 0, 360,
      "Edges whose dihedral angle is at most this are ridges; 180 is flat. Default: 150."},
@@ -64,7 +68,8 @@ const option option_table[] = {
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
      "Build added polygons on the screen, exact in pixels, or by the formulas of Raskar 2001 as "
      "printed. Default: exact."},
-    {"between", 0, "plane|interval|stencil", OPTION_WORD, GROUP_METHOD, PICTURE, AT(between), 0, 0, 0,
+    {"between", 0, "plane|interval|stencil",
+     OPTION_WORD, GROUP_METHOD, PICTURE, AT(between), 0, 0, 0,
      "How valleys and intersections are told from what is hidden: by planes, by the paper's two "
      "depth buffers, or by its appendix's stencil. Default: plane."},
     {"ink", 0, "strokes|quads", OPTION_WORD, GROUP_METHOD, PICTURE, AT(ink), 0, 0, 0,
@@ -103,7 +108,6 @@ const option option_table[] = {
     {"man", 0, NULL, OPTION_QUESTION, GROUP_HIDDEN, EVERY, QUESTION_MAN, 0, 0, 0,
      "Print the man page."},
 };
-/* clang-format on */
 const size_t option_count = sizeof option_table / sizeof *option_table;
 
 const command_text command_table[COMMAND_COUNT] = {
@@ -134,3 +138,4 @@ const command_text command_table[COMMAND_COUNT] = {
                         "drypoint bench shape:terrain:1000000 --threads 1", "a generated model",
                         NULL}},
 };
+/* clang-format on */

@@ -187,7 +187,8 @@ static bool read_color(const char *text, const char *end, dp_color *color) {
 }
 
 static bool store_color(const option *o, const char *value, dp_color *to) {
-    if (!strcmp(value, "none")) *to = DP_COLOR_NONE;
+    if (!strcmp(value, "none"))
+        *to = DP_COLOR_NONE;
     else if (!read_color(value, end_of(value), to))
         return wrong_usage("--%s: \"%s\" is not a colour; give one like #3060A0, or none", o->name,
                            value);
@@ -203,7 +204,8 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
     dp_color color = 0;
     const int n = (int)(end - text);
     if (o->kind == OPTION_COLORS && !read_color(text, end, &color))
-        return wrong_usage("--%s: \"%.*s\" is not a colour; give one like #3060A0", o->name, n, text);
+        return wrong_usage("--%s: \"%.*s\" is not a colour; give one like #3060A0", o->name, n,
+                           text);
     if (o->kind == OPTION_WIDTHS && !read_number(text, end, &width))
         return wrong_usage("--%s: \"%.*s\" is not a width in pixels; give one like 2.5", o->name, n,
                            text);
@@ -212,8 +214,10 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
                            o->least, o->most);
     for (int line = 0; line < DP_LINE_COUNT; line++) {
         if (!(set >> line & 1)) continue;
-        if (o->kind == OPTION_WIDTHS) style->line[line].width = (float)width;
-        else style->line[line].color = color;
+        if (o->kind == OPTION_WIDTHS)
+            style->line[line].width = (float)width;
+        else
+            style->line[line].color = color;
     }
     return true;
 }
@@ -241,28 +245,42 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
     void *const to = (char *)settings + o->at;
     uint64_t count = 0;
     switch (o->kind) {
-    case OPTION_FLAG: *(bool *)to = true; return true;
-    case OPTION_TEXT: *(const char **)to = value; return true;
+    case OPTION_FLAG:
+        *(bool *)to = true;
+        return true;
+    case OPTION_TEXT:
+        *(const char **)to = value;
+        return true;
     case OPTION_COUNT:
         if (!store_count(o, value, &count)) return false;
         *(uint32_t *)to = (uint32_t)count;
         return true;
-    case OPTION_COUNT64: return store_count(o, value, to);
+    case OPTION_COUNT64:
+        return store_count(o, value, to);
     case OPTION_NUMBER:
-    case OPTION_INSIDE: return store_number(o, value, to);
-    case OPTION_POINT: return store_point(o, value, to);
-    case OPTION_WORD: return store_word(o, value, to);
-    case OPTION_SIZE: return store_size(o, value, to);
-    case OPTION_LINES: return store_lines(o, value, to);
+    case OPTION_INSIDE:
+        return store_number(o, value, to);
+    case OPTION_POINT:
+        return store_point(o, value, to);
+    case OPTION_WORD:
+        return store_word(o, value, to);
+    case OPTION_SIZE:
+        return store_size(o, value, to);
+    case OPTION_LINES:
+        return store_lines(o, value, to);
     case OPTION_WIDTHS:
-    case OPTION_COLORS: return store_classes(o, value, to);
-    case OPTION_COLOR: return store_color(o, value, to);
+    case OPTION_COLORS:
+        return store_classes(o, value, to);
+    case OPTION_COLOR:
+        return store_color(o, value, to);
     case OPTION_STATS:
         if (value && strcmp(value, "json"))
             return wrong_usage("--stats: \"%s\" is no form; leave it out, or give json", value);
         *(stats_kind *)to = value ? STATS_JSON : STATS_TABLE;
         return true;
-    case OPTION_QUESTION: settings->question = (question)o->at; return true;
+    case OPTION_QUESTION:
+        settings->question = (question)o->at;
+        return true;
     }
     return false;
 }

@@ -107,8 +107,9 @@ static bool take_word(walk *w, const char *word) {
         s->model = word;
         return true;
     }
-    return wrong_usage("there is one %s at a time: \"%s\" comes after \"%s\"; options begin with --",
-                       s->command == COMMAND_MAKE ? "shape" : "model", word, s->model);
+    return wrong_usage(
+        "there is one %s at a time: \"%s\" comes after \"%s\"; options begin with --",
+        s->command == COMMAND_MAKE ? "shape" : "model", word, s->model);
 }
 
 static bool take(walk *w) {

@@ -40,7 +40,8 @@ typedef struct tool_settings {
 
     double eye[3], target[3], up[3];
     bool has_eye, has_target, has_up;
-    double fov, ortho, azimuth, elevation, zoom; /* degrees, world units, degrees, degrees, factor */
+    double fov, ortho, azimuth, elevation,
+        zoom; /* degrees, world units, degrees, degrees, factor */
     bool has_fov, has_ortho, has_azimuth, has_elevation;
     int view; /* word */
 
@@ -92,9 +93,9 @@ typedef struct option {
     const char *argument; /* as --help shows it; of words: the words themselves; or NULL */
     option_kind kind;
     option_group group;
-    unsigned commands;    /* set of 1u << command */
-    size_t at;            /* offset of the value in tool_settings */
-    size_t given;         /* offset of the bool that says the option was there; 0: none */
+    unsigned commands; /* set of 1u << command */
+    size_t at;         /* offset of the value in tool_settings */
+    size_t given;      /* offset of the bool that says the option was there; 0: none */
     double least, most;
     const char *help;
 } option;

@@ -1,10 +1,11 @@
 /* The progress bar, and what Ctrl-C does.
  *
- * The program's only mutable globals are here, because a signal handler can reach nothing else. While
- * no output is being written there is nothing to tidy up, so the handler ends the program there and
- * then; while it is, only a flag is set: the writer is asked to stop at its next report, removes its
- * temporary file, and interrupt_release ends the program. A second signal while writing to something
- * that does not take it still only interrupts the system call, which fails and ends the writer. */
+ * The program's only mutable globals are here, because a signal handler can reach nothing else.
+ * While no output is being written there is nothing to tidy up, so the handler ends the program
+ * there and then; while it is, only a flag is set: the writer is asked to stop at its next report,
+ * removes its temporary file, and interrupt_release ends the program. A second signal while writing
+ * to something that does not take it still only interrupts the system call, which fails and ends
+ * the writer. */
 #include "progress.h"
 
 #include <signal.h>
@@ -81,14 +82,17 @@ static void show_known(double elapsed, double fraction) {
     fprintf(stderr, "%s%s [%s] %3.0f %%", wipe, work.what, bar, 100 * fraction);
     if (fraction > 0.01) {
         const double left = elapsed / fraction - elapsed;
-        fprintf(stderr, ", %.0f:%02.0f left", (left - (int)left % 60) / 60, (double)((int)left % 60));
+        fprintf(stderr, ", %.0f:%02.0f left", (left - (int)left % 60) / 60,
+                (double)((int)left % 60));
     }
 }
 
 static void show(double elapsed, double fraction) {
     bar_shown = 1;
-    if (fraction < 0) fprintf(stderr, "%s%s … %.0f s", wipe, work.what, elapsed);
-    else show_known(elapsed, fraction > 1 ? 1 : fraction);
+    if (fraction < 0)
+        fprintf(stderr, "%s%s … %.0f s", wipe, work.what, elapsed);
+    else
+        show_known(elapsed, fraction > 1 ? 1 : fraction);
     fflush(stderr);
 }
 

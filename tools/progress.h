@@ -4,10 +4,10 @@
 
 #include <stdbool.h>
 
-/* One piece of work with a name, "drawing" say. The bar appears when it has lasted over a second and
- * stderr is a terminal, unless `quiet`. */
+/* One piece of work with a name, "drawing" say. The bar appears when it has lasted over a second
+ * and stderr is a terminal, unless `quiet`. */
 void progress_begin(const char *what, bool quiet);
-/* For the library: fraction in [0, 1], or negative when the end is unknown. Non-zero after Ctrl-C. */
+/* For the library: fraction in [0, 1], negative when the end is unknown. Non-zero after Ctrl-C. */
 int progress_report(void *user, double fraction);
 void progress_end(void);
 /* Takes the bar off the terminal, so that something else can be printed. */

@@ -31,12 +31,15 @@ void warn(const char *format, ...) {
 
 int report_failure(const char *file, const dp_diag *diag) {
     char where[32] = "";
-    if (diag->line) snprintf(where, sizeof where, "%llu: ", (unsigned long long)diag->line);
+    if (diag->line)
+        snprintf(where, sizeof where, "%llu: ", (unsigned long long)diag->line);
     else if (diag->offset)
         snprintf(where, sizeof where, " byte %llu: ", (unsigned long long)diag->offset);
     const char *const message = *diag->message ? diag->message : dp_result_name(diag->result);
     progress_clear();
-    if (file) fprintf(stderr, "drypoint: %s:%s%s%s\n", file, where, *where ? "" : " ", message);
-    else fprintf(stderr, "drypoint: %s\n", message);
+    if (file)
+        fprintf(stderr, "drypoint: %s:%s%s%s\n", file, where, *where ? "" : " ", message);
+    else
+        fprintf(stderr, "drypoint: %s\n", message);
     return diag->result == DP_ERR_ARGUMENT ? EXIT_USAGE : EXIT_FAILED;
 }

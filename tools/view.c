@@ -1,8 +1,8 @@
 /* From settings to camera, style and target.
  *
- * Four cases of a camera: nothing said or a direction: the model's box is fitted. --target alone: as
- * fitted, but around that point. --eye alone: towards the box's centre, with a field of view that
- * shows it whole unless --fov says otherwise. Both: as said. */
+ * Four cases of a camera: nothing said or a direction: the model's box is fitted. --target alone:
+ * as fitted, but around that point. --eye alone: towards the box's centre, with a field of view
+ * that shows it whole unless --fov says otherwise. Both: as said. */
 #include "commands.h"
 #include "report.h"
 
@@ -40,11 +40,14 @@ static void from_angles(double azimuth, double elevation, double d[3]) {
 }
 
 static void view_direction(const tool_settings *s, double d[3]) {
-    static const double angles[][2] = {
-        [0] = {45, 22.989}, /* 1, 0.6, 1 */
-        [VIEW_FRONT] = {0, 0},  [VIEW_BACK] = {180, 0}, [VIEW_LEFT] = {-90, 0},
-        [VIEW_RIGHT] = {90, 0}, [VIEW_TOP] = {0, 90},   [VIEW_BOTTOM] = {0, -90},
-        [VIEW_ISO] = {45, 35.264389682754654}};
+    static const double angles[][2] = {[0] = {45, 22.989}, /* 1, 0.6, 1 */
+                                       [VIEW_FRONT] = {0, 0},
+                                       [VIEW_BACK] = {180, 0},
+                                       [VIEW_LEFT] = {-90, 0},
+                                       [VIEW_RIGHT] = {90, 0},
+                                       [VIEW_TOP] = {0, 90},
+                                       [VIEW_BOTTOM] = {0, -90},
+                                       [VIEW_ISO] = {45, 35.264389682754654}};
     if (!s->view && !s->has_azimuth && !s->has_elevation) {
         memcpy(d, (const double[3]){1, 0.6, 1}, 3 * sizeof *d);
         return;
@@ -63,7 +66,8 @@ static double smaller_half(double fov, double aspect) {
 
 /* The vertical field of view that shows a sphere from a distance. */
 static double fov_for(double radius, double distance, double aspect) {
-    if (distance <= radius * 1.05) return default_fov; /* inside, or so near that lines would bend */
+    if (distance <= radius * 1.05)
+        return default_fov; /* inside, or so near that lines would bend */
     const double t = tan(asin(radius / distance));
     return 2 * atan(aspect < 1 ? t / aspect : t) / degree;
 }

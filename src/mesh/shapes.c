@@ -1,5 +1,5 @@
-/* Generated models by name: looks the name up, finds the fineness that comes nearest to the number of
- * triangles asked for, and hands the model to the sheet generator.
+/* Generated models by name: looks the name up, finds the fineness that comes nearest to the number
+ * of triangles asked for, and hands the model to the sheet generator.
  *
  * Invariant: a builder's triangles grow with `fine`, so that a bisection finds the nearest. */
 #include <drypoint/shapes.h>
@@ -86,8 +86,10 @@ static void build_nearest(dp_model *model, const entry *e, uint64_t triangles, u
     while (high < 1u << 24 && build(model, e, high, seed) < triangles) high *= 2;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
-        if (build(model, e, middle, seed) <= triangles) low = middle;
-        else high = middle;
+        if (build(model, e, middle, seed) <= triangles)
+            low = middle;
+        else
+            high = middle;
     }
     const uint64_t above = build(model, e, high, seed), below = build(model, e, low, seed);
     if (triangles > below && above > triangles && above - triangles < triangles - below)
@@ -120,8 +122,10 @@ dp_result dp_source_from_shape(const dp_shape *shape, dp_source **out, dp_diag *
     const dp_allocator memory = dp_allocator_resolve(shape->allocator);
     dp_model *const model = dp_alloc(&memory, sizeof *model);
     if (!model) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a generated model");
-    if (shape->triangles) build_nearest(model, e, shape->triangles, shape->seed);
-    else build(model, e, e->fine, shape->seed);
+    if (shape->triangles)
+        build_nearest(model, e, shape->triangles, shape->seed);
+    else
+        build(model, e, e->fine, shape->seed);
     const double size = shape->size > 0 ? shape->size : 2;
     const dp_result result = dp_model_source(model, size / model->extent, &memory, out, diag);
     dp_free(&memory, model);

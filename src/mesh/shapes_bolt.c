@@ -1,18 +1,19 @@
-/* A hexagonal bolt, axis y, head up: chamfered head, washer face, plain shank and a real right-handed
- * helical thread that runs out at both ends.
+/* A hexagonal bolt, axis y, head up: chamfered head, washer face, plain shank and a real
+ * right-handed helical thread that runs out at both ends.
  *
- * The thread is one sheet whose rows follow the helix, so that crests and roots are rows. A row climbs
- * one pitch per turn and goes on as the row of the turn above: with `pitches` rows' positions in whole
- * numbers both sides of that seam are the same points. Where rows leave the thread they are held at its
- * end, where its depth is zero: cells there shrink to nothing, what is left ends in a plain circle.
+ * The thread is one sheet whose rows follow the helix, so that crests and roots are rows. A row
+ * climbs one pitch per turn and goes on as the row of the turn above; places along the axis are
+ * whole numbers, so both sides of that seam are the same points. Where rows leave the thread they
+ * are held at its end, where its depth is zero: cells there shrink to nothing, and what is left ends
+ * in a plain circle.
  *
  * Lengths are in units of the shank's radius; proportions follow ISO 4014 with a coarser thread. */
 #include "mesh/models.h"
 
 #include <math.h>
 
-static const double FLATS = 1.6;         /* half the width across flats */
-static const double CHAMFER = 1.52;      /* radius of the head's top */
+static const double FLATS = 1.6;                        /* half the width across flats */
+static const double CHAMFER = 1.52;                     /* radius of the head's top */
 static const double CHAMFER_SLOPE = 0.5773502691896258; /* 30 degrees */
 static const double WASHER = 1.46;
 static const double PITCH = 0.4, DEPTH = 0.245, CORE = 1 - 0.245;
@@ -23,8 +24,19 @@ enum { AROUND, ROWS }; /* n: points round the axis; rows per quarter of a profil
 
 /* ---- rings from the top down ---- */
 
-enum ring { HEAD_TOP, HEAD_EDGE, HEAD_BASE, WASHER_TOP, WASHER_BASE, SHANK_TOP, SHANK_BASE,
-            THREAD_TOP, THREAD_BASE, TIP_EDGE, RINGS };
+enum ring {
+    HEAD_TOP,
+    HEAD_EDGE,
+    HEAD_BASE,
+    WASHER_TOP,
+    WASHER_BASE,
+    SHANK_TOP,
+    SHANK_BASE,
+    THREAD_TOP,
+    THREAD_BASE,
+    TIP_EDGE,
+    RINGS
+};
 
 /* From the axis to the hexagon, at point k of n. */
 static double hexagon(uint32_t k, uint32_t n) {
@@ -41,16 +53,11 @@ static void ring_point(const dp_model *model, int ring, uint32_t k, double p[3])
     const double hex = hexagon(k, model->n[AROUND]);
     const double end = thread_y(1, 1);
     const double table[RINGS][2 /* radius, y */] = {
-        [HEAD_TOP] = {CHAMFER, TOP},
-        [HEAD_EDGE] = {hex, TOP - (hex - CHAMFER) * CHAMFER_SLOPE},
-        [HEAD_BASE] = {hex, UNDER},
-        [WASHER_TOP] = {WASHER, UNDER},
-        [WASHER_BASE] = {WASHER, 0},
-        [SHANK_TOP] = {1, 0},
-        [SHANK_BASE] = {1, SHOULDER},
-        [THREAD_TOP] = {CORE, thread_y(0, 1)},
-        [THREAD_BASE] = {CORE, end},
-        [TIP_EDGE] = {CORE - TIP, end - TIP},
+        [HEAD_TOP] = {CHAMFER, TOP},  [HEAD_EDGE] = {hex, TOP - (hex - CHAMFER) * CHAMFER_SLOPE},
+        [HEAD_BASE] = {hex, UNDER},   [WASHER_TOP] = {WASHER, UNDER},
+        [WASHER_BASE] = {WASHER, 0},  [SHANK_TOP] = {1, 0},
+        [SHANK_BASE] = {1, SHOULDER}, [THREAD_TOP] = {CORE, thread_y(0, 1)},
+        [THREAD_BASE] = {CORE, end},  [TIP_EDGE] = {CORE - TIP, end - TIP},
     };
     double c, s;
     dp_turn(k, model->n[AROUND], &c, &s);
@@ -76,7 +83,7 @@ static void end_point(const dp_model *model, const dp_sheet *sheet, uint32_t i, 
 enum { SIXTEENTHS = 16, PARTS = 4 };
 static const uint32_t part_start[PARTS] = {0, 4, 9, 11}, part_width[PARTS] = {4, 5, 2, 5};
 
-/* Row j's place along the axis at angle 0, in sixteenths of a pitch / rows; and its height, 0 … 1. */
+/* Row j's place along the axis at angle 0, in sixteenths of a pitch / rows; its height, 0 … 1. */
 static uint64_t row_place(const dp_model *model, uint32_t j, double *height) {
     const uint32_t rows = model->n[ROWS], turn = j / (PARTS * rows), e = j % (PARTS * rows);
     const uint32_t part = e / rows, t = e % rows;
@@ -86,7 +93,7 @@ static uint64_t row_place(const dp_model *model, uint32_t j, double *height) {
     return (uint64_t)turn * SIXTEENTHS * rows + part_start[part] * rows + part_width[part] * t;
 }
 
-/* Depth of the thread, as a share: it grows over a pitch at the top and fades over one at the tip. */
+/* Depth of the thread, as a share: grows over a pitch at the top, fades over one at the tip. */
 static double depth_at(uint64_t along, uint64_t whole) {
     const double from_top = TURNS * ((double)along / (double)whole);
     const double from_tip = TURNS * ((double)(whole - along) / (double)whole);

@@ -1,26 +1,26 @@
-/* A bearing bracket: a base with two holes, an upright plate with a round top and a boss with a bore,
- * and a fillet between them. Base along z, plate along y, width along x.
+/* A bearing bracket: a base with two holes, an upright plate with a round top and a boss with a
+ * bore, and a fillet between them. Base along z, plate along y, width along x.
  *
  * Faces with a hole are patches between their edge and a circle about the hole, whose points lie in
- * the direction of the edge's. Lengths are sixteenths, which are exact, so that a face's own sum and
- * its neighbour's are the same number. */
+ * the direction of the edge's. Lengths are sixteenths, which are exact, so that a face's own sum
+ * and its neighbour's are the same number. */
 #include "mesh/models.h"
 
 #include <math.h>
 #include <string.h>
 
 #define SIXTEENTHS(x) ((x) / 16.0)
-static const double THICK = SIXTEENTHS(5);             /* base and plate */
-static const double INNER = SIXTEENTHS(10);            /* where the fillet ends: thickness + radius */
+static const double THICK = SIXTEENTHS(5);  /* base and plate */
+static const double INNER = SIXTEENTHS(10); /* where the fillet ends: thickness + radius */
 static const double FILLET = SIXTEENTHS(5);
-static const double DEEP = SIXTEENTHS(30);             /* the base's end along z */
-static const double AXIS = SIXTEENTHS(27);             /* the bore's height */
+static const double DEEP = SIXTEENTHS(30); /* the base's end along z */
+static const double AXIS = SIXTEENTHS(27); /* the bore's height */
 static const double BORE = SIXTEENTHS(7), BOSS = SIXTEENTHS(11);
-static const double BOSS_END = SIXTEENTHS(9);          /* its front along z */
-static const double HOLE = 0.21;                       /* of the base; a half each side of the middle */
+static const double BOSS_END = SIXTEENTHS(9); /* its front along z */
+static const double HOLE = 0.21;              /* of the base; a half each side of the middle */
 
-/* Cells: half the width; the plate's straight side; its half circle; the base's side; half the fillet;
- * the thickness. */
+/* Cells: half the width; the plate's straight side; its half circle; the base's side; half the
+ * fillet; the thickness. */
 enum { WIDE, TALL, ROUND, LONG, BEND, THROUGH };
 
 static double between(double a, double b, uint32_t k, uint32_t n) {
@@ -28,22 +28,30 @@ static double between(double a, double b, uint32_t k, uint32_t n) {
 }
 
 /* x of point k across the width. */
-static double across(const dp_model *model, uint32_t k) { return between(-1, 1, k, 2 * model->n[WIDE]); }
+static double across(const dp_model *model, uint32_t k) {
+    return between(-1, 1, k, 2 * model->n[WIDE]);
+}
 
 /* ---- lines of the base; frames go round counter-clockwise seen from above ---- */
 
 enum base_line { FRAME = 0, RING = 1, RIGHT = 2, BELOW = 4 }; /* bits */
 
-static uint32_t frame_points(const dp_model *model) { return 2 * (model->n[WIDE] + model->n[LONG]); }
+static uint32_t frame_points(const dp_model *model) {
+    return 2 * (model->n[WIDE] + model->n[LONG]);
+}
 
 static void base_line(const dp_model *model, int line, uint32_t i, double p[3]) {
     const uint32_t w = model->n[WIDE], l = model->n[LONG], left = line & RIGHT ? w : 0;
     i %= frame_points(model);
     p[1] = line & BELOW ? 0 : THICK;
-    if (i < w) p[0] = across(model, left + i), p[2] = DEEP;
-    else if (i < w + l) p[0] = across(model, left + w), p[2] = between(DEEP, INNER, i - w, l);
-    else if (i < 2 * w + l) p[0] = across(model, left + 2 * w + l - i), p[2] = INNER;
-    else p[0] = across(model, left), p[2] = between(INNER, DEEP, i - 2 * w - l, l);
+    if (i < w)
+        p[0] = across(model, left + i), p[2] = DEEP;
+    else if (i < w + l)
+        p[0] = across(model, left + w), p[2] = between(DEEP, INNER, i - w, l);
+    else if (i < 2 * w + l)
+        p[0] = across(model, left + 2 * w + l - i), p[2] = INNER;
+    else
+        p[0] = across(model, left), p[2] = between(INNER, DEEP, i - 2 * w - l, l);
     if (!(line & RING)) return;
     const double x = line & RIGHT ? 0.5 : -0.5, z = 0.5 * (INNER + DEEP);
     const double away = sqrt((p[0] - x) * (p[0] - x) + (p[2] - z) * (p[2] - z));
@@ -63,12 +71,15 @@ static uint32_t plate_points(const dp_model *model) {
 static void plate_edge(const dp_model *model, uint32_t i, double p[3]) {
     const uint32_t tall = model->n[TALL], round = model->n[ROUND];
     i %= plate_points(model);
-    if (i < tall) p[0] = 1, p[1] = between(INNER, AXIS, i, tall);
+    if (i < tall)
+        p[0] = 1, p[1] = between(INNER, AXIS, i, tall);
     else if (i <= tall + round) {
         dp_turn(i - tall, 2 * round, &p[0], &p[1]);
         p[1] = AXIS + p[1];
-    } else if (i < 2 * tall + round) p[0] = -1, p[1] = between(AXIS, INNER, i - tall - round, tall);
-    else p[0] = across(model, i - 2 * tall - round), p[1] = INNER;
+    } else if (i < 2 * tall + round)
+        p[0] = -1, p[1] = between(AXIS, INNER, i - tall - round, tall);
+    else
+        p[0] = across(model, i - 2 * tall - round), p[1] = INNER;
 }
 
 static void plate_line(const dp_model *model, int line, uint32_t i, double p[3]) {
@@ -109,13 +120,21 @@ static void side_line(const dp_model *model, int code, uint32_t i, double p[3]) 
     p[0] = code & 1 ? 1 : -1;
     p[1] = p[2] = 0;
     switch ((enum side_line)(code / 2)) {
-    case SIDE_LOW: p[2] = between(DEEP, INNER, i, model->n[LONG]); break;
-    case SIDE_HIGH: p[1] = THICK, p[2] = between(DEEP, INNER, i, model->n[LONG]); break;
-    case CORNER:
-        if (i <= bend) p[2] = between(INNER, 0, i, bend);
-        else p[1] = between(0, INNER, i - bend, bend);
+    case SIDE_LOW:
+        p[2] = between(DEEP, INNER, i, model->n[LONG]);
         break;
-    case ARC: arc_point(model, i, p); break;
+    case SIDE_HIGH:
+        p[1] = THICK, p[2] = between(DEEP, INNER, i, model->n[LONG]);
+        break;
+    case CORNER:
+        if (i <= bend)
+            p[2] = between(INNER, 0, i, bend);
+        else
+            p[1] = between(0, INNER, i - bend, bend);
+        break;
+    case ARC:
+        arc_point(model, i, p);
+        break;
     }
 }
 
@@ -142,13 +161,14 @@ static void add_base(dp_model *model, int side) {
 
 static void add_plate(dp_model *model) {
     const uint32_t around = plate_points(model), wall = cells(model, BOSS_END - THICK);
-    dp_model_loft(model, plate_line, PLATE_BACK, PLATE_FRONT,
-                  2 * model->n[TALL] + model->n[ROUND], model->n[THROUGH]);
+    dp_model_loft(model, plate_line, PLATE_BACK, PLATE_FRONT, 2 * model->n[TALL] + model->n[ROUND],
+                  model->n[THROUGH]);
     dp_model_loft(model, plate_line, PLATE_FRONT, BOSS_BASE, around, cells(model, 0.3));
     dp_model_loft(model, plate_line, BOSS_BASE, BOSS_FRONT, around, wall);
     dp_model_loft(model, plate_line, BOSS_FRONT, BORE_FRONT, around, cells(model, BOSS - BORE));
     dp_model_loft(model, plate_line, BORE_FRONT, BORE_BACK, around, cells(model, BOSS_END));
-    dp_model_loft(model, plate_line, PLATE_BACK, BORE_BACK, around, cells(model, 0.5))->reversed = true;
+    dp_model_loft(model, plate_line, PLATE_BACK, BORE_BACK, around, cells(model, 0.5))->reversed =
+        true;
 }
 
 static void add_strips(dp_model *model) {

@@ -1,8 +1,8 @@
 /* A spur gear, axis z: hub with bore, thin web with six holes, rim, involute teeth.
  *
  * The outline is seen from the axis at ever growing angles, so every ring of points uses the
- * outline's angles and the cells between rings never fold. A sixth of the web is a patch between its
- * edge, cut as the neighbours are, and the circle of a hole.
+ * outline's angles and the cells between rings never fold. A sixth of the web is a patch between
+ * its edge, cut as the neighbours are, and the circle of a hole.
  *
  * Lengths are in units of the outer radius. Teeth follow the usual proportions: pressure angle 20
  * degrees, addendum one module, dedendum 1.25 modules. */
@@ -21,12 +21,15 @@ enum { FLANK, TIP, ROOT, PER_TOOTH, AROUND, RADIAL };
 
 /* ---- the outline ---- */
 
-static double involute(double r, double base) { return sqrt(r * r / (base * base) - 1) - acos(base / r); }
+static double involute(double r, double base) {
+    return sqrt(r * r / (base * base) - 1) - acos(base / r);
+}
 
 /* Half the angle of a tooth at radius r. Below the base circle the flank widens into a fillet; the
  * slight slope all along keeps angles growing where the involute is radial. */
 static double half_tooth(double r) {
-    const double pitch = MODULE * TEETH / 2, base = pitch * cos(TURN / 18), root = pitch - 1.25 * MODULE;
+    const double pitch = MODULE * TEETH / 2, base = pitch * cos(TURN / 18),
+                 root = pitch - 1.25 * MODULE;
     const double at_base = TURN / (4 * TEETH) + involute(pitch, base);
     const double slope = 0.06 * (1 - r);
     if (r >= base) return at_base - involute(r, base) + slope;
@@ -62,9 +65,9 @@ static const double OUTLINE = 0; /* stands for a radius */
 
 static const struct {
     double radius, z;
-} rings[] = {
-    {0.17, -0.30}, {0.17, 0.30}, {0.31, 0.30}, {0.31, 0.08},    {0.70, 0.08},    {0.70, 0.19},
-    {OUTLINE, 0.19}, {OUTLINE, -0.19}, {0.70, -0.19}, {0.70, -0.08}, {0.31, -0.08}, {0.31, -0.30}};
+} rings[] = {{0.17, -0.30}, {0.17, 0.30},  {0.31, 0.30},    {0.31, 0.08},
+             {0.70, 0.08},  {0.70, 0.19},  {OUTLINE, 0.19}, {OUTLINE, -0.19},
+             {0.70, -0.19}, {0.70, -0.08}, {0.31, -0.08},   {0.31, -0.30}};
 enum { RINGS = 12, WEB_FRONT = 3, WEB_REAR = 9 };
 
 static void ring_point(const dp_model *model, int ring, uint32_t k, double p[3]) {

@@ -1,5 +1,6 @@
-/* Models of plane faces: cube, tetrahedron, two crossing boxes, stairs. Finer means more and smaller
- * triangles in the same planes. Sides of faces are cut evenly, so neighbours agree on every point. */
+/* Models of plane faces: cube, tetrahedron, two crossing boxes, stairs. Finer means more and
+ * smaller triangles in the same planes. Sides of faces are cut evenly, so neighbours agree on every
+ * point. */
 #include "mesh/models.h"
 
 #include <math.h>
@@ -52,8 +53,8 @@ void dp_build_boxes(dp_model *model) {
     add_box(model, block, upright, (uint32_t[3]){n, n, n});
     add_box(model, bar, turn, (uint32_t[3]){2 * n, n, n});
     for (int k = 0; k < 3; k++) { /* the bar sticks out along x */
-        const double reach = fabs(bar[0] * turn[0][k]) + fabs(bar[1] * turn[1][k]) +
-                             fabs(bar[2] * turn[2][k]);
+        const double reach =
+            fabs(bar[0] * turn[0][k]) + fabs(bar[1] * turn[1][k]) + fabs(bar[2] * turn[2][k]);
         model->extent = fmax(model->extent, 2 * reach);
     }
 }
@@ -84,12 +85,24 @@ static void stair_lattice(const dp_sheet *sheet, uint32_t fine, uint32_t i, uint
                           uint32_t at[3]) {
     const uint32_t step = (uint32_t)sheet->to, wide = sheet->nu, deep = STEPS * fine;
     switch ((enum stair_part)sheet->from) {
-    case TREAD: at[0] = i, at[1] = (step + 1) * fine, at[2] = step * fine + j; break;
-    case RISER: at[0] = i, at[1] = step * fine + j, at[2] = step * fine; break;
-    case LEFT: at[0] = 0, at[1] = j, at[2] = (step + 1) * fine - i; break;
-    case RIGHT: at[0] = 4 * fine, at[1] = j, at[2] = step * fine + i; break;
-    case BACK: at[0] = wide - i, at[1] = j, at[2] = deep; break;
-    case BOTTOM: at[0] = i, at[1] = 0, at[2] = deep - j; break;
+    case TREAD:
+        at[0] = i, at[1] = (step + 1) * fine, at[2] = step * fine + j;
+        break;
+    case RISER:
+        at[0] = i, at[1] = step * fine + j, at[2] = step * fine;
+        break;
+    case LEFT:
+        at[0] = 0, at[1] = j, at[2] = (step + 1) * fine - i;
+        break;
+    case RIGHT:
+        at[0] = 4 * fine, at[1] = j, at[2] = step * fine + i;
+        break;
+    case BACK:
+        at[0] = wide - i, at[1] = j, at[2] = deep;
+        break;
+    case BOTTOM:
+        at[0] = i, at[1] = 0, at[2] = deep - j;
+        break;
     }
 }
 

@@ -28,10 +28,9 @@ static void icosahedron_corner(unsigned k, double p[3]) {
 
 void dp_build_sphere(dp_model *model) {
     static const unsigned char faces[20][3] = {
-        {0, 4, 1}, {0, 1, 6}, {0, 8, 4}, {0, 6, 9}, {0, 9, 8}, {1, 4, 10},
-        {1, 11, 6}, {1, 10, 11}, {2, 3, 5}, {2, 7, 3}, {2, 5, 8}, {2, 9, 7},
-        {2, 8, 9}, {3, 10, 5}, {3, 7, 11}, {3, 11, 10}, {4, 8, 5}, {4, 5, 10},
-        {6, 7, 9}, {6, 11, 7}};
+        {0, 4, 1},   {0, 1, 6},   {0, 8, 4}, {0, 6, 9},  {0, 9, 8}, {1, 4, 10}, {1, 11, 6},
+        {1, 10, 11}, {2, 3, 5},   {2, 7, 3}, {2, 5, 8},  {2, 9, 7}, {2, 8, 9},  {3, 10, 5},
+        {3, 7, 11},  {3, 11, 10}, {4, 8, 5}, {4, 5, 10}, {6, 7, 9}, {6, 11, 7}};
     for (int f = 0; f < 20; f++) {
         double corners[3][3];
         for (int c = 0; c < 3; c++) icosahedron_corner(faces[f][c], corners[c]);
@@ -103,7 +102,7 @@ static uint32_t scramble(uint32_t x) {
 
 /* Slope of the noise at a lattice point, times the way to (x, y): one of 16 directions. */
 static double slope(uint32_t seed, int32_t ix, int32_t iy, double x, double y) {
-    static const double direction[8] = {1, 0.9238795325, 0.7071067812, 0.3826834324,
+    static const double direction[8] = {1, 0.9238795325,  0.7071067812,  0.3826834324,
                                         0, -0.3826834324, -0.7071067812, -0.9238795325};
     const uint32_t hash = scramble(scramble((uint32_t)ix + seed * 0x9E3779B9u) + (uint32_t)iy);
     const double c = direction[hash & 7], s = direction[(hash + 4) & 7];
@@ -117,7 +116,8 @@ static double noise(uint32_t seed, double x, double y) {
     const double fx = floor(x), fy = floor(y);
     const int32_t ix = (int32_t)fx, iy = (int32_t)fy;
     const double u = x - fx, v = y - fy, su = smooth(u), sv = smooth(v);
-    const double low = slope(seed, ix, iy, u, v) * (1 - su) + slope(seed, ix + 1, iy, u - 1, v) * su;
+    const double low =
+        slope(seed, ix, iy, u, v) * (1 - su) + slope(seed, ix + 1, iy, u - 1, v) * su;
     const double high = slope(seed, ix, iy + 1, u, v - 1) * (1 - su) +
                         slope(seed, ix + 1, iy + 1, u - 1, v - 1) * su;
     return low * (1 - sv) + high * sv;

@@ -1,11 +1,11 @@
 /* Turns a model of sheets into batches of triangles, a block of cells at a time.
  *
  * Invariant: a point that two sheets share comes out with the same bits from both, so that a closed
- * model is closed when its vertices are compared by position. That holds because points are functions
- * of whole numbers, because a weight of 0 or 1 is exact, and because sums of two products commute (the
- * compiler must not contract them: -ffp-contract=off). Minus zero is turned into zero for the same
- * reason. Within a batch equal positions are one vertex; triangles whose corners coincide are left
- * out, so a row of cells may shrink to a point or a line.
+ * model is closed when its vertices are compared by position. That holds because points are
+ * functions of whole numbers, because a weight of 0 or 1 is exact, and because sums of two products
+ * commute (the compiler must not contract them: -ffp-contract=off). Minus zero is turned into zero
+ * for the same reason. Within a batch equal positions are one vertex; triangles whose corners
+ * coincide are left out, so a row of cells may shrink to a point or a line.
  *
  * Not here: anything that needs to know a neighbour. Memory is two blocks, whatever the model. */
 #include "mesh/sheet.h"
@@ -17,11 +17,11 @@
 #include <string.h>
 
 enum {
-    BLOCK = 96,                                /* cells a side: what is handed out in one piece */
+    BLOCK = 96, /* cells a side: what is handed out in one piece */
     BLOCK_POINTS = (BLOCK + 1) * (BLOCK + 1),
     BATCH_TRIANGLES = 1 << 16,
     BATCH_POINTS = BATCH_TRIANGLES / 2 + 4 * BLOCK_POINTS,
-    SLOTS = 1 << 17                            /* of the table that welds: over twice the points */
+    SLOTS = 1 << 17 /* of the table that welds: over twice the points */
 };
 
 typedef struct slot {
@@ -37,9 +37,9 @@ typedef struct generator {
     uint32_t batch;                   /* number of the current batch, from 1 */
     uint32_t point_count;
     uint32_t corner_count;
-    float (*points)[3];   /* [BATCH_POINTS] */
-    uint32_t *corners;    /* [3 * BATCH_TRIANGLES] */
-    slot *slots;          /* [SLOTS] */
+    float (*points)[3]; /* [BATCH_POINTS] */
+    uint32_t *corners;  /* [3 * BATCH_TRIANGLES] */
+    slot *slots;        /* [SLOTS] */
     uint32_t grid[BLOCK_POINTS];
 } generator;
 
@@ -55,8 +55,8 @@ void dp_turn(uint32_t k, uint32_t n, double *c, double *s) {
     k %= n;
     /* Within an eighth of a turn of an axis, so that all quadrants round alike. */
     const uint64_t eighths = 8 * (uint64_t)k / n;
-    const uint64_t quarter = (eighths + 1) / 2;                       /* the nearest axis, 0 … 4 */
-    const double rest = (4.0 * k - (double)quarter * n) / (4.0 * n);  /* of a turn */
+    const uint64_t quarter = (eighths + 1) / 2;                      /* the nearest axis, 0 … 4 */
+    const double rest = (4.0 * k - (double)quarter * n) / (4.0 * n); /* of a turn */
     const double x = cos(full * rest), y = sin(full * rest);
     const double table[4][2] = {{x, y}, {-y, x}, {-x, -y}, {y, -x}};
     *c = table[quarter % 4][0];
@@ -73,10 +73,14 @@ void dp_disc(uint32_t i, uint32_t j, uint32_t n, double *x, double *y) {
     if (!side) return;
     const uint32_t a = i - ring, b = j - ring;
     uint32_t k;
-    if (b == 0) k = a;
-    else if (a == side) k = side + b;
-    else if (b == side) k = 3 * side - a;
-    else k = 4 * side - b;
+    if (b == 0)
+        k = a;
+    else if (a == side)
+        k = side + b;
+    else if (b == side)
+        k = 3 * side - a;
+    else
+        k = 4 * side - b;
     dp_turn(k, 4 * side, x, y);
     *x *= (double)side / n;
     *y *= (double)side / n;
@@ -222,8 +226,8 @@ static void add_half_cell(generator *self, const dp_sheet *sheet, uint32_t rest,
 static uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 /* Only points on the block's edge can be another block's too, unless cells shrink to nothing. */
-static void add_points(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0,
-                       uint32_t w, uint32_t h) {
+static void add_points(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0, uint32_t w,
+                       uint32_t h) {
     for (uint32_t j = 0; j <= h; j++)
         for (uint32_t i = 0; i <= w; i++) {
             uint32_t *const at = self->grid + j * (w + 1) + i;
@@ -245,8 +249,10 @@ static void add_block(generator *self, const dp_sheet *sheet, uint32_t i0, uint3
             const uint32_t *const row = self->grid + j * (w + 1) + i;
             const uint32_t corner[4] = {row[0], row[1], row[w + 2], row[w + 1]};
             const uint32_t along = i0 + i + j0 + j;
-            if (!sheet->triangular) add_cell(self, sheet->reversed, corner);
-            else if (along < sheet->nu) add_half_cell(self, sheet, sheet->nu - along, corner);
+            if (!sheet->triangular)
+                add_cell(self, sheet->reversed, corner);
+            else if (along < sheet->nu)
+                add_half_cell(self, sheet, sheet->nu - along, corner);
         }
 }
 

@@ -1,7 +1,7 @@
 /* Sheets: what generated models are made of, and how they become batches of triangles.
  *
- * A model is a list of sheets; a sheet is a grid of nu x nv cells, two triangles each (or the half of
- * an nu x nu grid, for triangular faces). Its points come from a function of whole numbers. */
+ * A model is a list of sheets; a sheet is a grid of nu x nv cells, two triangles each (or the half
+ * of an nu x nu grid, for triangular faces). Its points come from a function of whole numbers. */
 #ifndef DP_MESH_SHEET_H
 #define DP_MESH_SHEET_H
 
@@ -19,22 +19,22 @@ typedef void dp_curve(const dp_model *model, int which, uint32_t i, double p[3])
 struct dp_sheet {
     void (*point)(const dp_model *model, const dp_sheet *sheet, uint32_t i, uint32_t j,
                   double p[3]);
-    uint32_t nu, nv;      /* cells; (u, v, outward) is right-handed */
-    bool reversed;        /* … or left-handed */
-    bool triangular;      /* only points with i + j <= nu; nv = nu */
-    bool shrinks;         /* cells inside may shrink to a line or point */
-    int from, to;         /* what the point function makes of them: curves, say */
-    dp_curve *curve;      /* of dp_model_loft */
-    double corner[4][3];  /* of dp_model_quad and _triangle */
+    uint32_t nu, nv;     /* cells; (u, v, outward) is right-handed */
+    bool reversed;       /* … or left-handed */
+    bool triangular;     /* only points with i + j <= nu; nv = nu */
+    bool shrinks;        /* cells inside may shrink to a line or point */
+    int from, to;        /* what the point function makes of them: curves, say */
+    dp_curve *curve;     /* of dp_model_loft */
+    double corner[4][3]; /* of dp_model_quad and _triangle */
 };
 
 struct dp_model {
     dp_sheet sheets[DP_MODEL_SHEETS];
     uint32_t sheet_count;
-    uint32_t fine;        /* the one number that all counts of cells come from, >= 1 */
+    uint32_t fine; /* the one number that all counts of cells come from, >= 1 */
     uint32_t seed;
-    double extent;        /* largest side of the box, in the units of the point functions */
-    double centre[3];     /* of the box, same units */
+    double extent;    /* largest side of the box, in the units of the point functions */
+    double centre[3]; /* of the box, same units */
     uint32_t n[DP_MODEL_PARAMETERS]; /* the shape's own counts */
 };
 
@@ -53,7 +53,7 @@ dp_sheet *dp_model_triangle(dp_model *model, double corners[3][3], uint32_t n);
 void dp_between_points(const double a[3], const double b[3], uint32_t k, uint32_t n, double p[3]);
 /* cos and sin of 2 pi k / n, the same bits for k and k + n, and exact at quarter turns. */
 void dp_turn(uint32_t k, uint32_t n, double *c, double *s);
-/* Point (i, j) of a disc of radius 1 in n x n cells, whose rim is dp_turn(k, 4 n), k = 0 at (1, 0). */
+/* Point (i, j) of a disc of radius 1 in n x n cells; its rim is dp_turn(k, 4 n) from (1, 0) on. */
 void dp_disc(uint32_t i, uint32_t j, uint32_t n, double *x, double *y);
 
 /* Triangles the model has at most (cells that shrink to a line lose one or two). */

@@ -24,7 +24,8 @@ struct dp_context {
     size_t vertices_cap, depth_cap, pieces_cap;
 
     dp_stats stats;
-    dp_recording *recording;
+    dp_recording *recording; /* made when first used */
+    bool recording_lost;     /* there was no memory to make it; dp_finish says so */
 };
 
 /* dp_draw with one resolved style per group; what holds for the whole picture comes from styles[0]. */

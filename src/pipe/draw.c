@@ -116,6 +116,14 @@ static bool begin_frame(dp_context *c) {
            begin_workers(c);
 }
 
+/* Half a degree short of the least fold that any group draws; above 1 where flat edges are lines too. */
+static float flat_cosine(const dp_style *styles, uint32_t count) {
+    float least = 180;
+    for (uint32_t i = 0; i < count; i++)
+        least = dp_minf(least, dp_minf(180 - styles[i].ridge_angle, styles[i].valley_angle - 180));
+    return least > 1 ? (float)cos((least - 0.5) * 3.14159265358979323846 / 180) : 2;
+}
+
 static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
@@ -233,6 +241,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->style_count = style_count;
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
+    f->flat_cosine = flat_cosine(styles, style_count);
     dp_result result = check_target(target, &f->target, diag);
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
     if (!result) result = draw(c, source, diag);

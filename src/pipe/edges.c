@@ -5,7 +5,8 @@
  * ends' positions: an index buffer, split vertices and a bare soup give the same names.
  *
  * Data structure: open addressing over (hash, 1 + entry) pairs; entries in order of first meeting, so
- * that what is found does not depend on the hash. Invariant: at most half of the slots are used.
+ * that what is found does not depend on the hash. Invariant: at most half of the slots are used. Hidden
+ * polygons come last and add no edges: an edge between two of them is hidden itself.
  * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/classify.h"
 #include "pipe/tile.h"
@@ -29,14 +30,23 @@ static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_
            dp_maxf(a.y, b.y) >= -MARGIN && dp_minf(a.y, b.y) <= DP_TILE + MARGIN;
 }
 
+/* Corners of the polygons that may add edges. */
+static uint32_t count_edges(const dp_tile_worker *w) {
+    uint32_t edges = 0;
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        if (!(w->polygons[i].flags & DP_POLYGON_HIDDEN)) edges += dp_corner_count(&w->frame->polygons, w->polygons[i].id);
+    return edges;
+}
+
 static bool clear_table(dp_tile_worker *w) {
+    const uint32_t edges = count_edges(w);
     uint32_t slots = 64;
-    while (slots < 2 * w->point_count) slots *= 2;
+    while (slots < 2 * edges) slots *= 2;
     w->slot_count = slots;
     w->edge_count = w->meeting_count = 0;
     if (!DP_WORKER_RESERVE(w, edge_slots, slots_cap, 2 * (size_t)slots)) return false;
     memset(w->edge_slots, 0, 2 * (size_t)slots * sizeof *w->edge_slots);
-    return DP_WORKER_RESERVE(w, edges, edges_cap, (size_t)w->point_count + 3 * (size_t)w->polygon_count);
+    return DP_WORKER_RESERVE(w, edges, edges_cap, edges);
 }
 
 static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t edge, bool opposed) {
@@ -49,6 +59,7 @@ static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t
     e->more = ++w->meeting_count;
 }
 
+/* Enters an edge, or only meets it where a polygon that is not hidden has it too. */
 static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const uint32_t ka = w->frame->vertices[va].key, kb = w->frame->vertices[vb].key;
@@ -58,6 +69,7 @@ static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t 
     for (uint32_t s = hash & mask;; s = (s + 1) & mask) {
         uint32_t *const slot = w->edge_slots + 2 * (size_t)s;
         if (!slot[1]) {
+            if (w->polygons[polygon].flags & DP_POLYGON_HIDDEN) return;
             slot[0] = hash;
             slot[1] = ++w->edge_count;
             w->edges[w->edge_count - 1] = (dp_edge_entry){va, vb, polygon, UINT32_MAX, edge, 0, 1, 0, false};
@@ -87,6 +99,14 @@ static void insert_polygon(dp_tile_worker *w, uint32_t index) {
     }
 }
 
+/* The polygon that came first in the source owns the edge, in every tile. */
+static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry *e) {
+    if (w->polygons[e->a].id < w->polygons[e->b].id) return *e;
+    const bool opposed = e->opposed;
+    return (dp_edge_entry){opposed ? e->vb : e->va, opposed ? e->va : e->vb, e->b, e->a, e->edge_b, e->edge_a,
+                           e->met, e->more, opposed};
+}
+
 /* A line of class `line` along an edge of polygon a, facing along `normal`. */
 static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->frame->polygons;
@@ -96,8 +116,7 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
     if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                        dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
         return;
-    const uint32_t b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id;
-    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = b, .edge = e->edge_a, .line = (uint8_t)line},
+    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = w->polygons[e->b].id, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
                           &spine);
 }
 
@@ -108,10 +127,28 @@ static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *f
     else if (dihedral > style->valley_angle) add_line(w, e, DP_LINE_VALLEY, fold->normal);
 }
 
-static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *e) {
-    const uint32_t front_a = w->polygons[e->a].flags & DP_POLYGON_FRONT;
-    const uint32_t front_b = w->polygons[e->b].flags & DP_POLYGON_FRONT;
+/* The unit normal in float32, for a first look; made when it is first asked for. */
+static const float *quick_normal(dp_tile_worker *w, uint32_t polygon) {
+    dp_tile_polygon *const p = &w->polygons[polygon];
+    if (p->normal[0] == 0 && p->normal[1] == 0 && p->normal[2] == 0) {
+        const dp_vec3 n = dp_polygon_normal(w->frame, p->id);
+        p->normal[0] = (float)n.x, p->normal[1] = (float)n.y, p->normal[2] = (float)n.z;
+    }
+    return p->normal;
+}
+
+/* Most edges are flatter than any threshold; one product tells. */
+static bool is_flat(dp_tile_worker *w, const dp_edge_entry *e) {
+    const float *const a = quick_normal(w, e->a), *const b = quick_normal(w, e->b);
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > w->frame->flat_cosine;
+}
+
+static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
+    const uint32_t front_a = w->polygons[met->a].flags & DP_POLYGON_FRONT;
+    const uint32_t front_b = w->polygons[met->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
+    if (front_a && front_b && is_flat(w, met)) return;
+    const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
     const dp_fold fold = dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
     if (front_a && front_b) add_fold(w, e, &fold);
     else add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
@@ -176,20 +213,37 @@ static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
     add_fold(w, e, &fold);
 }
 
-static void resolve_border(dp_tile_worker *w, const dp_edge_entry *e) {
-    dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[e->a].id);
-    if (!(w->polygons[e->a].flags & DP_POLYGON_FRONT)) normal = dp_scale(normal, -1);
-    add_line(w, e, DP_LINE_BORDER, normal);
+static void leave(dp_tile_worker *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_WORKER_RESERVE(w, loose, loose_cap, w->loose_count + 1u)) return;
+    w->loose[w->loose_count++] = (dp_loose_edge){polygon, edge};
+}
+
+/* Every edge of every polygon is left to emerge (dp_style.edge_table_off). */
+static void leave_all(dp_tile_worker *w) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+        for (uint32_t e = 0; e < n; e++)
+            if ((!polygons->edge_flags || polygons->edge_flags[first + e]) && near_tile(w, p, e)) leave(w, i, e);
+    }
 }
 
 void dp_tile_edges(dp_tile_worker *w) {
+    if (w->frame->styles[0].edge_table_off) {
+        leave_all(w);
+        return;
+    }
     if (!clear_table(w)) return;
-    for (uint32_t i = 0; i < w->polygon_count; i++) insert_polygon(w, i);
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        if (!(w->polygons[i].flags & DP_POLYGON_HIDDEN)) insert_polygon(w, i);
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        if (w->polygons[i].flags & DP_POLYGON_HIDDEN) insert_polygon(w, i);
     for (uint32_t i = 0; i < w->edge_count && !w->failed; i++) {
         const dp_edge_entry *const e = &w->edges[i];
-        if (e->met == 1) resolve_border(w, e);
+        if (e->met == 1) leave(w, e->a, e->edge_a);
         else if (e->met == 2 && e->opposed) resolve_pair(w, e);
         else resolve_fan(w, e);
-        w->stats.edges_resolved++;
+        w->stats.edges_resolved += e->met > 1;
     }
 }

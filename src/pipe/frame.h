@@ -43,7 +43,8 @@ typedef struct dp_frame {
     const dp_style *styles; /* by group, resolved; [style_count] */
     uint32_t style_count;
     dp_target target;
-    uint32_t lines; /* classes that any group draws */
+    uint32_t lines;     /* classes that any group draws */
+    float flat_cosine;  /* normals closer than this make no fold, whatever the group; above 1: unknown */
 
     dp_polygons polygons;
     dp_vertex *vertices;

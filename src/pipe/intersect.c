@@ -137,7 +137,8 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
     if (!dp_crossing_find(w->frame, p->id, q->id, &from, &to, &normal)) return;
     if (!dp_spine_make(&w->frame->view, from, to, normal, &spine)) return;
-    dp_tile_add_candidate(w, (dp_candidate){.a = p->id, .b = q->id, .edge = DP_CROSSING, .line = DP_LINE_INTERSECTION},
+    dp_tile_add_candidate(w, (dp_candidate){.a = p->id, .b = q->id, .edge = DP_CROSSING, .k1 = UINT32_MAX,
+                                           .line = DP_LINE_INTERSECTION},
                           &spine);
 }
 
@@ -147,7 +148,7 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
 static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[DP_TILE],
                         uint32_t heads[DP_TILE][DP_TILE], uint32_t *count) {
     const dp_tile_polygon *const p = &w->polygons[index];
-    const uint64_t span = (~(uint64_t)0 >> (63 - (p->x1 - p->x0))) << p->x0;
+    const uint64_t span = dp_box_span(p);
     for (uint32_t y = p->y0; y <= p->y1; y++)
         for (uint64_t bits = rows[y] & span; bits && !w->failed; bits &= bits - 1) {
             uint32_t *const head = &heads[y][__builtin_ctzll(bits)];

@@ -39,8 +39,8 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     cut(s->probe_a.y, s->probe_b.y, w->tile_y, w->tile_y + DP_TILE, &t0, &t1);
     if (t0 > t1) return false;
     const double lo = floor(t0 * s->n - 1.5), hi = ceil(t1 * s->n + 1.5);
-    *k0 = lo > 0 ? (uint32_t)lo : 0;
-    *k1 = hi < s->n ? (uint32_t)hi : s->n;
+    if (lo > *k0) *k0 = (uint32_t)lo;
+    if (hi < *k1) *k1 = (uint32_t)hi;
     while (*k0 < *k1 && !owned(w, probe_point(s, *k0))) ++*k0;
     while (*k0 < *k1 && !owned(w, probe_point(s, *k1 - 1))) --*k1;
     return *k0 < *k1;
@@ -55,16 +55,11 @@ static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *
                         .own_a = c->a,
                         .own_b = c->b,
                         .k = k};
-    uint32_t x = (uint32_t)probe->x, y = (uint32_t)probe->y;
-    if (x >= DP_TILE) x = DP_TILE - 1; /* float32 may round up to the border */
-    if (y >= DP_TILE) y = DP_TILE - 1;
-    uint32_t *const cell = &w->cell[y * DP_TILE + x];
-    probe->next = w->row[y] >> x & 1 ? *cell : UINT32_MAX;
-    w->row[y] |= (uint64_t)1 << x;
-    *cell = w->probe_count++;
+    probe->next = dp_pixel_push(&w->probe_pixels, probe->x, probe->y, w->probe_count++);
 }
 
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
+    if (c.k1 > spine->n) c.k1 = spine->n;
     if (!find_range(w, spine, &c.k0, &c.k1)) return;
     if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
         !DP_WORKER_RESERVE(w, probes, probes_cap, (size_t)w->probe_count + (c.k1 - c.k0)))
@@ -84,9 +79,11 @@ static bool left_of(dp_point a, dp_point b, float x, float y, bool flip) {
     return swap != flip ? e < 0 : e >= 0;
 }
 
-static bool covers(const dp_point *p, uint32_t n, bool front, float x, float y) {
-    for (uint32_t i = 0; i < n; i++)
-        if (!left_of(p[i], p[i + 1 == n ? 0 : i + 1], x, y, front)) return false;
+bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, float x, float y) {
+    const dp_point *const p = w->points + polygon->point;
+    const bool front = polygon->flags & DP_POLYGON_FRONT;
+    for (uint32_t i = 0; i < polygon->points; i++)
+        if (!left_of(p[i], p[i + 1 == polygon->points ? 0 : i + 1], x, y, front)) return false;
     return true;
 }
 
@@ -97,20 +94,21 @@ static void hide_in_pixel(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t 
         if (p->id == probe->own_a || p->id == probe->own_b) continue;
         const float d = dp_minf(dp_plane_at(p, probe->x, probe->y), p->nearest);
         if (d <= probe->limit) continue;
-        probe->hidden = covers(w->points + p->point, p->points, p->flags & DP_POLYGON_FRONT, probe->x, probe->y);
+        probe->hidden = dp_tile_covers(w, p, probe->x, probe->y);
     }
 }
 
 static void hide_under(dp_tile_worker *w, const dp_tile_polygon *p) {
-    const uint64_t span = (~(uint64_t)0 >> (63 - (p->x1 - p->x0))) << p->x0;
+    const uint64_t span = dp_box_span(p);
     for (uint32_t y = p->y0; y <= p->y1; y++)
-        for (uint64_t bits = w->row[y] & span; bits; bits &= bits - 1)
-            hide_in_pixel(w, p, w->cell[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
+        for (uint64_t bits = w->probe_pixels.row[y] & span; bits; bits &= bits - 1)
+            hide_in_pixel(w, p, w->probe_pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
 }
 
 static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
     if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
-    w->pieces[w->piece_count++] = (dp_piece){.a = c->a, .b = c->b, .edge = c->edge, .k0 = k0, .k1 = k1,
+    w->pieces[w->piece_count++] = (dp_piece){.a = c->a, .b = c->b, .edge = c->edge, .k0 = k0,
+                                             .k1 = k1,
                                              .n = c->n, .line = c->line,
                                              .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
 }
@@ -129,8 +127,7 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 void dp_tile_probe(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
-        const uint32_t solid = DP_POLYGON_TOUCHES;
-        if ((p->flags & (solid | DP_POLYGON_EDGE_ON)) == solid) hide_under(w, p);
+        if (dp_is_surface(w, p) && !(p->flags & DP_POLYGON_HIDDEN)) hide_under(w, p);
     }
     for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
 }

@@ -25,6 +25,8 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->edges);
     dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
+    dp_free(&memory, worker->loose);
+    dp_free(&memory, worker->lookups);
     dp_free(&memory, worker->crowd);
     dp_free(&memory, worker->pairs);
     dp_free(&memory, worker->candidates);
@@ -36,18 +38,9 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
 static void clear(dp_tile_worker *w) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
-    memset(w->row, 0, sizeof w->row);
+    memset(w->probe_pixels.row, 0, sizeof w->probe_pixels.row);
     memset(w->suspects, 0, sizeof w->suspects);
-    w->candidate_count = w->probe_count = 0;
-}
-
-static void draw_faces(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (!(p->flags & DP_POLYGON_TOUCHES) || p->flags & DP_POLYGON_EDGE_ON) continue;
-        if (!(p->flags & DP_POLYGON_FRONT) && dp_polygon_style(w->frame, p->id)->cull_back_faces) continue;
-        dp_tile_raster(w, p, i);
-    }
+    w->candidate_count = w->probe_count = w->loose_count = 0;
 }
 
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
@@ -58,10 +51,11 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
     clear(w);
     dp_tile_assemble(w);
-    draw_faces(w);
+    dp_tile_faces(w);
     dp_tile_surface(w);
     if (w->frame->lines) {
         dp_tile_edges(w);
+        dp_tile_emerge(w);
         dp_tile_intersections(w);
         dp_tile_probe(w);
     }

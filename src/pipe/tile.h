@@ -10,11 +10,14 @@
 #include "pipe/samples.h"
 #include "pipe/spine.h"
 
+enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
+
 enum {
     DP_POLYGON_FRONT = 1,   /* faces the eye */
     DP_POLYGON_EDGE_ON = 2, /* covers nothing; counts as back-facing */
     DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
-    DP_POLYGON_TOUCHES = 8  /* its points reach the tile itself, not only its margin */
+    DP_POLYGON_TOUCHES = 8, /* its points reach the tile itself, not only its margin */
+    DP_POLYGON_HIDDEN = 16  /* lies well behind the surface everywhere (cull.c) */
 };
 
 /* A polygon of the tile. */
@@ -26,6 +29,7 @@ typedef struct dp_tile_polygon {
     uint8_t x0, y0, x1, y1;  /* pixels it may cover, inclusive, clamped to the tile */
     float nearest;           /* largest d of its points */
     float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
+    float normal[3];         /* world space, unit; set by edges.c where it needs it */
     float watch;             /* a sample this close in depth may be of a polygon that crosses it */
 } dp_tile_polygon;
 
@@ -65,6 +69,17 @@ typedef struct dp_probe {
     bool hidden;
 } dp_probe;
 
+/* Points in lists by the tile's pixels. */
+typedef struct dp_pixel_lists {
+    uint64_t row[DP_TILE];             /* pixels that hold any */
+    uint32_t head[DP_TILE * DP_TILE];  /* first of a pixel; valid where `row` has its bit */
+} dp_pixel_lists;
+
+/* A polygon's edge that the table leaves to emerge. */
+typedef struct dp_loose_edge {
+    uint32_t polygon, edge; /* tile polygon, corner */
+} dp_loose_edge;
+
 struct dp_tile_worker {
     const dp_frame *frame;
     dp_sampling sampling;
@@ -72,6 +87,7 @@ struct dp_tile_worker {
     bool failed; /* out of memory: the tile is abandoned */
 
     uint32_t tile, tile_x, tile_y;
+    float farthest[DP_TILE / DP_BLOCK][DP_TILE / DP_BLOCK]; /* depth of a block's furthest sample (cull.c) */
     float *depth;     /* the tile's samples */
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
@@ -93,8 +109,11 @@ struct dp_tile_worker {
     size_t crowd_cap;
     uint32_t pair_slots, pair_count;
 
-    uint32_t cell[DP_TILE * DP_TILE]; /* first probe of a pixel; valid where `row` has its bit */
-    uint64_t row[DP_TILE];            /* pixels that hold probes */
+    dp_pixel_lists probe_pixels, lookup_pixels;
+    dp_loose_edge *loose;
+    struct dp_lookup *lookups; /* emerge.c */
+    size_t loose_cap, lookups_cap;
+    uint32_t loose_count;
 
     dp_outline_scratch scratch; /* for one polygon */
     dp_stats stats;
@@ -114,8 +133,10 @@ void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
 /* The stages of dp_tile_find, each in its own file. */
 void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c */
+void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c */
 void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index); /* raster.c */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
+void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
 void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
 void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
 
@@ -124,8 +145,35 @@ void dp_tile_surface(dp_tile_worker *worker);                              /* su
 /* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);
 
-/* Adds a candidate (k0, k1, n, probe are filled here) and its probes in this tile (probes.c). */
+/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe and the final
+ * k0, k1 are filled here (probes.c). */
 void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine);
+
+/* Puts item `index` into the list of the pixel that holds (x, y), or the tile's nearest one; returns what
+ * was first there, or UINT32_MAX. */
+static inline uint32_t dp_pixel_push(dp_pixel_lists *lists, float x, float y, uint32_t index) {
+    const uint32_t px = x <= 0 ? 0 : x >= DP_TILE ? DP_TILE - 1 : (uint32_t)x;
+    const uint32_t py = y <= 0 ? 0 : y >= DP_TILE ? DP_TILE - 1 : (uint32_t)y;
+    uint32_t *const head = &lists->head[py * DP_TILE + px];
+    const uint32_t next = lists->row[py] >> px & 1 ? *head : UINT32_MAX;
+    lists->row[py] |= (uint64_t)1 << px;
+    *head = index;
+    return next;
+}
+
+/* The pixels of row y that a polygon's box covers. */
+static inline uint64_t dp_box_span(const dp_tile_polygon *polygon) {
+    return (~(uint64_t)0 >> (63 - (polygon->x1 - polygon->x0))) << polygon->x0;
+}
+
+/* Does a polygon cover a point of the tile? Of two polygons that share an edge exactly one does (probes.c). */
+bool dp_tile_covers(const dp_tile_worker *worker, const dp_tile_polygon *polygon, float x, float y);
+
+/* Is the polygon part of the surface that is painted and hides (in this tile)? */
+static inline bool dp_is_surface(const dp_tile_worker *worker, const dp_tile_polygon *p) {
+    if ((p->flags & (DP_POLYGON_TOUCHES | DP_POLYGON_EDGE_ON)) != DP_POLYGON_TOUCHES) return false;
+    return p->flags & DP_POLYGON_FRONT || !dp_polygon_style(worker->frame, p->id)->cull_back_faces;
+}
 
 /* The depth of a polygon's plane at a point of the tile. */
 static inline float dp_plane_at(const dp_tile_polygon *polygon, float x, float y) {

@@ -23,10 +23,14 @@ enum { BUFFER = 1 << 16, TRIES = 1000 };
 static dp_result refuse(dp_diag *diag, const char *target, int code) {
     const char *const name = strcmp(target, "-") ? target : "standard output";
     const char *advice = "";
-    if (code == ENOSPC) advice = "; make room or choose another place";
-    else if (code == ENOENT) advice = "; does its directory exist?";
-    else if (code == EACCES || code == EROFS) advice = "; choose a place you may write to";
-    else if (code == EISDIR) advice = "; name a file in it";
+    if (code == ENOSPC)
+        advice = "; make room or choose another place";
+    else if (code == ENOENT)
+        advice = "; does its directory exist?";
+    else if (code == EACCES || code == EROFS)
+        advice = "; choose a place you may write to";
+    else if (code == EISDIR)
+        advice = "; name a file in it";
     return dp_fail(diag, DP_ERR_IO, "cannot write %.120s: %s%s", name, strerror(code), advice);
 }
 
@@ -95,13 +99,20 @@ dp_result dp_output_open(dp_output *output, const char *path, dp_diag *diag) {
     struct stat old;
     const bool exists = strcmp(path, "-") && !stat(path, &old);
     dp_result result;
-    if (!strcmp(path, "-")) result = open_in_place(output, path, diag);
-    else if (!exists) result = open_regular(output, NULL, diag);
-    else if (S_ISREG(old.st_mode)) result = open_regular(output, &old, diag);
-    else if (S_ISDIR(old.st_mode)) result = refuse(diag, path, EISDIR);
-    else result = open_in_place(output, path, diag);
-    if (result) dp_output_abandon(output);
-    else setvbuf(output->file, NULL, _IOFBF, BUFFER);
+    if (!strcmp(path, "-"))
+        result = open_in_place(output, path, diag);
+    else if (!exists)
+        result = open_regular(output, NULL, diag);
+    else if (S_ISREG(old.st_mode))
+        result = open_regular(output, &old, diag);
+    else if (S_ISDIR(old.st_mode))
+        result = refuse(diag, path, EISDIR);
+    else
+        result = open_in_place(output, path, diag);
+    if (result)
+        dp_output_abandon(output);
+    else
+        setvbuf(output->file, NULL, _IOFBF, BUFFER);
     return result;
 }
 

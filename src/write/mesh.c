@@ -1,13 +1,13 @@
 /* Writes a polygon source as PLY, STL or OBJ, batch by batch.
  *
- * The files differ in what they must know beforehand: OBJ nothing, binary STL the number of triangles,
- * PLY that of vertices and polygons, and all vertices before all polygons. So a PLY takes three
- * readings of the source, an STL two, an OBJ one. An STL from a source that can be read only once gets
- * its count at the end, where the file allows that.
+ * The files differ in what they must know beforehand: OBJ nothing, binary STL the number of
+ * triangles, PLY that of vertices and polygons, and all vertices before all polygons. So a PLY
+ * takes three readings of the source, an STL two, an OBJ one. An STL from a source that can be read
+ * only once gets its count at the end, where the file allows that.
  *
  * Invariant: every format holds the same polygons: those with three corners or more whose vertices
- * exist and are finite; a vertex that is not finite is written as 0 0 0, so that numbers stay right.
- * Text holds nine digits, which give back the same float.
+ * exist and are finite; a vertex that is not finite is written as 0 0 0, so that numbers stay
+ * right. Text holds nine digits, which give back the same float.
  *
  * Not here: normals, colours, groups, edge flags; welding beyond what the source indexes. STL knows
  * only triangles: larger polygons are cut into fans, which is right for convex ones. */
@@ -39,7 +39,8 @@ typedef dp_result batch_function(writer *w, const dp_batch *batch, uint64_t base
 /* ---- batches ---- */
 
 static const float *position(const dp_batch *batch, size_t v) {
-    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         v * batch->position_stride);
 }
 
 static uint32_t index_of(const dp_batch *batch, size_t corner) {
@@ -72,7 +73,8 @@ static dp_result put_text(writer *w, const char *text, int length) {
 /* Calls `each` on every batch, from the source's start. */
 static dp_result read_source(writer *w, batch_function *each) {
     uint64_t base = 0;
-    dp_result result = dp_source_rewindable(w->source) ? dp_source_rewind(w->source, w->diag) : DP_OK;
+    dp_result result =
+        dp_source_rewindable(w->source) ? dp_source_rewind(w->source, w->diag) : DP_OK;
     while (!result) {
         dp_batch batch;
         result = dp_source_next(w->source, &batch, w->diag);
@@ -124,16 +126,16 @@ static void put_f32(uint8_t *to, float value) {
 
 static dp_result ply_header(writer *w) {
     char text[400];
-    const int n = snprintf(text, sizeof text,
-                           "ply\nformat %s 1.0\ncomment written by Drypoint %s\n"
-                           "element vertex %llu\nproperty float x\nproperty float y\n"
-                           "property float z\nelement face %llu\n"
-                           "property list %s %s vertex_indices\nend_header\n",
-                           w->kind == DP_MESH_FILE_PLY ? "binary_little_endian" : "ascii",
-                           dp_version(), (unsigned long long)w->vertices,
-                           (unsigned long long)w->polygons,
-                           w->most_corners > MOST_IN_BYTE ? "uint" : "uchar",
-                           w->vertices > INT32_MAX ? "uint" : "int");
+    const int n =
+        snprintf(text, sizeof text,
+                 "ply\nformat %s 1.0\ncomment written by Drypoint %s\n"
+                 "element vertex %llu\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face %llu\n"
+                 "property list %s %s vertex_indices\nend_header\n",
+                 w->kind == DP_MESH_FILE_PLY ? "binary_little_endian" : "ascii", dp_version(),
+                 (unsigned long long)w->vertices, (unsigned long long)w->polygons,
+                 w->most_corners > MOST_IN_BYTE ? "uint" : "uchar",
+                 w->vertices > INT32_MAX ? "uint" : "int");
     return put_text(w, text, n);
 }
 
@@ -218,7 +220,8 @@ static dp_result write_ply(writer *w) {
 static void normal_of(const float a[3], const float b[3], const float c[3], float normal[3]) {
     double u[3], v[3], n[3];
     for (int k = 0; k < 3; k++) u[k] = (double)b[k] - a[k], v[k] = (double)c[k] - a[k];
-    for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > 0 ? (float)(n[k] / length) : 0;
 }
@@ -290,8 +293,7 @@ static dp_result obj_batch(writer *w, const dp_batch *batch, uint64_t base) {
         result = text_vertex(w, "v ", shown(batch, v));
     for (size_t i = 0; i < batch->polygon_count && !result; i++) {
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
-        if (usable(batch, first, last))
-            result = text_polygon(w, batch, base + 1, first, last, "f");
+        if (usable(batch, first, last)) result = text_polygon(w, batch, base + 1, first, last, "f");
     }
     return result;
 }
@@ -301,8 +303,8 @@ static dp_result write_obj(writer *w) {
     dp_result result = DP_OK;
     if (w->progress && dp_source_rewindable(w->source)) result = count(w, 1); /* for the progress */
     if (!result)
-        result = put_text(w, text, snprintf(text, sizeof text, "# written by Drypoint %s\n",
-                                            dp_version()));
+        result = put_text(w, text,
+                          snprintf(text, sizeof text, "# written by Drypoint %s\n", dp_version()));
     return result ? result : read_source(w, obj_batch);
 }
 
@@ -319,10 +321,14 @@ static dp_mesh_file kind_by_name(const char *path) {
 static dp_result write_all(writer *w) {
     switch (w->kind) {
     case DP_MESH_FILE_PLY:
-    case DP_MESH_FILE_PLY_ASCII: return write_ply(w);
-    case DP_MESH_FILE_STL: return write_stl(w);
-    case DP_MESH_FILE_OBJ: return write_obj(w);
-    case DP_MESH_FILE_AUTO: break;
+    case DP_MESH_FILE_PLY_ASCII:
+        return write_ply(w);
+    case DP_MESH_FILE_STL:
+        return write_stl(w);
+    case DP_MESH_FILE_OBJ:
+        return write_obj(w);
+    case DP_MESH_FILE_AUTO:
+        break;
     }
     return dp_fail(w->diag, DP_ERR_ARGUMENT, "dp_io_write_mesh: unknown kind of file");
 }
@@ -339,8 +345,8 @@ dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *sourc
                 .progress = progress,
                 .user = user};
     if (w.kind == DP_MESH_FILE_AUTO)
-        return dp_fail(diag, DP_ERR_UNSUPPORTED,
-                       "%.120s: models are written as .ply, .stl or .obj", path);
+        return dp_fail(diag, DP_ERR_UNSUPPORTED, "%.120s: models are written as .ply, .stl or .obj",
+                       path);
     dp_result result = dp_output_open(&w.output, path, w.diag);
     if (result) return result;
     result = write_all(&w);

@@ -1,6 +1,6 @@
-/* Writes a picture as PNG, fast: a drawing is mostly flat paper, so the cheapest compression already
- * makes it small. What all pixels share is left out: the colour when all are gray, the alpha when all
- * are opaque, which makes less to compress and smaller files.
+/* Writes a picture as PNG, fast: a drawing is mostly flat paper, so the cheapest compression
+ * already makes it small. What all pixels share is left out: the colour when all are gray, the
+ * alpha when all are opaque, which makes less to compress and smaller files.
  *
  * libpng reports errors by longjmp: it stays within encode(), and everything that must survive it
  * lives in the encoder, not in local variables.
@@ -16,7 +16,7 @@
 #include <zlib.h>
 
 enum {
-    LEVEL = 1,            /* of zlib: higher levels take much longer and gain little on drawings */
+    LEVEL = 1, /* of zlib: higher levels take much longer and gain little on drawings */
     ROWS_PER_REPORT = 64
 };
 
@@ -86,7 +86,8 @@ static const uint8_t *pack_row(const encoder *self, const uint8_t *rgba) {
         for (size_t x = 0; x < n; x++) to[2 * x] = rgba[4 * x], to[2 * x + 1] = rgba[4 * x + 3];
     else
         for (size_t x = 0; x < n; x++)
-            to[3 * x] = rgba[4 * x], to[3 * x + 1] = rgba[4 * x + 1], to[3 * x + 2] = rgba[4 * x + 2];
+            to[3 * x] = rgba[4 * x], to[3 * x + 1] = rgba[4 * x + 1],
+                   to[3 * x + 2] = rgba[4 * x + 2];
     return to;
 }
 
@@ -112,7 +113,8 @@ static void write_header(encoder *self) {
 static void write_rows(encoder *self) {
     const dp_io_picture *const p = self->picture;
     for (uint32_t y = 0; y < p->height; y++) {
-        if (p->progress && y % ROWS_PER_REPORT == 0 && p->progress(p->user, (double)y / p->height)) {
+        if (p->progress && y % ROWS_PER_REPORT == 0 &&
+            p->progress(p->user, (double)y / p->height)) {
             self->result = dp_fail(&self->diag, DP_ERR_CANCELLED, "writing was stopped");
             png_error(self->png, "cancelled");
         }
@@ -143,8 +145,10 @@ static dp_result write_picture(encoder *self, const char *path) {
     const dp_result unprepared = prepare(self, path);
     if (unprepared) return unprepared;
     encode(self);
-    if (self->result) dp_output_abandon(&self->output);
-    else self->result = dp_output_commit(&self->output, &self->diag);
+    if (self->result)
+        dp_output_abandon(&self->output);
+    else
+        self->result = dp_output_commit(&self->output, &self->diag);
     return self->result;
 }
 

@@ -224,12 +224,18 @@ static void follow_edge(ref_truth *truth, const sight *view, const mesh_edge *ed
     v3 off = model->polygons[edge->polygon[0]].normal;
     if (edge->polygons == 1 && facing(view, model, edge->polygon[0]) < 0) off = v3_mul(off, -1);
     if (edge->polygons >= 2) off = v3_unit(v3_add(off, model->polygons[edge->polygon[1]].normal));
-    follow(truth, view,
-           (feature){.a = model->positions[edge->a],
-                     .b = model->positions[edge->b],
-                     .off = off,
-                     .skip = {edge->polygon[0], edge->polygon[1]},
-                     .kind = kind});
+    /* A fold whose back is nearer than its front is an outline when seen from behind, where an open
+     * model lets one look; whether it is drawn is left to the library. */
+    const bool behind = kind == DP_LINE_SILHOUETTE && dihedral(model, edge) > 180;
+    feature line = {.a = model->positions[edge->a],
+                    .b = model->positions[edge->b],
+                    .off = off,
+                    .skip = {edge->polygon[0], edge->polygon[1]},
+                    .kind = behind ? REF_NEUTRAL : kind};
+    follow(truth, view, line);
+    if (!behind) return;
+    line.off = v3_mul(off, -1);
+    follow(truth, view, line);
 }
 
 static void follow_crossing(ref_truth *truth, const sight *view, const mesh_crossing *crossing) {

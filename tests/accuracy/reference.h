@@ -13,7 +13,7 @@
 enum {
     REF_NEUTRAL = DP_LINE_COUNT, /* may be drawn or not: non-manifold or inconsistently wound edges,
                                     dihedral angles within a degree of a threshold, polygons seen
-                                    edge-on, contacts that are no crossings */
+                                    edge-on, outlines of backs, contacts that are no crossings */
     REF_CLASS_COUNT
 };
 #define REF_MARGIN 40.0 /* px around the picture in which lines are followed too */

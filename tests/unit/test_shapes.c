@@ -1,5 +1,5 @@
-/* Generated models: closed, oriented, without slivers of no area, about as many triangles as asked for,
- * the same again after a rewind. Edges are matched by the bits of their ends' positions. */
+/* Generated models: closed, oriented, without slivers of no area, about as many triangles as asked
+ * for, the same again after a rewind. Edges are matched by the bits of their ends' positions. */
 #include <drypoint/shapes.h>
 
 #include <math.h>
@@ -84,9 +84,12 @@ static edge_tally tally(const soup *s) {
         int sum = 0;
         for (last = first; last < 3 * s->count && !by_ends(&edges[first], &edges[last]); last++)
             sum += edges[last].direction;
-        if (last - first == 1) t.open++;
-        else if (last - first == 2 && sum == 0) t.paired++;
-        else t.wrong++;
+        if (last - first == 1)
+            t.open++;
+        else if (last - first == 2 && sum == 0)
+            t.paired++;
+        else
+            t.wrong++;
     }
     free(edges);
     return t;
@@ -98,7 +101,8 @@ static void cross(const float corner[3][3], double n[3]) {
         u[k] = (double)corner[1][k] - corner[0][k];
         v[k] = (double)corner[2][k] - corner[0][k];
     }
-    for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
 }
 
 /* Of triangles without area there must be none. */
@@ -207,7 +211,9 @@ static void minus_zero_is_zero(void **state) {
 
 /* ---- known features ---- */
 
-static bool near(double value, double wanted, double within) { return fabs(value - wanted) < within; }
+static bool near(double value, double wanted, double within) {
+    return fabs(value - wanted) < within;
+}
 
 static void volumes_are_known(void **state) {
     (void)state;
@@ -255,7 +261,8 @@ static void seeds_differ(void **state) {
         dp_source_destroy(source);
     }
     assert_int_equal(made[0].count, made[1].count);
-    assert_memory_not_equal(made[0].corners, made[1].corners, made[0].count * sizeof *made[0].corners);
+    assert_memory_not_equal(made[0].corners, made[1].corners,
+                            made[0].count * sizeof *made[0].corners);
     free(made[0].corners);
     free(made[1].corners);
 }
@@ -314,11 +321,16 @@ static void memory_may_run_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes_are_closed),   cmocka_unit_test(counts_are_near),
-        cmocka_unit_test(boxes_fit),           cmocka_unit_test(rewinding_repeats),
-        cmocka_unit_test(minus_zero_is_zero),  cmocka_unit_test(volumes_are_known),
-        cmocka_unit_test(holes_are_known),     cmocka_unit_test(seeds_differ),
-        cmocka_unit_test(wrong_shapes_are_refused), cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(shapes_are_closed),
+        cmocka_unit_test(counts_are_near),
+        cmocka_unit_test(boxes_fit),
+        cmocka_unit_test(rewinding_repeats),
+        cmocka_unit_test(minus_zero_is_zero),
+        cmocka_unit_test(volumes_are_known),
+        cmocka_unit_test(holes_are_known),
+        cmocka_unit_test(seeds_differ),
+        cmocka_unit_test(wrong_shapes_are_refused),
+        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

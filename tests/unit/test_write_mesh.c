@@ -110,8 +110,8 @@ static void shapes_come_back(void **state) {
     content made = read_source(source);
     for (int k = 0; k < FILES; k++) {
         dp_diag diag = {0};
-        const dp_result result = dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source,
-                                                  NULL, NULL, &diag);
+        const dp_result result =
+            dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL, NULL, &diag);
         if (result) fail_msg("%s: %s", path, diag.message);
         content read = read_file();
         assert_same(&made, &read);
@@ -122,10 +122,11 @@ static void shapes_come_back(void **state) {
     dp_source_destroy(source);
 }
 
-/* A pentagon, a quadrangle, a triangle without indices' order, and what cannot be written: an index out
- * of range, a polygon of two corners, a corner that is not finite. */
-static const float positions[][4] = {{0, 0, 0, 9}, {2, 0, 0, 9},      {3, 1.1F, 0, 9}, {1, 2, 0, 9},
-                                     {-1, 1, 0, 9}, {1, 0, -1e-30F, 9}, {NAN, 1, 2, 9}};
+/* A pentagon, a quadrangle, a triangle without indices' order, and what cannot be written: an index
+ * out of range, a polygon of two corners, a corner that is not finite. */
+static const float positions[][4] = {{0, 0, 0, 9},  {2, 0, 0, 9},  {3, 1.1F, 0, 9},
+                                     {1, 2, 0, 9},  {-1, 1, 0, 9}, {1, 0, -1e-30F, 9},
+                                     {NAN, 1, 2, 9}};
 static const uint32_t indices[] = {0, 1, 2, 3, 4, 4, 3, 2, 1, 5, 3, 1, 0, 1, 99, 2, 3, 0, 1, 6};
 static const uint32_t firsts[] = {0, 5, 9, 12, 15, 17, 20};
 static const dp_batch arrays = {.positions = positions[0],
@@ -142,9 +143,9 @@ static void polygons_come_back(void **state) {
     for (int k = 0; k < FILES; k++) {
         dp_source *source = NULL;
         assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);
-        assert_int_equal(dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL,
-                                          NULL, NULL),
-                         DP_OK);
+        assert_int_equal(
+            dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL, NULL, NULL),
+            DP_OK);
         content read = read_file();
         const bool stl = k == STL_FILE;
         assert_int_equal(read.polygon_count, stl ? SOUND_TRIANGLES : SOUND_POLYGONS);
@@ -160,10 +161,11 @@ static void polygons_come_back(void **state) {
 static void large_polygons_come_back(void **state) {
     (void)state;
     enum { CORNERS = 1000 };
-    float (*ring)[3] = calloc(CORNERS, sizeof *ring);
+    float(*ring)[3] = calloc(CORNERS, sizeof *ring);
     const uint32_t whole[2] = {0, CORNERS};
     assert_non_null(ring);
-    for (int k = 0; k < CORNERS; k++) ring[k][0] = cosf(k * 0.00628F), ring[k][1] = sinf(k * 0.00628F);
+    for (int k = 0; k < CORNERS; k++)
+        ring[k][0] = cosf(k * 0.00628F), ring[k][1] = sinf(k * 0.00628F);
     const dp_batch batch = {.positions = ring[0],
                             .vertex_count = CORNERS,
                             .corner_count = CORNERS,
@@ -172,9 +174,9 @@ static void large_polygons_come_back(void **state) {
     for (int k = 0; k < FILES; k++) {
         dp_source *source = NULL;
         assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
-        assert_int_equal(dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL,
-                                          NULL, NULL),
-                         DP_OK);
+        assert_int_equal(
+            dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL, NULL, NULL),
+            DP_OK);
         content read = read_file();
         assert_int_equal(read.polygon_count, k == STL_FILE ? CORNERS - 2 : 1);
         forget(&read);
@@ -206,9 +208,9 @@ static void streams_become_stl_and_obj(void **state) {
     bool done;
     for (int k = STL_FILE; k < FILES; k++) {
         dp_source *const source = once(&done);
-        assert_int_equal(dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL,
-                                          NULL, NULL),
-                         DP_OK);
+        assert_int_equal(
+            dp_io_write_mesh(name_file(files[k].ending), files[k].kind, source, NULL, NULL, NULL),
+            DP_OK);
         content read = read_file();
         assert_int_equal(read.polygon_count, k == STL_FILE ? SOUND_TRIANGLES : SOUND_POLYGONS);
         forget(&read);
@@ -266,7 +268,8 @@ static void a_failing_source_leaves_nothing(void **state) {
     dp_source *source = NULL;
     dp_diag diag = {0};
     assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, NULL), DP_OK);
-    assert_int_equal(dp_io_write_mesh(name_file(".obj"), 0, source, NULL, NULL, &diag), DP_ERR_FORMAT);
+    assert_int_equal(dp_io_write_mesh(name_file(".obj"), 0, source, NULL, NULL, &diag),
+                     DP_ERR_FORMAT);
     assert_int_equal(diag.line, 7);
     assert_string_equal(diag.message, "the source's own words");
     assert_true(access(path, F_OK) != 0);
@@ -282,7 +285,8 @@ static void a_full_disk_is_an_error(void **state) {
         dp_source *source = NULL;
         dp_diag diag = {0};
         assert_int_equal(dp_source_from_shape(&shape, &source, NULL), DP_OK);
-        assert_int_equal(dp_io_write_mesh("/dev/full", kinds[k], source, NULL, NULL, &diag), DP_ERR_IO);
+        assert_int_equal(dp_io_write_mesh("/dev/full", kinds[k], source, NULL, NULL, &diag),
+                         DP_ERR_IO);
         assert_non_null(strstr(diag.message, "No space left"));
         dp_source_destroy(source);
     }
@@ -308,10 +312,14 @@ static void unknown_endings_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(shapes_come_back),           TEST(polygons_come_back),
-        TEST(large_polygons_come_back),   TEST(streams_become_stl_and_obj),
-        TEST(streams_do_not_become_ply),  TEST(stopping_leaves_nothing),
-        TEST(a_failing_source_leaves_nothing), TEST(a_full_disk_is_an_error),
+        TEST(shapes_come_back),
+        TEST(polygons_come_back),
+        TEST(large_polygons_come_back),
+        TEST(streams_become_stl_and_obj),
+        TEST(streams_do_not_become_ply),
+        TEST(stopping_leaves_nothing),
+        TEST(a_failing_source_leaves_nothing),
+        TEST(a_full_disk_is_an_error),
         TEST(unknown_endings_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
