@@ -11,7 +11,9 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     return dp_paper_quad(p, edge, dp_quad_direction(e, p->normal, pen->angle), r, pen->reach, out);
 }
 
-/* Facing away, a quad at phi > 180 leans over towards the eye: no neighbour that can be seen rises by
+/* A quad that is seen nearly edge-on would cut through whatever lies before it, and be trapped there: it
+ * ends where it has come as near as DP_STEEPEST allows.
+ * Facing away, a quad at phi > 180 leans over towards the eye: no neighbour that can be seen rises by
  * more. At phi < 180 it leads in under its own polygon: every neighbour that can be seen does. */
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     dp_screen_edge e;
@@ -19,7 +21,9 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     const dp_vec3 q = dp_quad_direction(dp_edge_direction(p, edge), p->normal, pen->angle);
     const dp_lean lean = dp_lean_of(p->view, &e, q);
     if (!lean.outward && pen->angle >= 180) return 0;
-    dp_screen_quad(&e, pen->reach, lean.outward ? lean.slope : -e.steep, &out[0]);
+    const double slope = lean.outward ? lean.slope : -e.steep;
+    const double reach = slope > e.steep ? pen->reach * e.steep / slope : pen->reach;
+    dp_screen_quad(&e, reach, slope, &out[0]);
     return 1;
 }
 
