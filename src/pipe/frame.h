@@ -18,6 +18,8 @@ typedef struct dp_vertex {
     uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
 } dp_vertex;
 
+static inline dp_point dp_place(dp_vertex v) { return (dp_point){v.x, v.y, v.d}; }
+
 /* True where a triangle's corners must go through clipping (x is NaN). */
 static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
     const float sum = a.x + b.x + c.x;

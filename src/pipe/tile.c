@@ -32,6 +32,11 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);
     dp_free(&memory, worker->pieces);
+    dp_free(&memory, worker->ink);
+    dp_free(&memory, worker->ink_depth);
+    dp_free(&memory, worker->stencil);
+    dp_free(&memory, worker->world);
+    dp_free(&memory, worker->clip);
     dp_outline_scratch_free(&worker->scratch, &memory);
 }
 
@@ -61,7 +66,9 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     dp_tile_assemble(w);
     dp_tile_faces(w);
     dp_tile_surface(w);
-    if (w->frame->lines) {
+    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS) {
+        dp_tile_quads(w);
+    } else if (w->frame->lines) {
         dp_tile_edges(w);
         dp_tile_emerge(w);
         dp_tile_intersections(w);

@@ -115,6 +115,13 @@ struct dp_tile_worker {
     size_t loose_cap, lookups_cap;
     uint32_t loose_count;
 
+    uint32_t *ink;    /* quads.c: per sample; its depth; the stencil buffer */
+    float *ink_depth;
+    uint8_t *stencil;
+    dp_vec3 *world;   /* corners of one polygon */
+    dp_clip_point *clip;
+    size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap;
+
     dp_outline_scratch scratch; /* for one polygon */
     dp_stats stats;
 };
@@ -142,6 +149,9 @@ void dp_tile_probe(dp_tile_worker *worker);                                /* pr
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
 void dp_tile_bare_surface(dp_tile_worker *worker);
+
+/* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
+void dp_tile_quads(dp_tile_worker *worker);
 
 /* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);
