@@ -193,6 +193,28 @@ static dp_result check_dropped(dp_stats *s, dp_diag *diag) {
                    (unsigned long long)s->dropped_corners);
 }
 
+static uint64_t bins_bytes(const dp_bins *bins) {
+    uint64_t sum = bins->chunks_cap * sizeof *bins->chunks;
+    for (size_t i = 0; i < bins->chunks_cap; i++) {
+        const dp_bin_chunk *const c = &bins->chunks[i];
+        sum += sizeof(uint32_t) * (c->entries_cap + c->offsets_cap + c->items_cap + c->tiles_cap);
+    }
+    return sum;
+}
+
+/* All that stays from frame to frame, but for the small change. */
+static uint64_t scratch_bytes(const dp_context *c) {
+    const dp_polygon_store *const p = &c->polygons;
+    uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
+                   c->pieces_cap * sizeof(dp_tile_pieces) + bins_bytes(&c->frame.polygon_bins) +
+                   bins_bytes(&c->frame.stroke_bins);
+    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
+    sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
+           c->strokes.strokes_cap * sizeof(dp_stroke);
+    for (uint32_t i = 0; i < c->workers; i++) sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
+    return sum;
+}
+
 static void lap(dp_stats *stats, dp_stage stage, double *since) {
     const double now = now_ms();
     stats->stage_ms[stage] = now - *since;
@@ -236,6 +258,7 @@ static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
         if (c->ink_workers[i].failed) return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
+    c->stats.bytes = scratch_bytes(c);
     return DP_OK;
 }
 

@@ -99,8 +99,10 @@ struct dp_tile_worker {
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
-    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
+    size_t winner_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t candidates_cap, probes_cap, pieces_cap;
+    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count;
+    uint32_t candidate_count, probe_count;
     size_t piece_count;
 
     uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
@@ -134,6 +136,7 @@ struct dp_tile_worker {
 
 bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
 void dp_tile_worker_free(dp_tile_worker *worker);
+uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 
 /* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
