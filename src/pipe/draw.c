@@ -7,6 +7,7 @@
 #include "pipe/context.h"
 
 #include "base/diag.h"
+#include "features/features.h"
 
 #include <string.h>
 #include <time.h>
@@ -15,6 +16,15 @@ enum { MAX_SIZE = 32768 };
 
 /* Tiles are widened by this, so that an edge along a tile's border meets both its polygons (px). */
 static const float MARGIN = 2;
+
+/* Quads as ink: a polygon's added polygons may reach a tile that it does not. */
+static float margin_of(const dp_frame *f) {
+    float widest = 0;
+    if (f->styles[0].ink != DP_INK_QUADS) return MARGIN;
+    for (uint32_t i = 0; i < f->style_count; i++)
+        for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmaxf(widest, f->styles[i].line[k].width);
+    return 1 + widest * (f->styles[0].method == DP_METHOD_PAPER ? (float)DP_PAPER_REACH : 1);
+}
 
 const char *dp_stage_name(dp_stage stage) {
     static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "ink"};
@@ -198,7 +208,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
         return out_of_memory(diag);
     dp_transform_vertices(f);
     lap(&c->stats, DP_STAGE_VERTICES, since);
-    if (!dp_bin_polygons(f, MARGIN, c->bin_workers)) return out_of_memory(diag);
+    if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, diag))) return result;

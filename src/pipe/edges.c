@@ -24,8 +24,8 @@ static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
 
 static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i) {
     if (p->flags & DP_POLYGON_CLIPPED) return true;
-    const dp_point a = w->points[p->point + i];
-    const dp_point b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
+    const dp_vertex a = w->points[p->point + i];
+    const dp_vertex b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
     return dp_maxf(a.x, b.x) >= -MARGIN && dp_minf(a.x, b.x) <= DP_TILE + MARGIN &&
            dp_maxf(a.y, b.y) >= -MARGIN && dp_minf(a.y, b.y) <= DP_TILE + MARGIN;
 }
@@ -60,9 +60,9 @@ static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t
 }
 
 /* Enters an edge, or only meets it where a polygon that is not hidden has it too. */
-static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb) {
+static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb, uint32_t ka,
+                   uint32_t kb) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    const uint32_t ka = w->frame->vertices[va].key, kb = w->frame->vertices[vb].key;
     uint32_t hash = (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
     hash ^= hash >> 15;
     const uint32_t mask = w->slot_count - 1;
@@ -85,17 +85,28 @@ static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t 
     }
 }
 
+static bool is_flagged(const dp_polygons *polygons, uint32_t corner) {
+    return !polygons->edge_flags || polygons->edge_flags[corner];
+}
+
+/* Keys come from the tile's points where these are the corners, else from the vertices. */
+static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, uint32_t vertex) {
+    return p->flags & DP_POLYGON_CLIPPED ? w->frame->vertices[vertex].key : w->points[p->point + i].key;
+}
+
 static void insert_polygon(dp_tile_worker *w, uint32_t index) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    uint32_t va = dp_corner_vertex(polygons, first);
-    const uint32_t v0 = va;
+    const uint32_t v0 = dp_corner_vertex(polygons, first), k0 = key_of(w, p, 0, v0);
+    uint32_t va = v0, ka = k0;
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t vb = i + 1 == n ? v0 : dp_corner_vertex(polygons, first + i + 1);
-        const bool flagged = !polygons->edge_flags || polygons->edge_flags[first + i];
-        if (flagged && near_tile(w, p, i) && !same_position(polygons, va, vb)) insert(w, index, i, va, vb);
-        va = vb;
+        const bool last = i + 1 == n;
+        const uint32_t vb = last ? v0 : dp_corner_vertex(polygons, first + i + 1);
+        const uint32_t kb = last ? k0 : key_of(w, p, i + 1, vb);
+        const bool same = ka == kb && same_position(polygons, va, vb);
+        if (!same && is_flagged(polygons, first + i) && near_tile(w, p, i)) insert(w, index, i, va, vb, ka, kb);
+        va = vb, ka = kb;
     }
 }
 
@@ -168,7 +179,7 @@ static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polyg
     flap f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = hypot(ex, ey);
     if (!(length > 0)) return f;
-    const dp_point *const points = w->points + p->point;
+    const dp_vertex *const points = w->points + p->point;
     for (uint32_t i = 0; i < p->points; i++) {
         const double x = points[i].x + (double)w->tile_x - s->a.x, y = points[i].y + (double)w->tile_y - s->a.y;
         const double across = (ex * y - ey * x) / length;
@@ -225,7 +236,7 @@ static void leave_all(dp_tile_worker *w) {
         const dp_tile_polygon *const p = &w->polygons[i];
         const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
-            if ((!polygons->edge_flags || polygons->edge_flags[first + e]) && near_tile(w, p, e)) leave(w, i, e);
+            if (is_flagged(polygons, first + e) && near_tile(w, p, e)) leave(w, i, e);
     }
 }
 

@@ -2,7 +2,7 @@
  *
  * The paper's between-test finds them sample by sample; here it only says where to look. While a face is
  * rasterized and falls close to what a sample already holds, the two planes are compared: if they
- * cross within DP_WATCH_PX of the sample, its pixel is a suspect. As the two frontmost surfaces meet at
+ * cross within dp_watch_px of the sample, its pixel is a suspect. As the two frontmost surfaces meet at
  * every visible sample of a crossing, whichever comes first, one pass finds all of them. Around
  * suspects, all pairs of polygons are then tested exactly, and each crossing segment becomes a
  * candidate line like an edge, with the same probes.
@@ -44,7 +44,7 @@ void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, dp_i4 close, 
         if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) continue;
         uint64_t *const row = &w->suspects[!(p->flags & q->flags & DP_POLYGON_FRONT)][y];
         if (*row >> x & 1) continue;
-        const float reach = DP_WATCH_PX * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
+        const float reach = dp_watch_px(w) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
         if (fabsf(depth[i] - w->depth[lane + i]) > reach) continue;
         if (!shared_corners(w->frame, p->id, q->id)) *row |= (uint64_t)1 << x;
     }
@@ -118,7 +118,7 @@ static bool is_new_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
 static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
     bool nearer = false, further = false;
     for (uint32_t i = 0; i < p->points; i++) {
-        const dp_point at = w->points[p->point + i];
+        const dp_vertex at = w->points[p->point + i];
         const float gap = at.d - dp_plane_at(q, at.x, at.y);
         nearer = nearer || gap >= 0;
         further = further || gap <= 0;
@@ -171,7 +171,7 @@ void dp_tile_intersections(dp_tile_worker *w) {
     w->pair_count = 0;
     for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
-        if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
+        if (!(p->flags & DP_POLYGON_TOUCHES) || p->flags & DP_POLYGON_HIDDEN) continue;
         if (p->flags & DP_POLYGON_FRONT) join_crowds(w, i, front, heads, &count);
         else if (mixed) join_crowds(w, i, back, heads, &count);
     }

@@ -32,6 +32,11 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);
     dp_free(&memory, worker->pieces);
+    dp_free(&memory, worker->ink);
+    dp_free(&memory, worker->ink_depth);
+    dp_free(&memory, worker->stencil);
+    dp_free(&memory, worker->world);
+    dp_free(&memory, worker->clip);
     dp_outline_scratch_free(&worker->scratch, &memory);
 }
 
@@ -49,16 +54,25 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     w->tile_x = tile % w->frame->tiles_x * DP_TILE;
     w->tile_y = tile / w->frame->tiles_x * DP_TILE;
     w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
+    dp_tile_pieces *const out = &w->frame->tile_pieces[tile];
+    out->first = first;
+    out->count = 0;
+    out->bare = dp_bins_tile_count(&w->frame->polygon_bins, tile) == 0;
+    if (out->bare) {
+        dp_tile_bare_surface(w);
+        return;
+    }
     clear(w);
     dp_tile_assemble(w);
     dp_tile_faces(w);
     dp_tile_surface(w);
-    if (w->frame->lines) {
+    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS) {
+        dp_tile_quads(w);
+    } else if (w->frame->lines) {
         dp_tile_edges(w);
         dp_tile_emerge(w);
         dp_tile_intersections(w);
         dp_tile_probe(w);
     }
-    w->frame->tile_pieces[tile].first = first;
-    w->frame->tile_pieces[tile].count = w->piece_count - first;
+    out->count = w->piece_count - first;
 }

@@ -92,7 +92,7 @@ struct dp_tile_worker {
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
     dp_tile_polygon *polygons;
-    dp_point *points;
+    dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     dp_edge_entry *edges;
     dp_meeting *meetings;
     uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
@@ -114,6 +114,13 @@ struct dp_tile_worker {
     struct dp_lookup *lookups; /* emerge.c */
     size_t loose_cap, lookups_cap;
     uint32_t loose_count;
+
+    uint32_t *ink;    /* quads.c: per sample; its depth; the stencil buffer */
+    float *ink_depth;
+    uint8_t *stencil;
+    dp_vec3 *world;   /* corners of one polygon */
+    dp_clip_point *clip;
+    size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap;
 
     dp_outline_scratch scratch; /* for one polygon */
     dp_stats stats;
@@ -141,6 +148,10 @@ void dp_tile_intersections(dp_tile_worker *worker);                        /* in
 void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+void dp_tile_bare_surface(dp_tile_worker *worker);
+
+/* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
+void dp_tile_quads(dp_tile_worker *worker);
 
 /* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);

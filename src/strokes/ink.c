@@ -69,7 +69,7 @@ static float coverage_at(float half_width, float distance) {
 typedef struct tile_ink {
     const dp_frame *frame;
     dp_ink_worker *worker;
-    const float *depth; /* the tile's samples */
+    const float *depth; /* the tile's samples; NULL: there is no surface */
     uint32_t x0, y0;    /* px of the tile's corner */
     uint32_t x1, y1;    /* of its end, within the picture */
 } tile_ink;
@@ -81,7 +81,7 @@ static bool on_plane(const float plane[3], float x, float y, float d, float tole
 /* Share of the pixel's samples that do not hide the stroke. */
 static float visible_share(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, float t,
                            float distance) {
-    if (!(ink->frame->lines & DP_SILHOUETTE)) return 1;
+    if (!ink->depth || !(ink->frame->lines & DP_SILHOUETTE)) return 1;
     const uint32_t samples = ink->frame->target.samples;
     const float *const depth = ink->depth + (size_t)((y - ink->y0) * DP_TILE + (x - ink->x0)) * samples;
     const float spine = s->a.d + (s->b.d - s->a.d) * t;
@@ -209,7 +209,7 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
     const tile_ink ink = {.frame = frame, .worker = worker,
-                          .depth = frame->depth + (size_t)tile * frame->tile_samples,
+                          .depth = frame->tile_pieces[tile].bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
                           .x0 = x0, .y0 = y0,
                           .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                           .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};

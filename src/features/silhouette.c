@@ -1,0 +1,36 @@
+/* Silhouettes (Raskar 2001, 2.1): every back-facing polygon is enlarged in its own plane.
+ *
+ * The paper's 2n-gon is handed out edge by edge: the quad beyond the edge, and the triangle between it and
+ * the next edge's quad at their common corner. The polygon itself is not painted with ink: where it is
+ * seen (an open model) it is surface.
+ * Where a front-facing polygon lies next to it, the enlargement shows beside that one's outline; elsewhere
+ * it stays hidden behind the front. */
+#include "features/features.h"
+
+static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
+    const dp_vec3 n = p->normal, e = dp_edge_direction(p, edge);
+    uint32_t count = dp_paper_quad(p, edge, dp_cross(e, n), n, pen->reach, &out[0]);
+    const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
+    if ((p->edge_flags && !p->edge_flags[next]) || dp_outcode(p->view, p->clip[next])) return count;
+    const dp_vec3 corner = p->world[next], f = dp_edge_direction(p, next);
+    const dp_vec3 bevel[3] = {corner, dp_paper_offset(p->view, corner, e, dp_cross(e, n), n, pen->reach),
+                              dp_paper_offset(p->view, corner, f, dp_cross(f, n), n, pen->reach)};
+    count += dp_paper_project(p, edge, bevel, 3, DP_PAPER_REACH * pen->reach, &out[count]);
+    return count;
+}
+
+/* A polygon that is nearly edge-on would shoot towards the eye: it is held to DP_STEEPEST. */
+static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
+    dp_screen_edge e;
+    if (!dp_screen_edge_make(p, edge, &e)) return 0;
+    const dp_lean lean = dp_lean_of(p->view, &e, dp_cross(dp_edge_direction(p, edge), p->normal));
+    if (lean.slope == -INFINITY) return 0; /* it leads straight away from the eye: nothing to be seen */
+    dp_screen_quad(&e, pen->reach, fmin(lean.slope, e.steep), &out[0]);
+    return 1;
+}
+
+uint32_t dp_shade_silhouette(const dp_primitive *p, uint32_t edge, const dp_pen *pen,
+                             dp_added out[DP_ADDED_MOST]) {
+    if (p->front || (p->edge_flags && !p->edge_flags[edge])) return 0;
+    return pen->method == DP_METHOD_PAPER ? paper(p, edge, pen, out) : exact(p, edge, pen, out);
+}
