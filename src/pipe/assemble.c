@@ -52,7 +52,9 @@ static bool has_room(dp_tile_worker *w, uint32_t points) {
 /* Any polygon, clipped or not. */
 static void add_polygon(dp_tile_worker *w, uint32_t id) {
     dp_outline outline;
-    if (dp_outline_make(w->frame, id, &w->scratch, &outline)) return;
+    const dp_outline_state state = dp_outline_make(w->frame, id, &w->scratch, &outline);
+    if (state == DP_OUTLINE_MEMORY) w->failed = true;
+    if (state) return;
     const uint32_t n = outline.count, first = dp_first_corner(&w->frame->polygons, id);
     if (!has_room(w, n)) return;
     const dp_facing facing = dp_outline_facing(w->frame, id, &outline);

@@ -182,9 +182,10 @@ static void add_counts(dp_stats *sum, const dp_stats *s) {
     sum->added_polygons += s->added_polygons;
 }
 
-static dp_result check_dropped(dp_stats *s, dp_diag *diag) {
+/* An error when nothing is left of `pieces` polygons, after splitting. */
+static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
     s->dropped = s->dropped_index + s->dropped_finite + s->dropped_area + s->dropped_corners;
-    if (!s->dropped || s->dropped < s->polygons) return DP_OK;
+    if (!s->dropped || s->dropped < pieces + s->dropped_corners) return DP_OK;
     return dp_fail(diag, DP_ERR_FORMAT,
                    "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
                    "coordinates that are not finite, %llu without area, %llu with fewer than 3 corners",
@@ -233,7 +234,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
-    if ((result = check_dropped(&c->stats, diag))) return result;
+    if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
     if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->tile_workers[i].failed) return out_of_memory(diag);
