@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { WAITING = 64 };
+
 typedef struct slot {
     uint64_t key;
     uint32_t count;
@@ -22,6 +24,8 @@ typedef struct slot {
 typedef struct table {
     slot *slots;
     size_t size, used; /* size: a power of two */
+    uint64_t waiting[WAITING];
+    unsigned waiting_count;
 } table;
 
 static uint64_t mix(uint64_t x) {
@@ -41,10 +45,8 @@ static uint64_t position_hash(const float p[3]) {
     return hash;
 }
 
-static uint64_t edge_key(const float a[3], const float b[3]) {
-    const uint64_t x = position_hash(a), y = position_hash(b);
-    return mix(x < y ? x * 3 + y : y * 3 + x); /* the same both ways round */
-}
+/* From the hashes of both ends: the same both ways round. */
+static uint64_t edge_key(uint64_t x, uint64_t y) { return mix(x < y ? x * 3 + y : y * 3 + x); }
 
 static slot *find(const table *t, uint64_t key) {
     size_t at = (size_t)key & (t->size - 1);
@@ -53,23 +55,43 @@ static slot *find(const table *t, uint64_t key) {
 }
 
 static bool grow(table *t) {
-    table larger = {.size = t->size ? 2 * t->size : 1 << 16, .used = t->used};
-    larger.slots = calloc(larger.size, sizeof *larger.slots);
-    if (!larger.slots) return false;
-    for (size_t k = 0; k < t->size; k++)
-        if (t->slots[k].count) *find(&larger, t->slots[k].key) = t->slots[k];
-    free(t->slots);
-    *t = larger;
+    const table old = *t;
+    t->size = old.size ? 2 * old.size : 1 << 16;
+    t->slots = calloc(t->size, sizeof *t->slots);
+    if (!t->slots) {
+        *t = old;
+        return false;
+    }
+    for (size_t k = 0; k < old.size; k++)
+        if (old.slots[k].count) *find(t, old.slots[k].key) = old.slots[k];
+    free(old.slots);
     return true;
 }
 
-static bool add_edge(table *t, const float a[3], const float b[3]) {
+static bool count_edge(table *t, uint64_t key) {
     if (2 * t->used >= t->size && !grow(t)) return false;
-    slot *const s = find(t, edge_key(a, b));
+    slot *const s = find(t, key);
     if (!s->count) t->used++;
-    s->key = edge_key(a, b);
+    s->key = key;
     if (s->count < UINT32_MAX) s->count++;
     return true;
+}
+
+static bool count_waiting(table *t) {
+    for (unsigned k = 0; k < t->waiting_count; k++)
+        if (!count_edge(t, t->waiting[k])) return false;
+    t->waiting_count = 0;
+    return true;
+}
+
+/* Nearly all the time goes into waiting for memory: keys are collected and their slots asked for
+ * ahead, which saves about half of it. */
+static bool add_edge(table *t, uint64_t key) {
+#if defined(__GNUC__)
+    if (t->size) __builtin_prefetch(&t->slots[(size_t)key & (t->size - 1)]);
+#endif
+    t->waiting[t->waiting_count++] = key;
+    return t->waiting_count < WAITING || count_waiting(t);
 }
 
 /* ---- polygons ---- */
@@ -119,14 +141,16 @@ static bool sound(const dp_batch *batch, size_t first, size_t last, edge_counts 
 
 static bool add_polygon(table *t, const dp_batch *batch, size_t first, size_t last,
                         dp_extent *extent) {
+    uint64_t before = position_hash(corner(batch, last - 1));
     for (size_t c = first; c < last; c++) {
         const float *const p = corner(batch, c);
-        const float *const q = corner(batch, c + 1 < last ? c + 1 : first);
+        const uint64_t here = position_hash(p);
         for (int k = 0; k < 3; k++) {
             extent->min[k] = fminf(extent->min[k], p[k]);
             extent->max[k] = fmaxf(extent->max[k], p[k]);
         }
-        if (memcmp(p, q, 3 * sizeof *p) && !add_edge(t, p, q)) return false;
+        if (here != before && !add_edge(t, edge_key(before, here))) return false;
+        before = here;
     }
     return true;
 }
@@ -141,7 +165,7 @@ static bool add_batch(table *t, const dp_batch *batch, dp_extent *extent, edge_c
     }
     extent->polygons += batch->polygon_count;
     extent->vertices += batch->vertex_count;
-    return true;
+    return count_waiting(t);
 }
 
 static dp_result add_source(table *t, dp_source *source, dp_extent *extent, edge_counts *counts,

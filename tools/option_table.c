@@ -3,12 +3,12 @@
 
 #include <stddef.h>
 
-#define DRAW (1u << COMMAND_DRAW)
-#define INFO (1u << COMMAND_INFO)
-#define MAKE (1u << COMMAND_MAKE)
-#define BENCH (1u << COMMAND_BENCH)
-#define PICTURE (DRAW | BENCH)
-#define EVERY (DRAW | INFO | MAKE | BENCH)
+#define DRAW       (1u << COMMAND_DRAW)
+#define INFO       (1u << COMMAND_INFO)
+#define MAKE       (1u << COMMAND_MAKE)
+#define BENCH      (1u << COMMAND_BENCH)
+#define PICTURE    (DRAW | BENCH)
+#define EVERY      (DRAW | INFO | MAKE | BENCH)
 #define AT(member) offsetof(tool_settings, member)
 
 const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "How lines are found",

@@ -4,8 +4,8 @@
  * The thread is one sheet whose rows follow the helix, so that crests and roots are rows. A row
  * climbs one pitch per turn and goes on as the row of the turn above; places along the axis are
  * whole numbers, so both sides of that seam are the same points. Where rows leave the thread they
- * are held at its end, where its depth is zero: cells there shrink to nothing, and what is left ends
- * in a plain circle.
+ * are held at its end, where its depth is zero: cells there shrink to nothing, and what is left
+ * ends in a plain circle.
  *
  * Lengths are in units of the shank's radius; proportions follow ISO 4014 with a coarser thread. */
 #include "mesh/models.h"

@@ -16,10 +16,16 @@
 #include <math.h>
 #include <string.h>
 
+#ifdef DP_HOSTILE
+enum { BLOCK = 3, BATCH_TRIANGLES = 64 };
+#else
 enum {
-    BLOCK = 96, /* cells a side: what is handed out in one piece */
+    BLOCK = 96,               /* cells a side: what is made in one piece */
+    BATCH_TRIANGLES = 1 << 16 /* but the terrain's, every default is one batch */
+};
+#endif
+enum {
     BLOCK_POINTS = (BLOCK + 1) * (BLOCK + 1),
-    BATCH_TRIANGLES = 1 << 16,
     BATCH_POINTS = BATCH_TRIANGLES / 2 + 4 * BLOCK_POINTS,
     SLOTS = 1 << 17 /* of the table that welds: over twice the points */
 };
@@ -277,9 +283,8 @@ static bool fits(const generator *self, const dp_sheet *sheet) {
            self->point_count + (w + 1) * (h + 1) <= BATCH_POINTS;
 }
 
-static dp_result generator_next(void *user, dp_batch *batch, dp_diag *diag) {
-    generator *const self = user;
-    (void)diag;
+/* As many blocks as fit; possibly without any triangle, where all their cells have shrunk away. */
+static void fill(generator *self) {
     self->batch++;
     self->point_count = self->corner_count = 0;
     while (self->sheet < self->model.sheet_count) {
@@ -288,6 +293,13 @@ static dp_result generator_next(void *user, dp_batch *batch, dp_diag *diag) {
         add_block(self, sheet, self->block_i, self->block_j);
         advance(self, sheet);
     }
+}
+
+static dp_result generator_next(void *user, dp_batch *batch, dp_diag *diag) {
+    generator *const self = user;
+    (void)diag;
+    do fill(self);
+    while (!self->corner_count && self->sheet < self->model.sheet_count);
     *batch = (dp_batch){.positions = self->points[0],
                         .vertex_count = self->point_count,
                         .indices = self->corners,

@@ -25,6 +25,13 @@ static bool reserve_pairs(const job *j, dp_bin_chunk *chunk, size_t need) {
            dp_reserve(j->memory, &chunk->tiles, &chunk->tiles_cap, need, sizeof *chunk->tiles);
 }
 
+static bool place_in(const job *j, dp_bin_chunk *chunk, uint32_t item, int32_t x, int32_t y) {
+    if (!reserve_pairs(j, chunk, chunk->count + 1)) return false;
+    chunk->tiles[chunk->count] = (uint32_t)y * j->tiles_x + (uint32_t)x;
+    chunk->items[chunk->count++] = item;
+    return true;
+}
+
 static bool place_item(const job *j, dp_bin_chunk *chunk, uint32_t item, uint32_t worker) {
     dp_tile_rect r = j->place(j->arg, item, worker);
     if (r.x0 < 0) r.x0 = 0;
@@ -32,6 +39,7 @@ static bool place_item(const job *j, dp_bin_chunk *chunk, uint32_t item, uint32_
     if (r.x1 > (int32_t)j->tiles_x) r.x1 = (int32_t)j->tiles_x;
     if (r.y1 > (int32_t)j->tiles_y) r.y1 = (int32_t)j->tiles_y;
     if (r.x0 >= r.x1 || r.y0 >= r.y1) return true;
+    if (r.x1 - r.x0 == 1 && r.y1 - r.y0 == 1) return place_in(j, chunk, item, r.x0, r.y0);
     const size_t most = (size_t)(r.x1 - r.x0) * (size_t)(r.y1 - r.y0);
     if (!reserve_pairs(j, chunk, chunk->count + most)) return false;
     const bool ask = j->touches && most > FEW_TILES;

@@ -9,7 +9,16 @@ typedef struct job {
 
 static const dp_tile_rect NOWHERE = {0, 0, 0, 0};
 
-static int32_t tile_of(float px) { return (int32_t)floorf(px / DP_TILE); }
+/* floor(px / DP_TILE); what is placed lies within a few pictures of the screen, so OFFSET makes it positive. */
+static int32_t tile_of(float px) {
+    enum { OFFSET = 1 << 14 };
+    return (int32_t)(px * (1.0f / DP_TILE) + OFFSET) - OFFSET;
+}
+
+static dp_tile_rect rect_around(const job *j, float x0, float y0, float x1, float y1) {
+    return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), tile_of(x1 + j->margin) + 1,
+                          tile_of(y1 + j->margin) + 1};
+}
 
 static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
     float x0 = outline->points[0].x, x1 = x0, y0 = outline->points[0].y, y1 = y0;
@@ -18,13 +27,32 @@ static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
         x0 = dp_minf(x0, p.x), x1 = dp_maxf(x1, p.x);
         y0 = dp_minf(y0, p.y), y1 = dp_maxf(y1, p.y);
     }
-    return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), tile_of(x1 + j->margin) + 1,
-                          tile_of(y1 + j->margin) + 1};
+    return rect_around(j, x0, y0, x1, y1);
+}
+
+/* A triangle that needs no clipping and has an area on the screen; false where that is not so. */
+static bool place_triangle(const job *j, uint32_t id, dp_tile_rect *rect) {
+    const dp_polygons *const polygons = &j->frame->polygons;
+    dp_vertex v[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t vertex = dp_corner_vertex(polygons, 3 * id + i);
+        if (vertex >= polygons->vertex_count) return false;
+        v[i] = j->frame->vertices[vertex];
+    }
+    if (dp_needs_clipping(v[0], v[1], v[2])) return false;
+    const float bx = v[1].x - v[0].x, by = v[1].y - v[0].y, cx = v[2].x - v[0].x, cy = v[2].y - v[0].y;
+    const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
+    if (!(fabsf(bx * cy - by * cx) > DP_NEARLY_EDGE_ON * reach)) return false;
+    *rect = rect_around(j, dp_minf(v[0].x, dp_minf(v[1].x, v[2].x)), dp_minf(v[0].y, dp_minf(v[1].y, v[2].y)),
+                        dp_maxf(v[0].x, dp_maxf(v[1].x, v[2].x)), dp_maxf(v[0].y, dp_maxf(v[1].y, v[2].y)));
+    return true;
 }
 
 static dp_tile_rect place(void *arg, uint32_t polygon, uint32_t worker) {
     const job *const j = arg;
     dp_bin_worker *const self = &j->workers[worker];
+    dp_tile_rect rect;
+    if (!j->frame->polygons.firsts && place_triangle(j, polygon, &rect)) return rect;
     dp_outline outline;
     switch (dp_outline_make(j->frame, polygon, &self->scratch, &outline)) {
     case DP_OUTLINE_OUTSIDE: return NOWHERE;

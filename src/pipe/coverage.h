@@ -79,21 +79,22 @@ dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p, 
         ld[v] = dp_splat(p->dx) * s->x[v] + dp_splat(p->dy) * s->y[v];
     }
     const dp_f4 nearest = dp_splat(p->nearest);
+    const dp_f4 t0 = dp_splat(e[0].threshold), t1 = dp_splat(e[1].threshold), t2 = dp_splat(e[2].threshold);
     for (int y = c->box[1]; y <= c->box[3]; y++) {
         int x0 = c->box[0], x1 = c->box[2];
         if (x1 - x0 > 3)
             for (int i = 0; i < 3; i++) dp_trim_row(&e[i], (float)y, &x0, &x1);
-        for (int cx = x0 / width; cx <= x1 / width && x0 <= x1; cx++) {
-            const float fx = (float)(cx * width), fy = (float)y;
-            const size_t lane = (size_t)4 * vectors * ((uint32_t)y * s->cells_x + (uint32_t)cx);
-            const dp_f4 b0 = dp_splat(e[0].a * fx + e[0].b * fy + e[0].c);
-            const dp_f4 b1 = dp_splat(e[1].a * fx + e[1].b * fy + e[1].c);
-            const dp_f4 b2 = dp_splat(e[2].a * fx + e[2].b * fy + e[2].c);
-            const dp_f4 bd = dp_splat(p->d0 + p->dx * fx + p->dy * fy);
+        if (x0 > x1) continue;
+        const float fy = (float)y;
+        const float r0 = e[0].b * fy + e[0].c, r1 = e[1].b * fy + e[1].c, r2 = e[2].b * fy + e[2].c;
+        const float rd = p->d0 + p->dy * fy;
+        size_t lane = (size_t)4 * vectors * ((uint32_t)y * s->cells_x + (uint32_t)(x0 / width));
+        for (int cx = x0 / width; cx <= x1 / width; cx++, lane += 4 * vectors) {
+            const float fx = (float)(cx * width);
+            const dp_f4 b0 = dp_splat(e[0].a * fx + r0), b1 = dp_splat(e[1].a * fx + r1);
+            const dp_f4 b2 = dp_splat(e[2].a * fx + r2), bd = dp_splat(p->dx * fx + rd);
             for (uint32_t v = 0; v < vectors; v++) {
-                const dp_i4 in = (b0 + le[0][v] >= dp_splat(e[0].threshold)) &
-                                 (b1 + le[1][v] >= dp_splat(e[1].threshold)) &
-                                 (b2 + le[2][v] >= dp_splat(e[2].threshold));
+                const dp_i4 in = (b0 + le[0][v] >= t0) & (b1 + le[1][v] >= t1) & (b2 + le[2][v] >= t2);
                 const dp_f4 d = bd + ld[v];
                 cover(arg, lane + 4 * v, in, dp_select(d < nearest, d, nearest));
             }

@@ -126,6 +126,14 @@ static bool begin_frame(dp_context *c) {
            begin_workers(c);
 }
 
+/* Half a degree short of the least fold that any group draws; above 1 where flat edges are lines too. */
+static float flat_cosine(const dp_style *styles, uint32_t count) {
+    float least = 180;
+    for (uint32_t i = 0; i < count; i++)
+        least = dp_minf(least, dp_minf(180 - styles[i].ridge_angle, styles[i].valley_angle - 180));
+    return least > 1 ? (float)cos((least - 0.5) * 3.14159265358979323846 / 180) : 2;
+}
+
 static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
@@ -185,6 +193,28 @@ static dp_result check_dropped(dp_stats *s, dp_diag *diag) {
                    (unsigned long long)s->dropped_corners);
 }
 
+static uint64_t bins_bytes(const dp_bins *bins) {
+    uint64_t sum = bins->chunks_cap * sizeof *bins->chunks;
+    for (size_t i = 0; i < bins->chunks_cap; i++) {
+        const dp_bin_chunk *const c = &bins->chunks[i];
+        sum += sizeof(uint32_t) * (c->entries_cap + c->offsets_cap + c->items_cap + c->tiles_cap);
+    }
+    return sum;
+}
+
+/* All that stays from frame to frame, but for the small change. */
+static uint64_t scratch_bytes(const dp_context *c) {
+    const dp_polygon_store *const p = &c->polygons;
+    uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
+                   c->pieces_cap * sizeof(dp_tile_pieces) + bins_bytes(&c->frame.polygon_bins) +
+                   bins_bytes(&c->frame.stroke_bins);
+    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
+    sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
+           c->strokes.strokes_cap * sizeof(dp_stroke);
+    for (uint32_t i = 0; i < c->workers; i++) sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
+    return sum;
+}
+
 static void lap(dp_stats *stats, dp_stage stage, double *since) {
     const double now = now_ms();
     stats->stage_ms[stage] = now - *since;
@@ -228,6 +258,7 @@ static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
         if (c->ink_workers[i].failed) return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
+    c->stats.bytes = scratch_bytes(c);
     return DP_OK;
 }
 
@@ -243,6 +274,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->style_count = style_count;
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
+    f->flat_cosine = flat_cosine(styles, style_count);
     dp_result result = check_target(target, &f->target, diag);
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
     if (!result) result = draw(c, source, diag);

@@ -5,15 +5,13 @@
  * ends' positions: an index buffer, split vertices and a bare soup give the same names.
  *
  * Data structure: open addressing over (hash, 1 + entry) pairs; entries in order of first meeting, so
- * that what is found does not depend on the hash. Invariant: at most half of the slots are used.
+ * that what is found does not depend on the hash. Invariant: at most half of the slots are used. Hidden
+ * polygons come last and add no edges: an edge between two of them is hidden itself.
  * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/classify.h"
 #include "pipe/tile.h"
 
 #include <string.h>
-
-/* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
-static const float MARGIN = 1.5f;
 
 static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
     if (a == b) return true;
@@ -22,21 +20,30 @@ static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
 }
 
 static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i) {
-    if (p->flags & DP_POLYGON_CLIPPED) return true;
-    const dp_point a = w->points[p->point + i];
-    const dp_point b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
-    return dp_maxf(a.x, b.x) >= -MARGIN && dp_minf(a.x, b.x) <= DP_TILE + MARGIN &&
-           dp_maxf(a.y, b.y) >= -MARGIN && dp_minf(a.y, b.y) <= DP_TILE + MARGIN;
+    if (p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) return true;
+    const dp_vertex a = w->points[p->point + i];
+    const dp_vertex b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
+    return dp_maxf(a.x, b.x) >= -DP_BESIDE && dp_minf(a.x, b.x) <= DP_TILE + DP_BESIDE &&
+           dp_maxf(a.y, b.y) >= -DP_BESIDE && dp_minf(a.y, b.y) <= DP_TILE + DP_BESIDE;
+}
+
+/* Corners of the polygons that may add edges. */
+static uint32_t count_edges(const dp_tile_worker *w) {
+    uint32_t edges = 0;
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        if (!(w->polygons[i].flags & DP_POLYGON_HIDDEN)) edges += dp_corner_count(&w->frame->polygons, w->polygons[i].id);
+    return edges;
 }
 
 static bool clear_table(dp_tile_worker *w) {
+    const uint32_t edges = count_edges(w);
     uint32_t slots = 64;
-    while (slots < 2 * w->point_count) slots *= 2;
+    while (slots < 2 * edges) slots *= 2;
     w->slot_count = slots;
     w->edge_count = w->meeting_count = 0;
     if (!DP_WORKER_RESERVE(w, edge_slots, slots_cap, 2 * (size_t)slots)) return false;
     memset(w->edge_slots, 0, 2 * (size_t)slots * sizeof *w->edge_slots);
-    return DP_WORKER_RESERVE(w, edges, edges_cap, (size_t)w->point_count + 3 * (size_t)w->polygon_count);
+    return DP_WORKER_RESERVE(w, edges, edges_cap, edges);
 }
 
 static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t edge, bool opposed) {
@@ -49,15 +56,24 @@ static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t
     e->more = ++w->meeting_count;
 }
 
-static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb) {
+static uint32_t edge_hash(uint32_t ka, uint32_t kb) {
+    const uint32_t hash = (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
+    return hash ^ hash >> 15;
+}
+
+/* Is the edge's place in the table free? Then no visible polygon has it. */
+static bool is_free(const dp_tile_worker *w, uint32_t hash) {
+    return !w->edge_slots[2 * (size_t)(hash & (w->slot_count - 1)) + 1];
+}
+
+/* Enters an edge, or only meets it where a polygon that is not hidden has it too. */
+static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb, uint32_t hash) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    const uint32_t ka = w->frame->vertices[va].key, kb = w->frame->vertices[vb].key;
-    uint32_t hash = (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
-    hash ^= hash >> 15;
     const uint32_t mask = w->slot_count - 1;
     for (uint32_t s = hash & mask;; s = (s + 1) & mask) {
         uint32_t *const slot = w->edge_slots + 2 * (size_t)s;
         if (!slot[1]) {
+            if (w->polygons[polygon].flags & DP_POLYGON_HIDDEN) return;
             slot[0] = hash;
             slot[1] = ++w->edge_count;
             w->edges[w->edge_count - 1] = (dp_edge_entry){va, vb, polygon, UINT32_MAX, edge, 0, 1, 0, false};
@@ -73,18 +89,46 @@ static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t 
     }
 }
 
+static bool is_flagged(const dp_polygons *polygons, uint32_t corner) {
+    return !polygons->edge_flags || polygons->edge_flags[corner];
+}
+
+/* Keys come from the tile's points where these are the corners, else from the vertices. */
+static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, uint32_t first) {
+    if (!(p->flags & DP_POLYGON_CLIPPED)) return w->points[p->point + i].key;
+    return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
+}
+
+static void insert_edge(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t index, uint32_t i, uint32_t next,
+                        uint32_t ka, uint32_t kb) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const uint32_t hash = edge_hash(ka, kb), first = dp_first_corner(polygons, p->id);
+    if (p->flags & DP_POLYGON_HIDDEN && is_free(w, hash)) return;
+    if (!is_flagged(polygons, first + i) || !near_tile(w, p, i)) return;
+    const uint32_t va = dp_corner_vertex(polygons, first + i), vb = dp_corner_vertex(polygons, first + next);
+    if (ka != kb || !same_position(polygons, va, vb)) insert(w, index, i, va, vb, hash);
+}
+
 static void insert_polygon(dp_tile_worker *w, uint32_t index) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    uint32_t va = dp_corner_vertex(polygons, first);
-    const uint32_t v0 = va;
+    const uint32_t k0 = key_of(w, p, 0, first);
+    uint32_t ka = k0;
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t vb = i + 1 == n ? v0 : dp_corner_vertex(polygons, first + i + 1);
-        const bool flagged = !polygons->edge_flags || polygons->edge_flags[first + i];
-        if (flagged && near_tile(w, p, i) && !same_position(polygons, va, vb)) insert(w, index, i, va, vb);
-        va = vb;
+        const uint32_t next = i + 1 == n ? 0 : i + 1;
+        const uint32_t kb = next ? key_of(w, p, next, first) : k0;
+        insert_edge(w, p, index, i, next, ka, kb);
+        ka = kb;
     }
+}
+
+/* The polygon that came first in the source owns the edge, in every tile. */
+static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry *e) {
+    if (w->polygons[e->a].id < w->polygons[e->b].id) return *e;
+    const bool opposed = e->opposed;
+    return (dp_edge_entry){opposed ? e->vb : e->va, opposed ? e->va : e->vb, e->b, e->a, e->edge_b, e->edge_a,
+                           e->met, e->more, opposed};
 }
 
 /* A line of class `line` along an edge of polygon a, facing along `normal`. */
@@ -96,8 +140,7 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
     if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                        dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
         return;
-    const uint32_t b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id;
-    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
+    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = w->polygons[e->b].id, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
                           &spine);
 }
 
@@ -108,10 +151,28 @@ static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *f
     else if (dihedral > style->valley_angle) add_line(w, e, DP_LINE_VALLEY, fold->normal);
 }
 
-static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *e) {
-    const uint32_t front_a = w->polygons[e->a].flags & DP_POLYGON_FRONT;
-    const uint32_t front_b = w->polygons[e->b].flags & DP_POLYGON_FRONT;
+/* The unit normal in float32, for a first look; made when it is first asked for. */
+static const float *quick_normal(dp_tile_worker *w, uint32_t polygon) {
+    dp_tile_polygon *const p = &w->polygons[polygon];
+    if (p->normal[0] == 0 && p->normal[1] == 0 && p->normal[2] == 0) {
+        const dp_vec3 n = dp_polygon_normal(w->frame, p->id);
+        p->normal[0] = (float)n.x, p->normal[1] = (float)n.y, p->normal[2] = (float)n.z;
+    }
+    return p->normal;
+}
+
+/* Most edges are flatter than any threshold; one product tells. */
+static bool is_flat(dp_tile_worker *w, const dp_edge_entry *e) {
+    const float *const a = quick_normal(w, e->a), *const b = quick_normal(w, e->b);
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > w->frame->flat_cosine;
+}
+
+static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
+    const uint32_t front_a = w->polygons[met->a].flags & DP_POLYGON_FRONT;
+    const uint32_t front_b = w->polygons[met->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
+    if (front_a && front_b && is_flat(w, met)) return;
+    const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
     const dp_fold fold = dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
     if (front_a && front_b) add_fold(w, e, &fold);
     else add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
@@ -131,7 +192,7 @@ static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polyg
     flap f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = hypot(ex, ey);
     if (!(length > 0)) return f;
-    const dp_point *const points = w->points + p->point;
+    const dp_vertex *const points = w->points + p->point;
     for (uint32_t i = 0; i < p->points; i++) {
         const double x = points[i].x + (double)w->tile_x - s->a.x, y = points[i].y + (double)w->tile_y - s->a.y;
         const double across = (ex * y - ey * x) / length;
@@ -188,7 +249,7 @@ static void leave_all(dp_tile_worker *w) {
         const dp_tile_polygon *const p = &w->polygons[i];
         const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
-            if ((!polygons->edge_flags || polygons->edge_flags[first + e]) && near_tile(w, p, e)) leave(w, i, e);
+            if (is_flagged(polygons, first + e) && near_tile(w, p, e)) leave(w, i, e);
     }
 }
 
@@ -198,7 +259,10 @@ void dp_tile_edges(dp_tile_worker *w) {
         return;
     }
     if (!clear_table(w)) return;
-    for (uint32_t i = 0; i < w->polygon_count; i++) insert_polygon(w, i);
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        if (!(w->polygons[i].flags & DP_POLYGON_HIDDEN)) insert_polygon(w, i);
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        if (w->polygons[i].flags & DP_POLYGON_HIDDEN) insert_polygon(w, i);
     for (uint32_t i = 0; i < w->edge_count && !w->failed; i++) {
         const dp_edge_entry *const e = &w->edges[i];
         if (e->met == 1) leave(w, e->a, e->edge_a);

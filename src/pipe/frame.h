@@ -18,6 +18,14 @@ typedef struct dp_vertex {
     uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
 } dp_vertex;
 
+static inline dp_point dp_place(dp_vertex v) { return (dp_point){v.x, v.y, v.d}; }
+
+/* True where a triangle's corners must go through clipping (x is NaN). */
+static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
+    const float sum = a.x + b.x + c.x;
+    return sum != sum;
+}
+
 /* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
 typedef struct dp_piece {
     uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
@@ -31,6 +39,7 @@ typedef struct dp_piece {
 
 typedef struct dp_tile_pieces {
     uint32_t worker; /* whose list */
+    bool bare;       /* no polygon touches the tile; its depth samples are not set */
     size_t first, count;
 } dp_tile_pieces;
 
@@ -43,7 +52,8 @@ typedef struct dp_frame {
     const dp_style *styles; /* by group, resolved; [style_count] */
     uint32_t style_count;
     dp_target target;
-    uint32_t lines; /* classes that any group draws */
+    uint32_t lines;     /* classes that any group draws */
+    float flat_cosine;  /* normals closer than this make no fold, whatever the group; above 1: unknown */
 
     dp_polygons polygons;
     dp_vertex *vertices;

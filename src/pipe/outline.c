@@ -75,8 +75,6 @@ dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
 
 /* Thinner than this on the screen (px) a polygon covers nothing, and its area there is rounding. */
 static const double EDGE_ON = 1.0 / 4096;
-/* Below this the area on the screen does not tell the facing; the world does. */
-static const double NEARLY_EDGE_ON = 1.0 / 64;
 
 /* The sine of the angle at which a plane is seen; within rounding of zero it is seen edge-on. */
 static bool faces_eye(const dp_frame *frame, uint32_t polygon) {
@@ -96,7 +94,7 @@ dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_ou
         const double bx = (double)p[i + 1].x - p[0].x, by = (double)p[i + 1].y - p[0].y;
         area += ax * by - ay * bx;
     }
-    if (fabs(area) > NEARLY_EDGE_ON * reach) return (dp_facing){area < 0, false};
+    if (fabs(area) > DP_NEARLY_EDGE_ON * reach) return (dp_facing){area < 0, false};
     return (dp_facing){faces_eye(frame, polygon), fabs(area) <= EDGE_ON * reach};
 }
 

@@ -30,6 +30,9 @@ typedef struct dp_outline {
 dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon, dp_outline_scratch *scratch,
                                  dp_outline *out);
 
+/* Below this (px) the area on the screen does not tell a polygon's facing; the world does. */
+#define DP_NEARLY_EDGE_ON (1.0f / 64)
+
 /* How the outline of frame polygon `polygon` lies to the eye. */
 typedef struct dp_facing {
     bool front;

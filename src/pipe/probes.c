@@ -72,15 +72,15 @@ void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *sp
 
 /* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of two
  * polygons that share an edge exactly one has it. */
-static bool left_of(dp_point a, dp_point b, float x, float y, bool flip) {
+static bool left_of(dp_vertex a, dp_vertex b, float x, float y, bool flip) {
     const bool swap = a.y > b.y || (a.y == b.y && a.x > b.x);
-    const dp_point s = swap ? b : a, t = swap ? a : b;
+    const dp_vertex s = swap ? b : a, t = swap ? a : b;
     const double e = ((double)t.x - s.x) * ((double)y - s.y) - ((double)t.y - s.y) * ((double)x - s.x);
     return swap != flip ? e < 0 : e >= 0;
 }
 
 bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, float x, float y) {
-    const dp_point *const p = w->points + polygon->point;
+    const dp_vertex *const p = w->points + polygon->point;
     const bool front = polygon->flags & DP_POLYGON_FRONT;
     for (uint32_t i = 0; i < polygon->points; i++)
         if (!left_of(p[i], p[i + 1 == polygon->points ? 0 : i + 1], x, y, front)) return false;
@@ -127,7 +127,7 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 void dp_tile_probe(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
-        if (dp_is_surface(w, p)) hide_under(w, p);
+        if (dp_is_surface(w, p) && !(p->flags & DP_POLYGON_HIDDEN)) hide_under(w, p);
     }
     for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
 }

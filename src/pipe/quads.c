@@ -227,7 +227,11 @@ static void fill_points(brush *b, const dp_point *p, uint32_t n, fill *with) {
 
 static void fill_face(brush *b, const dp_tile_polygon *p, fill *with) {
     b->plane = (dp_plane){p->d0, p->dx, p->dy, p->nearest};
-    fill_points(b, b->w->points + p->point, p->points, with);
+    const dp_vertex *const v = b->w->points + p->point;
+    for (uint32_t i = 2; i < p->points; i++) {
+        const dp_point triangle[3] = {dp_place(v[0]), dp_place(v[i - 1]), dp_place(v[i])};
+        fill_points(b, triangle, 3, with);
+    }
 }
 
 /* Screen to tile space, in float32 as the faces are, so that edges they share stay shared. */
@@ -276,8 +280,8 @@ static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
 /* A polygon that is not clipped has an edge from point to point of its outline. */
 static bool edge_near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t edge, float reach) {
     if (p->flags & DP_POLYGON_CLIPPED) return true;
-    const dp_point a = w->points[p->point + edge];
-    const dp_point b = w->points[p->point + (edge + 1 == p->points ? 0 : edge + 1)];
+    const dp_vertex a = w->points[p->point + edge];
+    const dp_vertex b = w->points[p->point + (edge + 1 == p->points ? 0 : edge + 1)];
     return dp_maxf(a.x, b.x) >= -reach && dp_minf(a.x, b.x) <= DP_TILE + reach &&
            dp_maxf(a.y, b.y) >= -reach && dp_minf(a.y, b.y) <= DP_TILE + reach;
 }

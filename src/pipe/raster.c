@@ -45,7 +45,8 @@ static void raster_triangle(face *f, dp_point a, dp_point b, dp_point c) {
 }
 
 void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index) {
-    const dp_point *const p = worker->points + polygon->point;
+    const dp_vertex *const p = worker->points + polygon->point;
     face f = {worker, polygon, index};
-    for (uint32_t i = 2; i < polygon->points; i++) raster_triangle(&f, p[0], p[i - 1], p[i]);
+    for (uint32_t i = 2; i < polygon->points; i++)
+        raster_triangle(&f, dp_place(p[0]), dp_place(p[i - 1]), dp_place(p[i]));
 }

@@ -36,7 +36,7 @@ static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
     const int needed = style->between == DP_BETWEEN_PLANE ? 2 : style->between == DP_BETWEEN_STENCIL ? 3 : 1;
     if (style->passes == 0) style->passes = needed;
     if (style->passes == 1 && style->ink == DP_INK_QUADS && style->between != DP_BETWEEN_INTERVAL)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs between=interval");
+        return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs the interval test (--between interval)");
     if (style->passes < 1 || style->passes > 3)
         return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
     return DP_OK;

@@ -22,6 +22,12 @@ static void mean_rgba(const mean *m, dp_color paper, float samples, uint8_t out[
 
 static dp_color shown(dp_color surface, dp_color paper) { return surface & 0xff ? surface : paper; }
 
+static uint32_t count_covered(const uint32_t *winner, uint32_t samples) {
+    dp_i4 sum = {0, 0, 0, 0};
+    for (uint32_t i = 0; i < samples; i += 4) sum += *(const dp_i4 *)(const void *)(winner + i) != -1;
+    return (uint32_t) - (sum[0] + sum[1] + sum[2] + sum[3]);
+}
+
 /* One group: a pixel's colour follows from how many of its samples hold any surface. */
 static void shade_one_group(const dp_tile_worker *w, uint32_t x1, uint32_t y1) {
     const dp_target *const target = &w->frame->target;
@@ -38,9 +44,7 @@ static void shade_one_group(const dp_tile_worker *w, uint32_t x1, uint32_t y1) {
         uint8_t *out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)w->tile_x;
         const uint32_t *winner = w->winner + dp_pixel_lane(&w->sampling, 0, y - w->tile_y);
         for (uint32_t x = w->tile_x; x < x1; x++, out += 4, winner += samples) {
-            uint32_t covered = 0;
-            for (uint32_t i = 0; i < samples; i++) covered += winner[i] != UINT32_MAX;
-            memcpy(out, table[covered], 4);
+            memcpy(out, table[samples == 1 ? *winner != UINT32_MAX : count_covered(winner, samples)], 4);
         }
     }
 }
@@ -76,17 +80,50 @@ static void put_geometry(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z;
 }
 
+typedef struct span {
+    uint32_t x0, y0, x1, y1; /* px */
+} span;
+
+/* The part of the tile that lies within the picture. */
+static span tile_span(const dp_tile_worker *w) {
+    const dp_target *const target = &w->frame->target;
+    const uint32_t x1 = w->tile_x + DP_TILE, y1 = w->tile_y + DP_TILE;
+    return (span){w->tile_x, w->tile_y, x1 < target->width ? x1 : target->width, y1 < target->height ? y1 : target->height};
+}
+
+static void clear_classes(const dp_tile_worker *w, span s) {
+    const dp_target *const target = &w->frame->target;
+    for (uint32_t y = s.y0; target->line_class && y < s.y1; y++)
+        memset(target->line_class + (size_t)y * target->width + s.x0, 0, s.x1 - s.x0);
+}
+
 void dp_tile_surface(dp_tile_worker *w) {
     const dp_target *const target = &w->frame->target;
-    const uint32_t x1 = w->tile_x + DP_TILE < target->width ? w->tile_x + DP_TILE : target->width;
-    const uint32_t y1 = w->tile_y + DP_TILE < target->height ? w->tile_y + DP_TILE : target->height;
+    const span s = tile_span(w);
     const bool groups = w->frame->style_count > 1;
-    if (target->rgba && !groups) shade_one_group(w, x1, y1);
-    for (uint32_t y = w->tile_y; y < y1; y++) {
-        for (uint32_t x = w->tile_x; x < x1; x++) {
+    clear_classes(w, s);
+    if (target->rgba && !groups) shade_one_group(w, s.x1, s.y1);
+    if (!(target->rgba && groups) && !target->depth && !target->normal) return;
+    for (uint32_t y = s.y0; y < s.y1; y++)
+        for (uint32_t x = s.x0; x < s.x1; x++) {
             if (target->rgba && groups) shade_groups(w, x, y);
             if (target->depth || target->normal) put_geometry(w, x, y);
         }
-        if (target->line_class) memset(target->line_class + (size_t)y * target->width + w->tile_x, 0, x1 - w->tile_x);
+}
+
+/* No polygon touches the tile: paper. */
+void dp_tile_bare_surface(dp_tile_worker *w) {
+    const dp_target *const target = &w->frame->target;
+    const span s = tile_span(w);
+    const dp_color paper = w->frame->styles[0].paper;
+    const uint8_t rgba[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16), (uint8_t)(paper >> 8), (uint8_t)paper};
+    uint8_t row[4 * DP_TILE];
+    for (uint32_t i = 0; i < DP_TILE; i++) memcpy(row + 4 * i, rgba, 4);
+    clear_classes(w, s);
+    for (uint32_t y = s.y0; y < s.y1; y++) {
+        const size_t at = (size_t)y * target->width + s.x0, n = s.x1 - s.x0;
+        if (target->rgba) memcpy(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)s.x0, row, 4 * n);
+        for (size_t i = 0; target->depth && i < n; i++) target->depth[at + i] = INFINITY;
+        if (target->normal) memset(target->normal + 3 * at, 0, 3 * n * sizeof(float));
     }
 }

@@ -10,10 +10,8 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->stats = (dp_stats){0};
     worker->piece_count = 0;
     dp_sampling_init(&worker->sampling, frame->target.samples);
-    size_t capacity = 0;
-    dp_free(&worker->memory, worker->winner);
-    worker->winner = NULL;
-    return dp_reserve(&worker->memory, &worker->winner, &capacity, frame->tile_samples, sizeof *worker->winner);
+    return dp_reserve(&worker->memory, &worker->winner, &worker->winner_cap, frame->tile_samples,
+                      sizeof *worker->winner);
 }
 
 void dp_tile_worker_free(dp_tile_worker *worker) {
@@ -40,6 +38,14 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_outline_scratch_free(&worker->scratch, &memory);
 }
 
+uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
+    return sizeof *w + w->winner_cap * sizeof *w->winner + w->polygons_cap * sizeof *w->polygons +
+           w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
+           w->slots_cap * sizeof *w->edge_slots + w->candidates_cap * sizeof *w->candidates +
+           w->probes_cap * sizeof *w->probes + w->pieces_cap * sizeof *w->pieces +
+           w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
+}
+
 static void clear(dp_tile_worker *w) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
@@ -48,22 +54,23 @@ static void clear(dp_tile_worker *w) {
     w->candidate_count = w->probe_count = w->loose_count = 0;
 }
 
-static void draw_faces(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (dp_is_surface(w, p)) dp_tile_raster(w, p, i);
-    }
-}
-
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     const size_t first = w->piece_count;
     w->tile = tile;
     w->tile_x = tile % w->frame->tiles_x * DP_TILE;
     w->tile_y = tile / w->frame->tiles_x * DP_TILE;
     w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
+    dp_tile_pieces *const out = &w->frame->tile_pieces[tile];
+    out->first = first;
+    out->count = 0;
+    out->bare = dp_bins_tile_count(&w->frame->polygon_bins, tile) == 0;
+    if (out->bare) {
+        dp_tile_bare_surface(w);
+        return;
+    }
     clear(w);
     dp_tile_assemble(w);
-    draw_faces(w);
+    dp_tile_faces(w);
     dp_tile_surface(w);
     if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS) {
         dp_tile_quads(w);
@@ -73,6 +80,5 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
         dp_tile_intersections(w);
         dp_tile_probe(w);
     }
-    w->frame->tile_pieces[tile].first = first;
-    w->frame->tile_pieces[tile].count = w->piece_count - first;
+    out->count = w->piece_count - first;
 }

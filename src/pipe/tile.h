@@ -10,11 +10,18 @@
 #include "pipe/samples.h"
 #include "pipe/spine.h"
 
+/* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
+#define DP_BESIDE 1.5f
+
+enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
+
 enum {
     DP_POLYGON_FRONT = 1,   /* faces the eye */
     DP_POLYGON_EDGE_ON = 2, /* covers nothing; counts as back-facing */
     DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
-    DP_POLYGON_TOUCHES = 8  /* its points reach the tile itself, not only its margin */
+    DP_POLYGON_TOUCHES = 8, /* its points reach the tile itself, not only its margin */
+    DP_POLYGON_WITHIN = 32, /* all its points lie in the tile or right beside it */
+    DP_POLYGON_HIDDEN = 16  /* lies well behind the surface everywhere (cull.c) */
 };
 
 /* A polygon of the tile. */
@@ -26,6 +33,7 @@ typedef struct dp_tile_polygon {
     uint8_t x0, y0, x1, y1;  /* pixels it may cover, inclusive, clamped to the tile */
     float nearest;           /* largest d of its points */
     float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
+    float normal[3];         /* world space, unit; set by edges.c where it needs it */
     float watch;             /* a sample this close in depth may be of a polygon that crosses it */
 } dp_tile_polygon;
 
@@ -83,19 +91,22 @@ struct dp_tile_worker {
     bool failed; /* out of memory: the tile is abandoned */
 
     uint32_t tile, tile_x, tile_y;
+    float farthest[DP_TILE / DP_BLOCK][DP_TILE / DP_BLOCK]; /* depth of a block's furthest sample (cull.c) */
     float *depth;     /* the tile's samples */
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
     dp_tile_polygon *polygons;
-    dp_point *points;
+    dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     dp_edge_entry *edges;
     dp_meeting *meetings;
     uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
-    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
+    size_t winner_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t candidates_cap, probes_cap, pieces_cap;
+    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count;
+    uint32_t candidate_count, probe_count;
     size_t piece_count;
 
     uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
@@ -129,12 +140,14 @@ struct dp_tile_worker {
 
 bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
 void dp_tile_worker_free(dp_tile_worker *worker);
+uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 
 /* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
 /* The stages of dp_tile_find, each in its own file. */
 void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c */
+void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c */
 void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index); /* raster.c */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
 void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
@@ -142,6 +155,7 @@ void dp_tile_intersections(dp_tile_worker *worker);                        /* in
 void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+void dp_tile_bare_surface(dp_tile_worker *worker);
 
 /* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
 void dp_tile_quads(dp_tile_worker *worker);

@@ -181,7 +181,7 @@ static void memory_may_run_out_anywhere(void **state) {
     (void)state;
     dp_result result = DP_ERR_MEMORY;
     int allowed = 0;
-    for (; result && allowed < 20000; allowed += 1 + allowed / 64) {
+    for (; result && allowed < 20000; allowed += 1 + allowed / 16) {
         stingy s = {allowed, 0};
         const dp_allocator memory = {stingy_alloc, stingy_realloc, stingy_free, &s};
         dp_diag diag = {0};

@@ -39,12 +39,22 @@ typedef struct content {
     float (*corners)[3];
     uint32_t *sizes;
     size_t corner_count, polygon_count;
+    size_t corner_room, polygon_room;
 } content;
 
+static void *make_room(void *block, size_t *room, size_t need, size_t size) {
+    if (need <= *room) return block;
+    *room = 2 * need;
+    block = realloc(block, *room * size);
+    assert_non_null(block);
+    return block;
+}
+
 static void add_batch(content *c, const dp_batch *b) {
-    c->corners = realloc(c->corners, (c->corner_count + b->corner_count + 1) * sizeof *c->corners);
-    c->sizes = realloc(c->sizes, (c->polygon_count + b->polygon_count) * sizeof *c->sizes);
-    assert_true(c->corners && c->sizes);
+    c->corners = make_room(c->corners, &c->corner_room, c->corner_count + b->corner_count,
+                           sizeof *c->corners);
+    c->sizes = make_room(c->sizes, &c->polygon_room, c->polygon_count + b->polygon_count,
+                         sizeof *c->sizes);
     for (size_t i = 0; i < b->polygon_count; i++) {
         const size_t first = b->firsts ? b->firsts[i] : 3 * i;
         const size_t last = b->firsts ? b->firsts[i + 1] : 3 * i + 3;
