@@ -403,13 +403,13 @@ static void between_depths_twice(dp_tile_worker *w) {
     add_faces(w, false, SAME, fill_trap_in_interval);
 }
 
-/* Inks where the stencil holds at least `least` and no nearer line is; the colour is that of the surface's
- * group. Clears the stencil. */
-static void ink_stencil(dp_tile_worker *w, dp_line line, uint8_t least) {
+/* Inks where anything is trapped and no nearer line is; the colour is that of the surface's group. Clears
+ * the stencil. */
+static void ink_stencil(dp_tile_worker *w, dp_line line) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) {
         const uint8_t count = w->stencil[i];
         w->stencil[i] = 0;
-        if (count < least || w->winner[i] == UINT32_MAX) continue;
+        if (!count || w->winner[i] == UINT32_MAX) continue;
         if (w->ink[i] & ADDED) continue;
         w->ink[i] = ink_of(line, group_of(w, w->polygons[w->winner[i]].id));
     }
@@ -420,12 +420,12 @@ static void between_by_stencil(dp_tile_worker *w) {
     if (w->frame->lines & DP_VALLEY) {
         add_all(w, DP_VALLEY, fill_count_down);
         add_all(w, DP_VALLEY, fill_count_up);
-        ink_stencil(w, DP_LINE_VALLEY, 1);
+        ink_stencil(w, DP_LINE_VALLEY);
     }
     if (w->frame->lines & DP_INTERSECTION) {
-        add_faces(w, false, 0, fill_count_down);
-        add_faces(w, false, 0, fill_count_up); /* the surface itself counts too */
-        ink_stencil(w, DP_LINE_INTERSECTION, 2);
+        add_faces(w, false, -SAME, fill_count_down); /* the surface itself and its duplicates too */
+        add_faces(w, false, 0, fill_count_up);
+        ink_stencil(w, DP_LINE_INTERSECTION);
     }
 }
 
