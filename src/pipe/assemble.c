@@ -43,14 +43,18 @@ static dp_vertex to_tile(const dp_tile_worker *w, float x, float y, float d, uin
     return (dp_vertex){x - (float)w->tile_x, y - (float)w->tile_y, d, key};
 }
 
+static bool has_room(dp_tile_worker *w, uint32_t points) {
+    if (w->polygon_count < w->polygons_cap && w->point_count + points <= w->points_cap) return true;
+    return DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) &&
+           DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + points);
+}
+
 /* Any polygon, clipped or not. */
 static void add_polygon(dp_tile_worker *w, uint32_t id) {
     dp_outline outline;
     if (dp_outline_make(w->frame, id, &w->scratch, &outline)) return;
     const uint32_t n = outline.count, first = dp_first_corner(&w->frame->polygons, id);
-    if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
-        !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + n))
-        return;
+    if (!has_room(w, n)) return;
     const dp_facing facing = dp_outline_facing(w->frame, id, &outline);
     dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
     *out = (dp_tile_polygon){.id = id, .point = w->point_count, .points = n};
@@ -69,8 +73,7 @@ static void add_polygon(dp_tile_worker *w, uint32_t id) {
     out->watch = dp_watch_reach(w, out);
 }
 
-/* The same for a triangle that needs no clipping and is not nearly edge-on; false where it is not. The
- * arrays have room for it. */
+/* The same for a triangle that needs no clipping and is not nearly edge-on; false where it is not. */
 static bool add_triangle(dp_tile_worker *w, uint32_t id) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_vertex *const vertices = w->frame->vertices;
@@ -82,6 +85,7 @@ static bool add_triangle(dp_tile_worker *w, uint32_t id) {
     const float area = bx * cy - by * cx;
     const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
     if (!(fabsf(area) > DP_NEARLY_EDGE_ON * reach)) return false;
+    if (!has_room(w, 3)) return true; /* the worker has failed */
     dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
     dp_vertex *const points = w->points + w->point_count;
     points[0] = to_tile(w, a.x, a.y, a.d, a.key);
@@ -108,10 +112,6 @@ void dp_tile_assemble(dp_tile_worker *w) {
     w->polygon_count = w->point_count = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
-        const size_t more = chunk->offsets[w->tile + 1] - chunk->offsets[w->tile];
-        if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + more) ||
-            !DP_WORKER_RESERVE(w, points, points_cap, w->point_count + 3 * more))
-            return;
         for (uint32_t i = chunk->offsets[w->tile]; i < chunk->offsets[w->tile + 1] && !w->failed; i++)
             if (polygons || !add_triangle(w, chunk->entries[i])) add_polygon(w, chunk->entries[i]);
     }

@@ -45,6 +45,8 @@ static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
 dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag) {
     if (!resolved) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_style_resolve: resolved is NULL");
     dp_style full = style ? *style : (dp_style){0};
+    if (full.lines & ~(DP_ALL_LINES | DP_NO_LINES))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "lines holds bits that stand for no class of lines");
     if (!full.lines) full.lines = DP_ALL_LINES;
     full.lines &= DP_ALL_LINES;
     if (!full.lines) full.lines = DP_NO_LINES; /* stays so when resolved twice */
