@@ -47,8 +47,14 @@ static step step_of(const dp_view *view, double px) {
     return (step){1, (float)(-px / view->focal)};
 }
 
-static uint32_t ink_of(dp_line line, uint32_t group) { return (line + 1u) << 16 | group; }
-static dp_line ink_line(uint32_t ink) { return (dp_line)((ink >> 16) - 1); }
+/* Ink of an added polygon that is as good as a face: not trapped behind one. */
+static const uint32_t ADDED = 1u << 31;
+
+static uint32_t ink_of(dp_line line, uint32_t group) {
+    const bool trapped = line == DP_LINE_VALLEY || line == DP_LINE_INTERSECTION;
+    return (trapped ? 0 : ADDED) | (line + 1u) << 16 | group;
+}
+static dp_line ink_line(uint32_t ink) { return (dp_line)((ink >> 16 & 7) - 1); }
 
 static uint32_t group_of(const dp_tile_worker *w, uint32_t polygon) {
     const uint16_t *const groups = w->frame->polygons.groups;
@@ -147,7 +153,7 @@ INLINE void trap_between_planes(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     for (uint32_t i = 0; i < 4; i++) {
         const uint32_t winner = b->w->winner[lane + i], held = b->w->ink[lane + i];
         if (!trapped[i] || winner == b->self || winner == UINT32_MAX) continue;
-        if (held && (!b->face || ink_line(held) != DP_LINE_VALLEY)) continue;
+        if (held & ADDED || (held && !b->face)) continue;
         const dp_tile_polygon *const q = &b->w->polygons[winner];
         if (!b->face && !(q->flags & DP_POLYGON_FRONT)) continue;
         if (!dp_planes_cross_within(surface[i] - d[i], q->dx - b->plane.dx, q->dy - b->plane.dy, b->reach))
@@ -157,23 +163,29 @@ INLINE void trap_between_planes(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     }
 }
 
-/* The paper's: faces and lines update z1; what does not is asked for z1 >= d >= z2. */
+/* The between-test: z1 >= d >= z2, where z1 is that of a face. Nothing is trapped under a silhouette or a
+ * ridge, although these update z1 too. */
+INLINE dp_i4 between(const brush *b, size_t lane, dp_i4 in, dp_f4 d) {
+    const dp_f4 z1 = *ink_depth_at(b, lane);
+    const dp_i4 ink = *ink_at(b, lane);
+    const dp_i4 line = ink & splat(ADDED);
+    return in & (d < z1) & (d >= behind(z1, b->trap)) & (line == 0);
+}
+
+/* The paper's: faces and lines update z1; what does not is asked for the between-test. */
 INLINE void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_f4 z1 = *ink_depth_at(b, lane);
     const dp_i4 win = in & (d > z1);
-    const dp_i4 between = in & (d < z1) & (d >= behind(z1, b->trap)) & splat(b->intersections ? ~0u : 0);
+    const dp_i4 trapped = between(b, lane, in, d) & splat(b->intersections ? ~0u : 0);
     *ink_depth_at(b, lane) = dp_select(win, d, z1);
-    dp_i4 ink = dp_selecti(win, splat(b->face ? 0 : b->ink), *ink_at(b, lane));
-    ink = dp_selecti(between, splat(b->ink), ink);
-    *ink_at(b, lane) = ink;
+    const dp_i4 ink = dp_selecti(win, splat(b->face ? 0 : b->ink), *ink_at(b, lane));
+    *ink_at(b, lane) = dp_selecti(trapped, splat(b->ink), ink);
 }
 
 INLINE void trap_in_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
-    const dp_f4 z1 = *ink_depth_at(b, lane);
-    const dp_i4 between = in & (d < z1) & (d >= behind(z1, b->trap));
-    *ink_at(b, lane) = dp_selecti(between, splat(b->ink), *ink_at(b, lane));
+    *ink_at(b, lane) = dp_selecti(between(b, lane, in, d), splat(b->ink), *ink_at(b, lane));
 }
 
 INLINE void count_down(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
@@ -391,14 +403,14 @@ static void between_depths_twice(dp_tile_worker *w) {
     add_faces(w, false, SAME, fill_trap_in_interval);
 }
 
-/* Inks where the stencil holds at least `least` and no nearer line is; the colour is that of the surface's
- * group. Clears the stencil. */
-static void ink_stencil(dp_tile_worker *w, dp_line line, uint8_t least) {
+/* Inks where anything is trapped and no nearer line is; the colour is that of the surface's group. Clears
+ * the stencil. */
+static void ink_stencil(dp_tile_worker *w, dp_line line) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) {
         const uint8_t count = w->stencil[i];
         w->stencil[i] = 0;
-        if (count < least || w->winner[i] == UINT32_MAX) continue;
-        if (w->ink[i] && ink_line(w->ink[i]) != DP_LINE_VALLEY) continue;
+        if (!count || w->winner[i] == UINT32_MAX) continue;
+        if (w->ink[i] & ADDED) continue;
         w->ink[i] = ink_of(line, group_of(w, w->polygons[w->winner[i]].id));
     }
 }
@@ -408,12 +420,12 @@ static void between_by_stencil(dp_tile_worker *w) {
     if (w->frame->lines & DP_VALLEY) {
         add_all(w, DP_VALLEY, fill_count_down);
         add_all(w, DP_VALLEY, fill_count_up);
-        ink_stencil(w, DP_LINE_VALLEY, 1);
+        ink_stencil(w, DP_LINE_VALLEY);
     }
     if (w->frame->lines & DP_INTERSECTION) {
-        add_faces(w, false, 0, fill_count_down);
-        add_faces(w, false, 0, fill_count_up); /* the surface itself counts too */
-        ink_stencil(w, DP_LINE_INTERSECTION, 2);
+        add_faces(w, false, -SAME, fill_count_down); /* the surface itself and its duplicates too */
+        add_faces(w, false, 0, fill_count_up);
+        ink_stencil(w, DP_LINE_INTERSECTION);
     }
 }
 
