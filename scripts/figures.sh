@@ -1,9 +1,10 @@
 #!/bin/bash
-# figures.sh PROGRAM [ORACLE-OPTIONS]...: the two tables of figures in README.md: accuracy by the independent
-# oracle (what it is asked: tests/accuracy/oracle.py --help) and times of frames. FRAMES=20 each.
+# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times: the tables of figures in README.md and
+# docs/lines.md: accuracy by the independent oracle (options: tests/accuracy/oracle.py --help), or times of
+# frames, FRAMES=20 of each model.
 set -eu
-program=$(realpath "$1")
-shift
+program=$(realpath "$1") what=$2
+shift 2
 cd "$(dirname "$0")/.."
 echo "$(date +%F), $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
 echo
@@ -30,12 +31,21 @@ summarise() {
             key = order[i]
             widths = key in thin ? sprintf("%.2f to %.2f", thin[key], thick[key]) : "–"
             printf "|%s| %d | %.4f | %.4f | %s | %s | %d |\n", key, cases[key], r[key], p[key],
-                   key ~ /silhouette|all/ ? "–" : sprintf("%.4f", u[key]), widths, missed[key]
+                   key ~ /silhouette| all / ? "–" : sprintf("%.4f", u[key]), widths, missed[key]
         }
     }'
 }
-python3 tests/accuracy/oracle.py --drypoint "$program" "$@" | summarise
-echo
+case $what in
+accuracy)
+    python3 tests/accuracy/oracle.py --drypoint "$program" "$@" | summarise
+    exit
+    ;;
+times) ;;
+*)
+    echo "figures: $what is neither accuracy nor times" >&2
+    exit 2
+    ;;
+esac
 
 field() { sed -n "s/.*\"$1\": *\([0-9.]*\).*/\1/p" <<<"$2" | head -n 1; }
 row() {
