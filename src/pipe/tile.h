@@ -10,6 +10,9 @@
 #include "pipe/samples.h"
 #include "pipe/spine.h"
 
+/* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
+#define DP_BESIDE 1.5f
+
 enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
 
 enum {
@@ -17,6 +20,7 @@ enum {
     DP_POLYGON_EDGE_ON = 2, /* covers nothing; counts as back-facing */
     DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
     DP_POLYGON_TOUCHES = 8, /* its points reach the tile itself, not only its margin */
+    DP_POLYGON_WITHIN = 32, /* all its points lie in the tile or right beside it */
     DP_POLYGON_HIDDEN = 16  /* lies well behind the surface everywhere (cull.c) */
 };
 

@@ -395,7 +395,7 @@ interrupted() {
     no_temporary
 }
 progress_on_a_terminal() {
-    command -v script >/dev/null || return
+    script -qec true /dev/null >seen 2>&1 </dev/null || return # no such program, or no terminals here
     script -qec "$program make terrain --triangles 12000000 -o /dev/null" /dev/null >seen </dev/null
     grep -q 'writing \[' seen || fail "no progress bar"
     grep -q '%' seen || fail "no percent"
