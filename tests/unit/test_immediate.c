@@ -251,7 +251,8 @@ static void expect_misuse(const char *what) {
     memset(&shown, 0x5A, sizeof shown);
     if (dp_finish(context, &target, &diag) != DP_ERR_ARGUMENT) fail_msg("%s: not told", what);
     assert_int_equal(diag.result, DP_ERR_ARGUMENT);
-    if (strstr(diag.message, what) == NULL) fail_msg("\"%s\" does not speak of %s", diag.message, what);
+    if (strstr(diag.message, what) == NULL)
+        fail_msg("\"%s\" does not speak of %s", diag.message, what);
     assert_int_equal(shown.rgba[0], 0x5A);
     dp_begin(context, DP_QUADS);
     send_roof(0);
