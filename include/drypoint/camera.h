@@ -40,10 +40,12 @@ typedef struct dp_fit {
     double height;        /* orthographic: what is seen, world units; 0 means fitted */
     double aspect;        /* width / height of the picture; 0 means 4/3 */
     double zoom;          /* 0 means 1; 2 shows everything twice as large */
+    bool steady;          /* fit the box's sphere: the same size from every direction */
 } dp_fit;
 
-/* Perspective: the distance is half the box's diagonal / sin(fov/2) (fov the smaller of the
- * vertical and the horizontal one), so that the box's sphere fits. Near and far enclose the sphere. */
+/* The box fills the picture but for a margin of 4 % on the narrower side. With `steady` the eye looks at
+ * the box's centre from half its diagonal / sin(fov/2), fov the smaller of the vertical and the
+ * horizontal one. Near and far enclose the box. DP_ERR_ARGUMENT for values out of range. */
 DP_API dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit);
 
 /* Near and far for a given eye and box: far encloses the box, near is as large as it allows, and at

@@ -1,15 +1,15 @@
 /* What the primitive shaders are made of: the paper's formula in space, and rectangles on the screen. */
 #include "features/features.h"
 
-static const double RADIANS = 3.14159265358979323846 / 180;
+#define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
 
 dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, double degrees) {
-    const double c = cos(degrees * RADIANS), s = sin(degrees * RADIANS);
+    const double c = cos(degrees * RADIANS_PER_DEGREE), s = sin(degrees * RADIANS_PER_DEGREE);
     return dp_add(dp_scale(n, -s), dp_scale(dp_cross(e, n), -c));
 }
 
 dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, double degrees) {
-    const double c = cos(degrees * RADIANS), s = sin(degrees * RADIANS);
+    const double c = cos(degrees * RADIANS_PER_DEGREE), s = sin(degrees * RADIANS_PER_DEGREE);
     return dp_add(dp_scale(n, -c), dp_scale(dp_cross(e, n), s));
 }
 
@@ -72,6 +72,8 @@ bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *point
         clip[i] = dp_to_clip(p->view, points[i]);
         codes |= dp_outcode(p->view, clip[i]);
     }
+    out->root[0] = e.a, out->root[1] = e.b;
+    out->joint = false;
     out->count = dp_clip_polygon(p->view, codes, clip, count, scratch);
     if (!out->count) return false;
     for (uint32_t i = 0; i < out->count; i++) {
@@ -149,6 +151,8 @@ dp_lean dp_lean_of(const dp_view *view, const dp_screen_edge *edge, dp_vec3 q) {
 
 void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_added *out) {
     const double x = e->nx * reach, y = e->ny * reach, d = slope * reach;
+    out->root[0] = e->a, out->root[1] = e->b;
+    out->joint = false;
     out->count = 4;
     out->points[0] = e->a;
     out->points[1] = e->b;
@@ -158,4 +162,54 @@ void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_adde
     out->dy = e->along * e->ty + slope * e->ny;
     out->d0 = e->a.d - out->dx * e->a.x - out->dy * e->a.y;
     out->nearest = fmax(e->a.d, e->b.d) + fmax(d, 0);
+}
+
+double dp_screen_rise(const dp_primitive *p, uint32_t edge, double degrees) {
+    dp_screen_edge e;
+    if (!dp_screen_edge_make(p, edge, &e)) return NAN;
+    const dp_vec3 along = dp_edge_direction(p, edge);
+    const dp_lean quad = dp_lean_of(p->view, &e, dp_quad_direction(along, p->normal, degrees));
+    const dp_lean own = dp_lean_of(p->view, &e, dp_cross(along, p->normal));
+    return quad.outward ? quad.slope - own.slope : NAN;
+}
+
+/* Joints are made of triangles that span this angle at most (the rim misses the circle by 3 % of its
+ * radius), and there are at most this many. */
+static const double SPAN = 30 * RADIANS_PER_DEGREE;
+enum { SPANS = DP_ADDED_MOST - 1 };
+
+static dp_pointd joint_point(const dp_screen_edge *e, double slope, double reach, double angle, double rise) {
+    const double c = cos(angle), s = sin(angle);
+    const double x = reach * (e->nx * c - e->ny * s), y = reach * (e->nx * s + e->ny * c);
+    const double t = x * e->tx + y * e->ty, n = x * e->nx + y * e->ny;
+    return (dp_pointd){e->b.x + x, e->b.y + y,
+                       fmin(e->b.d + e->along * t + slope * n + reach * rise, e->b.d + reach * e->steep)};
+}
+
+uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_screen_edge *e, double reach,
+                         const double rise[2], dp_added *out) {
+    const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
+    const dp_lean own = dp_lean_of(p->view, e, dp_cross(dp_edge_direction(p, edge), p->normal));
+    dp_screen_edge f;
+    if (!isfinite(own.slope) || !isfinite(rise[0] + rise[1])) return 0;
+    if (dp_outcode(p->view, p->clip[next]) || !dp_screen_edge_make(p, next, &f)) return 0;
+    /* the corners of a convex polygon turn one way, or the other way when seen from behind */
+    const double hand = p->front ? -1 : 1;
+    const double sine = hand * (e->nx * f.ny - e->ny * f.nx), cosine = e->nx * f.nx + e->ny * f.ny;
+    if (!(sine > 0) || cosine < -0.999) return 0;
+    const double angle = atan2(sine, cosine);
+    const uint32_t spans = (uint32_t)fmin(ceil(angle / SPAN), SPANS);
+    uint32_t count = 0;
+    dp_pointd from = joint_point(e, own.slope, reach, 0, rise[0]);
+    for (uint32_t i = 1; i <= spans; i++) {
+        const double share = (double)i / spans;
+        const dp_pointd to = joint_point(e, own.slope, reach, hand * angle * share, rise[0] + (rise[1] - rise[0]) * share);
+        out[count].points[0] = e->b, out[count].points[1] = from, out[count].points[2] = to;
+        out[count].root[0] = out[count].root[1] = e->b;
+        out[count].count = 3;
+        out[count].joint = true;
+        count += set_plane(&out[count]);
+        from = to;
+    }
+    return count;
 }

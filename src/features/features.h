@@ -40,7 +40,7 @@ typedef struct dp_pen {
 
 enum {
     DP_ADDED_POINTS = 16, /* 4 corners + 6 planes of the frustum + 3 sides of the reach, rounded up */
-    DP_ADDED_MOST = 2     /* per edge and class */
+    DP_ADDED_MOST = 8     /* per edge and class */
 };
 
 /* An added polygon on the screen: convex, either winding. */
@@ -49,6 +49,8 @@ typedef struct dp_added {
     uint32_t count;
     double d0, dx, dy; /* its depth: min(d0 + dx * x + dy * y, nearest) */
     double nearest;
+    dp_pointd root[2]; /* what it grows from: the edge, or a corner twice */
+    bool joint;        /* it is part of a round joint */
 } dp_added;
 
 /* Fills out with what is added at edge `edge` and returns how many. */
@@ -73,8 +75,8 @@ static inline bool dp_planes_cross_within(float gap, float gx, float gy, float r
 /* A paper method's polygon reaches no further than this many times the pen's reach. */
 #define DP_PAPER_REACH 2.0
 /* |V·N| and |V·R| count as no less than this, so that the paper's quotients stay finite: a polygon seen
- * at less than 0.9 degrees grows by no more than 64 widths in space. */
-#define DP_PAPER_GRAZING (1.0 / 64)
+ * at less than 3.6 degrees grows by no more than 16 widths in space, and its line gets thinner. */
+#define DP_PAPER_GRAZING (1.0 / 16)
 /* An added polygon comes nearer by no more than this many pixel sizes per px away from its edge. */
 #define DP_STEEPEST 4.0
 
@@ -121,5 +123,16 @@ dp_lean dp_lean_of(const dp_view *view, const dp_screen_edge *edge, dp_vec3 dire
 
 /* The rectangle of `reach` px outside the edge, with a depth that changes by `slope` per px. */
 void dp_screen_quad(const dp_screen_edge *edge, double reach, double slope, dp_added *out);
+
+/* How much the quad of an edge at an angle (degrees) rises over the polygon's own plane, depth per px; NaN
+ * where it faces away. */
+double dp_screen_rise(const dp_primitive *p, uint32_t edge, double degrees);
+
+/* The round joint between that rectangle and the next edge's, around the corner where `edge` ends, in thin
+ * triangles: their outer corners lie `reach` px away, `rise` per px over the polygon's own plane (from
+ * rise[0] on this edge's side to rise[1] on the next one's). Returns how many; none when the corner is
+ * clipped or the polygon seen edge-on. */
+uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_screen_edge *on_screen, double reach,
+                         const double rise[2], dp_added *out);
 
 #endif

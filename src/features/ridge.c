@@ -20,8 +20,11 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     const dp_vec3 q = dp_quad_direction(dp_edge_direction(p, edge), p->normal, pen->angle);
     const dp_lean lean = dp_lean_of(p->view, &e, q);
     if (!lean.outward && pen->angle <= 180) return 0;
-    dp_screen_quad(&e, pen->reach, lean.outward ? fmin(lean.slope, e.steep) : e.steep, &out[0]);
-    return 1;
+    const double slope = lean.outward ? fmin(lean.slope, e.steep) : e.steep;
+    dp_screen_quad(&e, pen->reach, slope, &out[0]);
+    const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
+    const double rise[2] = {dp_screen_rise(p, edge, pen->angle), dp_screen_rise(p, next, pen->angle)};
+    return 1 + dp_screen_joint(p, edge, &e, pen->reach, rise, &out[1]);
 }
 
 uint32_t dp_shade_ridge(const dp_primitive *p, uint32_t edge, const dp_pen *pen,

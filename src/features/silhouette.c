@@ -25,8 +25,9 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     if (!dp_screen_edge_make(p, edge, &e)) return 0;
     const dp_lean lean = dp_lean_of(p->view, &e, dp_cross(dp_edge_direction(p, edge), p->normal));
     if (lean.slope == -INFINITY) return 0; /* it leads straight away from the eye: nothing to be seen */
-    dp_screen_quad(&e, pen->reach, fmin(lean.slope, e.steep), &out[0]);
-    return 1;
+    const double slope = fmin(lean.slope, e.steep);
+    dp_screen_quad(&e, pen->reach, slope, &out[0]);
+    return 1 + dp_screen_joint(p, edge, &e, pen->reach, (const double[2]){0, 0}, &out[1]);
 }
 
 uint32_t dp_shade_silhouette(const dp_primitive *p, uint32_t edge, const dp_pen *pen,

@@ -24,7 +24,9 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     const double slope = lean.outward ? lean.slope : -e.steep;
     const double reach = slope > e.steep ? pen->reach * e.steep / slope : pen->reach;
     dp_screen_quad(&e, reach, slope, &out[0]);
-    return 1;
+    const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
+    const double rise[2] = {dp_screen_rise(p, edge, pen->angle), dp_screen_rise(p, next, pen->angle)};
+    return 1 + dp_screen_joint(p, edge, &e, reach, rise, &out[1]);
 }
 
 uint32_t dp_shade_valley(const dp_primitive *p, uint32_t edge, const dp_pen *pen,

@@ -7,6 +7,7 @@
 
 #include "base/diag.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Corner pointers of one polygon, and scratch to split it; grows to the largest polygon. */
@@ -56,12 +57,14 @@ static const float *batch_position(const dp_batch *batch, uint32_t vertex) {
                                          (size_t)vertex * batch->position_stride);
 }
 
-/* The corners' positions; false where an index is out of range (binning will drop the polygon). */
+/* The corners' positions; false where an index is out of range or a coordinate is not finite (binning
+ * will drop the polygon). */
 static bool locate(const dp_batch *batch, size_t first, size_t n, const float **at) {
     for (size_t i = 0; i < n; i++) {
         const uint32_t vertex = batch_vertex(batch, first + i);
         if (vertex >= batch->vertex_count) return false;
         at[i] = batch_position(batch, vertex);
+        if (!isfinite(at[i][0]) || !isfinite(at[i][1]) || !isfinite(at[i][2])) return false;
     }
     return true;
 }

@@ -51,11 +51,16 @@ static double side(const flat *f, uint32_t a, uint32_t b, uint32_t c) {
     return dp_dot(ab, f->u) * dp_dot(ac, f->v) - dp_dot(ab, f->v) * dp_dot(ac, f->u);
 }
 
+/* A hole that is bridged to the outline has corners twice. */
+static bool coincide(const flat *f, uint32_t a, uint32_t b) {
+    return f->at[a][0] == f->at[b][0] && f->at[a][1] == f->at[b][1] && f->at[a][2] == f->at[b][2];
+}
+
 /* The triangle (a, b, c) turns left and no other corner that is left lies in it. */
 static bool is_ear(const flat *f, const uint32_t *next, uint32_t a, uint32_t b, uint32_t c) {
     if (!(side(f, a, b, c) > 0)) return false;
     for (uint32_t p = next[c]; p != a; p = next[p])
-        if (side(f, a, b, p) >= 0 && side(f, b, c, p) >= 0 && side(f, c, a, p) >= 0) return false;
+        if (!coincide(f, p, a) && !coincide(f, p, b) && !coincide(f, p, c) && side(f, a, b, p) >= 0 && side(f, b, c, p) >= 0 && side(f, c, a, p) >= 0) return false;
     return true;
 }
 

@@ -20,6 +20,14 @@ static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
 
 static uint8_t clamp_px(float v) { return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : v); }
 
+static void set_box(dp_tile_polygon *out, float x0, float y0, float x1, float y1) {
+    out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
+    out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
+    if (x1 >= 0 && y1 >= 0 && x0 < DP_TILE && y0 < DP_TILE) out->flags |= DP_POLYGON_TOUCHES;
+    if (x0 > -DP_BESIDE && y0 > -DP_BESIDE && x1 < DP_TILE + DP_BESIDE && y1 < DP_TILE + DP_BESIDE)
+        out->flags |= DP_POLYGON_WITHIN;
+}
+
 static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     float x0 = p[0].x, x1 = x0, y0 = p[0].y, y1 = y0, nearest = p[0].d;
     for (uint32_t i = 1; i < n; i++) {
@@ -27,24 +35,28 @@ static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
         y0 = dp_minf(y0, p[i].y), y1 = dp_maxf(y1, p[i].y);
         nearest = dp_maxf(nearest, p[i].d);
     }
-    out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
-    out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
     out->nearest = nearest;
-    if (x1 >= 0 && y1 >= 0 && x0 < DP_TILE && y0 < DP_TILE) out->flags |= DP_POLYGON_TOUCHES;
+    set_box(out, x0, y0, x1, y1);
 }
 
 static dp_vertex to_tile(const dp_tile_worker *w, float x, float y, float d, uint32_t key) {
     return (dp_vertex){x - (float)w->tile_x, y - (float)w->tile_y, d, key};
 }
 
+static bool has_room(dp_tile_worker *w, uint32_t points) {
+    if (w->polygon_count < w->polygons_cap && w->point_count + points <= w->points_cap) return true;
+    return DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) &&
+           DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + points);
+}
+
 /* Any polygon, clipped or not. */
 static void add_polygon(dp_tile_worker *w, uint32_t id) {
     dp_outline outline;
-    if (dp_outline_make(w->frame, id, &w->scratch, &outline)) return;
+    const dp_outline_state state = dp_outline_make(w->frame, id, &w->scratch, &outline);
+    if (state == DP_OUTLINE_MEMORY) w->failed = true;
+    if (state) return;
     const uint32_t n = outline.count, first = dp_first_corner(&w->frame->polygons, id);
-    if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
-        !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + n))
-        return;
+    if (!has_room(w, n)) return;
     const dp_facing facing = dp_outline_facing(w->frame, id, &outline);
     dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
     *out = (dp_tile_polygon){.id = id, .point = w->point_count, .points = n};
@@ -75,9 +87,7 @@ static bool add_triangle(dp_tile_worker *w, uint32_t id) {
     const float area = bx * cy - by * cx;
     const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
     if (!(fabsf(area) > DP_NEARLY_EDGE_ON * reach)) return false;
-    if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
-        !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + 3))
-        return true;
+    if (!has_room(w, 3)) return true; /* the worker has failed */
     dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
     dp_vertex *const points = w->points + w->point_count;
     points[0] = to_tile(w, a.x, a.y, a.d, a.key);
@@ -89,7 +99,11 @@ static bool add_triangle(dp_tile_worker *w, uint32_t id) {
                              .flags = area < 0 ? DP_POLYGON_FRONT : 0, .dx = dx, .dy = dy,
                              .d0 = a.d - dx * points[0].x - dy * points[0].y};
     w->point_count += 3;
-    box_setup(points, 3, out);
+    out->nearest = dp_maxf(a.d, dp_maxf(b.d, c.d));
+    set_box(out, dp_minf(points[0].x, dp_minf(points[1].x, points[2].x)),
+            dp_minf(points[0].y, dp_minf(points[1].y, points[2].y)),
+            dp_maxf(points[0].x, dp_maxf(points[1].x, points[2].x)),
+            dp_maxf(points[0].y, dp_maxf(points[1].y, points[2].y)));
     out->watch = dp_watch_reach(w, out);
     return true;
 }

@@ -83,10 +83,73 @@ static dp_vec3 or_default(const double v[3], dp_vec3 other) {
     return dp_length(given) > 0 ? given : other;
 }
 
+/* The box's eight corners about its centre along the camera's axes, and the tangents of half the picture. */
+typedef struct framing {
+    dp_vec3 corner[8]; /* right, up, away from the eye */
+    double tan_x, tan_y;
+} framing;
+
+/* Share of the picture's half width or height that stays free. */
+static const double MARGIN = 0.04;
+
+/* Along one axis: all corners are seen where shift + tan * distance >= *a and -shift + tan * distance >= *b. */
+static void constrain(const framing *f, bool vertical, double tangent, double *a, double *b) {
+    *a = *b = -INFINITY;
+    for (int i = 0; i < 8; i++) {
+        const double x = vertical ? f->corner[i].y : f->corner[i].x, z = f->corner[i].z;
+        *a = dp_max(*a, x - tangent * z);
+        *b = dp_max(*b, -x - tangent * z);
+    }
+}
+
+/* The least distance from which the box is seen whole, and where the eye's axis then meets it. */
+static double frame_perspective(const framing *f, double shift[2]) {
+    double ax, bx, ay, by, nearest = 0;
+    constrain(f, false, f->tan_x * (1 - MARGIN), &ax, &bx);
+    constrain(f, true, f->tan_y * (1 - MARGIN), &ay, &by);
+    for (int i = 0; i < 8; i++) nearest = dp_max(nearest, -f->corner[i].z);
+    shift[0] = (ax - bx) / 2, shift[1] = (ay - by) / 2;
+    const double distance = dp_max((ax + bx) / 2 / f->tan_x, (ay + by) / 2 / f->tan_y) / (1 - MARGIN);
+    return dp_max(distance, nearest * 1.001);
+}
+
+/* The height of what is seen so that the box is seen whole. */
+static double frame_orthographic(const framing *f, double aspect, double shift[2]) {
+    double ax, bx, ay, by;
+    constrain(f, false, 0, &ax, &bx);
+    constrain(f, true, 0, &ay, &by);
+    shift[0] = (ax - bx) / 2, shift[1] = (ay - by) / 2;
+    return dp_max(ay + by, (ax + bx) / aspect) / (1 - MARGIN);
+}
+
+static framing framing_of(dp_vec3 min, dp_vec3 max, dp_vec3 forward, dp_vec3 up) {
+    framing f;
+    const dp_vec3 right = dp_unit(dp_cross(forward, usable_up(forward, up))), upward = dp_cross(right, forward);
+    const dp_vec3 half = dp_scale(dp_sub(max, min), 0.5);
+    for (int i = 0; i < 8; i++) {
+        const dp_vec3 c = dp_v3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
+        f.corner[i] = dp_v3(dp_dot(c, right), dp_dot(c, upward), dp_dot(c, forward));
+    }
+    return f;
+}
+
+typedef struct fitted {
+    dp_vec3 centre, forward, up;
+    double distance, height, shift[2];
+} fitted;
+
+static dp_result look(dp_camera *camera, const fitted *f) {
+    const dp_vec3 right = dp_unit(dp_cross(f->forward, usable_up(f->forward, f->up)));
+    const dp_vec3 upward = dp_cross(right, f->forward);
+    const dp_vec3 at = dp_mad(dp_mad(f->centre, right, f->shift[0]), upward, f->shift[1]);
+    const dp_vec3 eye = dp_mad(at, f->forward, -f->distance);
+    return dp_camera_look_at(camera, (const double[3]){eye.x, eye.y, eye.z}, (const double[3]){at.x, at.y, at.z},
+                             (const double[3]){f->up.x, f->up.y, f->up.z});
+}
+
 dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     if (!camera || !fit || !finite3(fit->direction) || !finite3(fit->up)) return DP_ERR_ARGUMENT;
     const dp_vec3 min = dp_v3f(fit->min), max = dp_v3f(fit->max);
-    const dp_vec3 centre = dp_scale(dp_add(min, max), 0.5);
     double radius = dp_length(dp_sub(max, min)) / 2;
     if (!isfinite(radius)) return DP_ERR_ARGUMENT;
     if (!(radius > 0)) radius = 1;
@@ -95,23 +158,24 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     const double zoom = fit->zoom != 0 ? fit->zoom : 1;
     if (!(fov > 0 && fov < 180) || !(aspect > 0) || !(zoom > 0)) return DP_ERR_ARGUMENT;
 
-    const dp_vec3 towards = dp_unit(or_default(fit->direction, dp_v3(1, 0.6, 1)));
-    const dp_vec3 up = or_default(fit->up, dp_v3(0, 1, 0));
-    const double half_y = fov * PI / 360;
-    const double half = dp_min(half_y, atan(tan(half_y) * aspect));
-    const double distance = radius / sin(half);
-    const dp_vec3 eye = dp_mad(centre, towards, distance);
-    const dp_result result = dp_camera_look_at(camera, (const double[3]){eye.x, eye.y, eye.z},
-                                               (const double[3]){centre.x, centre.y, centre.z},
-                                               (const double[3]){up.x, up.y, up.z});
+    const double half_y = fov * PI / 360, half = dp_min(half_y, atan(tan(half_y) * aspect));
+    fitted f = {.centre = dp_scale(dp_add(min, max), 0.5),
+                .forward = dp_scale(dp_unit(or_default(fit->direction, dp_v3(1, 0.6, 1))), -1),
+                .up = or_default(fit->up, dp_v3(0, 1, 0)),
+                .distance = radius / sin(half),
+                .height = 2 * radius / dp_min(1, aspect)};
+    framing frame = framing_of(min, max, f.forward, f.up);
+    frame.tan_x = tan(half_y) * aspect, frame.tan_y = tan(half_y);
+    const bool flat = !(dp_length(dp_sub(max, min)) > 0); /* a point has nothing to fill the picture with */
+    if (!fit->steady && !flat && fit->orthographic) f.height = frame_orthographic(&frame, aspect, f.shift);
+    else if (!fit->steady && !flat) f.distance = frame_perspective(&frame, f.shift);
+    if (fit->height > 0) f.height = fit->height;
+    const dp_result result = look(camera, &f);
     if (result) return result;
-    if (fit->orthographic) {
-        const double fitted = 2 * radius / dp_min(1, aspect);
-        return dp_camera_orthographic(camera, (fit->height > 0 ? fit->height : fitted) / zoom, aspect,
-                                      distance - 1.01 * radius, distance + 1.01 * radius);
-    }
+
+    const double far_z = f.distance + 1.01 * radius, near_z = f.distance - 1.01 * radius;
+    if (fit->orthographic) return dp_camera_orthographic(camera, f.height / zoom, aspect, near_z, far_z);
     /* Zoom narrows the field of view rather than moving the eye: the perspective stays. */
     const double zoomed = 2 * atan(tan(half_y) / zoom) * 180 / PI;
-    const double near_z = dp_max(distance - 1.01 * radius, 1e-4 * distance);
-    return dp_camera_perspective(camera, zoomed, aspect, near_z, distance + 1.01 * radius);
+    return dp_camera_perspective(camera, zoomed, aspect, dp_max(near_z, 1e-4 * f.distance), far_z);
 }

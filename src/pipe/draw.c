@@ -182,15 +182,38 @@ static void add_counts(dp_stats *sum, const dp_stats *s) {
     sum->added_polygons += s->added_polygons;
 }
 
-static dp_result check_dropped(dp_stats *s, dp_diag *diag) {
+/* An error when nothing is left of `pieces` polygons, after splitting. */
+static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
     s->dropped = s->dropped_index + s->dropped_finite + s->dropped_area + s->dropped_corners;
-    if (!s->dropped || s->dropped < s->polygons) return DP_OK;
+    if (!s->dropped || s->dropped < pieces + s->dropped_corners) return DP_OK;
     return dp_fail(diag, DP_ERR_FORMAT,
                    "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
                    "coordinates that are not finite, %llu without area, %llu with fewer than 3 corners",
                    (unsigned long long)s->polygons, (unsigned long long)s->dropped_index,
                    (unsigned long long)s->dropped_finite, (unsigned long long)s->dropped_area,
                    (unsigned long long)s->dropped_corners);
+}
+
+static uint64_t bins_bytes(const dp_bins *bins) {
+    uint64_t sum = bins->chunks_cap * sizeof *bins->chunks;
+    for (size_t i = 0; i < bins->chunks_cap; i++) {
+        const dp_bin_chunk *const c = &bins->chunks[i];
+        sum += sizeof(uint32_t) * (c->entries_cap + c->offsets_cap + c->items_cap + c->tiles_cap);
+    }
+    return sum;
+}
+
+/* All that stays from frame to frame, but for the small change. */
+static uint64_t scratch_bytes(const dp_context *c) {
+    const dp_polygon_store *const p = &c->polygons;
+    uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
+                   c->pieces_cap * sizeof(dp_tile_pieces) + bins_bytes(&c->frame.polygon_bins) +
+                   bins_bytes(&c->frame.stroke_bins);
+    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
+    sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
+           c->strokes.strokes_cap * sizeof(dp_stroke);
+    for (uint32_t i = 0; i < c->workers; i++) sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
+    return sum;
 }
 
 static void lap(dp_stats *stats, dp_stage stage, double *since) {
@@ -211,7 +234,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
-    if ((result = check_dropped(&c->stats, diag))) return result;
+    if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
     if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->tile_workers[i].failed) return out_of_memory(diag);
@@ -236,6 +259,7 @@ static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
         if (c->ink_workers[i].failed) return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
+    c->stats.bytes = scratch_bytes(c);
     return DP_OK;
 }
 

@@ -13,9 +13,6 @@
 
 #include <string.h>
 
-/* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
-static const float MARGIN = 1.5f;
-
 static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
     if (a == b) return true;
     const float *const p = dp_vertex_position(polygons, a), *const q = dp_vertex_position(polygons, b);
@@ -23,11 +20,11 @@ static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
 }
 
 static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i) {
-    if (p->flags & DP_POLYGON_CLIPPED) return true;
+    if (p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) return true;
     const dp_vertex a = w->points[p->point + i];
     const dp_vertex b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
-    return dp_maxf(a.x, b.x) >= -MARGIN && dp_minf(a.x, b.x) <= DP_TILE + MARGIN &&
-           dp_maxf(a.y, b.y) >= -MARGIN && dp_minf(a.y, b.y) <= DP_TILE + MARGIN;
+    return dp_maxf(a.x, b.x) >= -DP_BESIDE && dp_minf(a.x, b.x) <= DP_TILE + DP_BESIDE &&
+           dp_maxf(a.y, b.y) >= -DP_BESIDE && dp_minf(a.y, b.y) <= DP_TILE + DP_BESIDE;
 }
 
 /* Corners of the polygons that may add edges. */
@@ -59,12 +56,19 @@ static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t
     e->more = ++w->meeting_count;
 }
 
+static uint32_t edge_hash(uint32_t ka, uint32_t kb) {
+    const uint32_t hash = (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
+    return hash ^ hash >> 15;
+}
+
+/* Is the edge's place in the table free? Then no visible polygon has it. */
+static bool is_free(const dp_tile_worker *w, uint32_t hash) {
+    return !w->edge_slots[2 * (size_t)(hash & (w->slot_count - 1)) + 1];
+}
+
 /* Enters an edge, or only meets it where a polygon that is not hidden has it too. */
-static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb, uint32_t ka,
-                   uint32_t kb) {
+static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb, uint32_t hash) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    uint32_t hash = (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
-    hash ^= hash >> 15;
     const uint32_t mask = w->slot_count - 1;
     for (uint32_t s = hash & mask;; s = (s + 1) & mask) {
         uint32_t *const slot = w->edge_slots + 2 * (size_t)s;
@@ -90,23 +94,32 @@ static bool is_flagged(const dp_polygons *polygons, uint32_t corner) {
 }
 
 /* Keys come from the tile's points where these are the corners, else from the vertices. */
-static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, uint32_t vertex) {
-    return p->flags & DP_POLYGON_CLIPPED ? w->frame->vertices[vertex].key : w->points[p->point + i].key;
+static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, uint32_t first) {
+    if (!(p->flags & DP_POLYGON_CLIPPED)) return w->points[p->point + i].key;
+    return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
+}
+
+static void insert_edge(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t index, uint32_t i, uint32_t next,
+                        uint32_t ka, uint32_t kb) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const uint32_t hash = edge_hash(ka, kb), first = dp_first_corner(polygons, p->id);
+    if (p->flags & DP_POLYGON_HIDDEN && is_free(w, hash)) return;
+    if (!is_flagged(polygons, first + i) || !near_tile(w, p, i)) return;
+    const uint32_t va = dp_corner_vertex(polygons, first + i), vb = dp_corner_vertex(polygons, first + next);
+    if (ka != kb || !same_position(polygons, va, vb)) insert(w, index, i, va, vb, hash);
 }
 
 static void insert_polygon(dp_tile_worker *w, uint32_t index) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    const uint32_t v0 = dp_corner_vertex(polygons, first), k0 = key_of(w, p, 0, v0);
-    uint32_t va = v0, ka = k0;
+    const uint32_t k0 = key_of(w, p, 0, first);
+    uint32_t ka = k0;
     for (uint32_t i = 0; i < n; i++) {
-        const bool last = i + 1 == n;
-        const uint32_t vb = last ? v0 : dp_corner_vertex(polygons, first + i + 1);
-        const uint32_t kb = last ? k0 : key_of(w, p, i + 1, vb);
-        const bool same = ka == kb && same_position(polygons, va, vb);
-        if (!same && is_flagged(polygons, first + i) && near_tile(w, p, i)) insert(w, index, i, va, vb, ka, kb);
-        va = vb, ka = kb;
+        const uint32_t next = i + 1 == n ? 0 : i + 1;
+        const uint32_t kb = next ? key_of(w, p, next, first) : k0;
+        insert_edge(w, p, index, i, next, ka, kb);
+        ka = kb;
     }
 }
 

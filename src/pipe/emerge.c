@@ -7,8 +7,8 @@
  * edge at that place; what is found is classified exactly. So a fold shows by the same thresholds as
  * anywhere else, and an edge with nothing across is a border.
  *
- * Data structure: lookups in lists by pixel, four to a sample point of the spine: near and far, on either
- * side. Not handled: a crack wider than FAR px on the screen (it is drawn as two borders). */
+ * Data structure: lookups in lists by pixel, three to a sample point of the spine. Not handled: a crack
+ * wider than FAR px on the screen (it is drawn as two borders). */
 #include "pipe/classify.h"
 
 #include <string.h>
@@ -22,7 +22,7 @@ static const float NEAR = 0.001f, FAR = 0.05f;
 static const double TOUCHING = 0.02;
 static const float PLACED = 0.002f;
 
-enum { LOOKUPS = 4 }; /* near across, far across, near own side, far own side */
+enum { LOOKUPS = 3 }; /* near across, far across, near on its own side */
 
 typedef struct dp_lookup {
     float x, y;           /* where */
@@ -83,7 +83,7 @@ static void outward(const dp_tile_worker *w, const emerging *e, float out[2]) {
 static bool place_lookups(dp_tile_worker *w, emerging *e, uint32_t *count) {
     const size_t need = (size_t)*count + (size_t)LOOKUPS * (e->k1 - e->k0);
     if (!DP_WORKER_RESERVE(w, lookups, lookups_cap, need)) return false;
-    const float steps[LOOKUPS] = {NEAR, FAR, -NEAR, -FAR};
+    const float steps[LOOKUPS] = {NEAR, FAR, -NEAR};
     float out[2];
     outward(w, e, out);
     e->first = *count;
@@ -131,8 +131,6 @@ typedef struct finding {
     dp_vec3 normal;
 } finding;
 
-static uint32_t first_found(const dp_lookup *l) { return l[0].found != UINT32_MAX ? l[0].found : l[1].found; }
-
 static finding outline_finding(const dp_tile_worker *w, const emerging *e, uint32_t behind) {
     const dp_vec3 n = dp_polygon_normal(w->frame, e->id);
     const bool front = w->polygons[e->loose.polygon].flags & DP_POLYGON_FRONT;
@@ -153,9 +151,9 @@ static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t
 }
 
 static finding judge(const dp_tile_worker *w, const emerging *e, const dp_lookup *l) {
-    const uint32_t across = first_found(l), behind = first_found(l + 2);
+    const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : l[1].found, behind = l[2].found;
     const dp_tile_polygon *const p = &w->polygons[e->loose.polygon];
-    const dp_lookup *const own = l[2].found != UINT32_MAX ? &l[2] : &l[3];
+    const dp_lookup *const own = &l[2];
     const bool covered = behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
     if (covered) return (finding){-1, behind, {0, 0, 0}}; /* another polygon at this edge is in front */
     if (across == UINT32_MAX) {

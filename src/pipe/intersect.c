@@ -15,8 +15,10 @@
 #include <string.h>
 
 typedef struct dp_crowd {
+    float x0, y0, x1, y1; /* px, tile space */
+    float near, far;      /* d */
     uint32_t polygon;
-    uint32_t next; /* in the same pixel, or UINT32_MAX */
+    uint32_t next;        /* in the same pixel, or UINT32_MAX */
 } dp_crowd;
 
 /* How many corner positions two polygons share (their keys are hashes: a false match costs one
@@ -128,7 +130,6 @@ static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const d
 
 static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
-    if (p->x1 < q->x0 || q->x1 < p->x0 || p->y1 < q->y0 || q->y1 < p->y0) return;
     const bool thin = (p->flags | q->flags) & DP_POLYGON_EDGE_ON;
     if (!thin && (is_beside(w, p, q) || is_beside(w, q, p))) return;
     if (shared_corners(w->frame, p->id, q->id) > 1 || !is_new_pair(w, a, b)) return;
@@ -144,17 +145,39 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
 
 /* ------- crowds ------- */
 
+static dp_crowd bounds(const dp_tile_worker *w, uint32_t index) {
+    const dp_tile_polygon *const p = &w->polygons[index];
+    dp_vertex v = w->points[p->point];
+    dp_crowd c = {v.x, v.y, v.x, v.y, v.d, v.d, index, UINT32_MAX};
+    for (uint32_t i = 1; i < p->points; i++) {
+        v = w->points[p->point + i];
+        c.x0 = dp_minf(c.x0, v.x), c.x1 = dp_maxf(c.x1, v.x);
+        c.y0 = dp_minf(c.y0, v.y), c.y1 = dp_maxf(c.y1, v.y);
+        c.far = dp_minf(c.far, v.d), c.near = dp_maxf(c.near, v.d);
+    }
+    return c;
+}
+
+static bool are_apart(const dp_crowd *p, const dp_crowd *q) {
+    return p->x1 < q->x0 || q->x1 < p->x0 || p->y1 < q->y0 || q->y1 < p->y0 || p->near < q->far || q->near < p->far;
+}
+
 /* Puts a polygon into the suspect pixels of its box and tests it against those already there. */
 static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[DP_TILE],
                         uint32_t heads[DP_TILE][DP_TILE], uint32_t *count) {
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint64_t span = dp_box_span(p);
+    dp_crowd self;
+    bool met = false;
     for (uint32_t y = p->y0; y <= p->y1; y++)
         for (uint64_t bits = rows[y] & span; bits && !w->failed; bits &= bits - 1) {
             uint32_t *const head = &heads[y][__builtin_ctzll(bits)];
-            for (uint32_t i = *head; i != UINT32_MAX; i = w->crowd[i].next) test_pair(w, w->crowd[i].polygon, index);
+            if (!met) self = bounds(w, index), met = true;
+            for (uint32_t i = *head; i != UINT32_MAX; i = w->crowd[i].next)
+                if (!are_apart(&w->crowd[i], &self)) test_pair(w, w->crowd[i].polygon, index);
             if (!DP_WORKER_RESERVE(w, crowd, crowd_cap, *count + 1u)) return;
-            w->crowd[*count] = (dp_crowd){index, *head};
+            self.next = *head;
+            w->crowd[*count] = self;
             *head = (*count)++;
         }
 }

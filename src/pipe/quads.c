@@ -34,6 +34,8 @@ static const double TRAP = 4;
 /* Silhouettes of back faces that are seen themselves (open models) are not inked on a back face that
  * is closer behind than this many line widths: there the enlargement only meets its neighbours. */
 static const double SPARE = 4;
+/* The plane of a surface under a ridge's joint passes the corner within this share of the joint's reach. */
+static const float JOINT = 0.1f;
 
 /* Depth d farther by `px` pixel sizes, as scale * d + offset: a pixel grows with distance in perspective. */
 typedef struct step {
@@ -45,8 +47,14 @@ static step step_of(const dp_view *view, double px) {
     return (step){1, (float)(-px / view->focal)};
 }
 
-static uint32_t ink_of(dp_line line, uint32_t group) { return (line + 1u) << 16 | group; }
-static dp_line ink_line(uint32_t ink) { return (dp_line)((ink >> 16) - 1); }
+/* Ink of an added polygon that is as good as a face: not trapped behind one. */
+static const uint32_t ADDED = 1u << 31;
+
+static uint32_t ink_of(dp_line line, uint32_t group) {
+    const bool trapped = line == DP_LINE_VALLEY || line == DP_LINE_INTERSECTION;
+    return (trapped ? 0 : ADDED) | (line + 1u) << 16 | group;
+}
+static dp_line ink_line(uint32_t ink) { return (dp_line)((ink >> 16 & 7) - 1); }
 
 static uint32_t group_of(const dp_tile_worker *w, uint32_t polygon) {
     const uint16_t *const groups = w->frame->polygons.groups;
@@ -62,6 +70,7 @@ typedef struct brush {
     uint32_t self;  /* tile polygon */
     dp_plane plane; /* of what is drawn */
     float reach;    /* px, plane test */
+    dp_point root[2]; /* the same: what an added polygon grows from */
     step trap;      /* how far behind the surface still counts */
     step nearer;    /* stencil: how far it is moved towards the eye */
     bool face, front, intersections;
@@ -77,12 +86,49 @@ static dp_i4 *ink_at(const brush *b, size_t lane) { return (dp_i4 *)(void *)(b->
 static dp_i4 splat(uint32_t v) { return (dp_i4){(int32_t)v, (int32_t)v, (int32_t)v, (int32_t)v}; }
 static dp_f4 behind(dp_f4 d, step s) { return d * dp_splat(s.scale) + dp_splat(s.offset); }
 
+/* The place in tile space where a sample lies. */
+static void sample_at(const dp_sampling *s, size_t lane, float *x, float *y) {
+    const size_t width = (size_t)4 * s->vectors, cell = lane / width, i = lane % width;
+    *x = (float)(cell % s->cells_x * s->cell_width) + s->x[i / 4][i % 4];
+    *y = (float)(cell / s->cells_x) + s->y[i / 4][i % 4];
+}
+
+/* Does the surface at the sample pass through what the added polygon grows from, as the neighbour there
+ * does? The planes must cross within `reach` px of the root's nearest point. What merely lies close before
+ * a hidden valley, or curves away beyond a corner, does not. */
+static bool passes_root(const brush *b, size_t lane, float d, float reach) {
+    const dp_tile_polygon *const q = &b->w->polygons[b->w->winner[lane]];
+    const float gx = q->dx - b->plane.dx, gy = q->dy - b->plane.dy;
+    float x, y;
+    sample_at(&b->w->sampling, lane, &x, &y);
+    const dp_point p = b->root[0], to = b->root[1];
+    const float ex = to.x - p.x, ey = to.y - p.y, length2 = ex * ex + ey * ey;
+    const float along = length2 > 0 ? ((x - p.x) * ex + (y - p.y) * ey) / length2 : 0;
+    const float t = dp_minf(dp_maxf(along, 0), 1);
+    const float gap = b->w->depth[lane] - d - gx * (x - p.x - t * ex) - gy * (y - p.y - t * ey);
+    return dp_planes_cross_within(gap, gx, gy, reach);
+}
+
 /* Nearest wins, over the finished faces. */
 INLINE void draw_line(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_i4 win = in & (d > *depth_at(b, lane)) & (d > *ink_depth_at(b, lane));
     *ink_depth_at(b, lane) = dp_select(win, d, *ink_depth_at(b, lane));
     *ink_at(b, lane) = dp_selecti(win, splat(b->ink), *ink_at(b, lane));
+}
+
+/* The same for the joints of ridges. Around a corner lie polygons that share no edge with this one and may
+ * curve away from it without any fold: close surfaces must pass through the corner. */
+INLINE void draw_joint(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+    const brush *const b = arg;
+    const dp_i4 win = in & (d > *depth_at(b, lane)) & (d > *ink_depth_at(b, lane));
+    if (!dp_any(win)) return;
+    const dp_i4 close = win & (*depth_at(b, lane) >= behind(d, b->trap));
+    for (uint32_t i = 0; i < 4; i++) {
+        if (!win[i] || (close[i] && !passes_root(b, lane + i, d[i], JOINT * b->reach))) continue;
+        b->w->ink_depth[lane + i] = d[i];
+        b->w->ink[lane + i] = b->ink;
+    }
 }
 
 /* Both polygons' fronts are seen, or else their interiors cross indeed: a front and a back face come
@@ -107,33 +153,39 @@ INLINE void trap_between_planes(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     for (uint32_t i = 0; i < 4; i++) {
         const uint32_t winner = b->w->winner[lane + i], held = b->w->ink[lane + i];
         if (!trapped[i] || winner == b->self || winner == UINT32_MAX) continue;
-        if (held && (!b->face || ink_line(held) != DP_LINE_VALLEY)) continue;
+        if (held & ADDED || (held && !b->face)) continue;
         const dp_tile_polygon *const q = &b->w->polygons[winner];
         if (!b->face && !(q->flags & DP_POLYGON_FRONT)) continue;
         if (!dp_planes_cross_within(surface[i] - d[i], q->dx - b->plane.dx, q->dy - b->plane.dy, b->reach))
             continue;
-        if (b->face && !may_intersect(b, winner)) continue;
+        if (b->face ? !may_intersect(b, winner) : !passes_root(b, lane + i, d[i], b->reach)) continue;
         b->w->ink[lane + i] = b->ink;
     }
 }
 
-/* The paper's: faces and lines update z1; what does not is asked for z1 >= d >= z2. */
+/* The between-test: z1 >= d >= z2, where z1 is that of a face. Nothing is trapped under a silhouette or a
+ * ridge, although these update z1 too. */
+INLINE dp_i4 between(const brush *b, size_t lane, dp_i4 in, dp_f4 d) {
+    const dp_f4 z1 = *ink_depth_at(b, lane);
+    const dp_i4 ink = *ink_at(b, lane);
+    const dp_i4 line = ink & splat(ADDED);
+    return in & (d < z1) & (d >= behind(z1, b->trap)) & (line == 0);
+}
+
+/* The paper's: faces and lines update z1; what does not is asked for the between-test. */
 INLINE void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_f4 z1 = *ink_depth_at(b, lane);
     const dp_i4 win = in & (d > z1);
-    const dp_i4 between = in & (d < z1) & (d >= behind(z1, b->trap)) & splat(b->intersections ? ~0u : 0);
+    const dp_i4 trapped = between(b, lane, in, d) & splat(b->intersections ? ~0u : 0);
     *ink_depth_at(b, lane) = dp_select(win, d, z1);
-    dp_i4 ink = dp_selecti(win, splat(b->face ? 0 : b->ink), *ink_at(b, lane));
-    ink = dp_selecti(between, splat(b->ink), ink);
-    *ink_at(b, lane) = ink;
+    const dp_i4 ink = dp_selecti(win, splat(b->face ? 0 : b->ink), *ink_at(b, lane));
+    *ink_at(b, lane) = dp_selecti(trapped, splat(b->ink), ink);
 }
 
 INLINE void trap_in_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
-    const dp_f4 z1 = *ink_depth_at(b, lane);
-    const dp_i4 between = in & (d < z1) & (d >= behind(z1, b->trap));
-    *ink_at(b, lane) = dp_selecti(between, splat(b->ink), *ink_at(b, lane));
+    *ink_at(b, lane) = dp_selecti(between(b, lane, in, d), splat(b->ink), *ink_at(b, lane));
 }
 
 INLINE void count_down(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
@@ -157,6 +209,7 @@ INLINE void count_up(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
         else dp_coverage_fill(s, area, &b->plane, s->vectors, test, b);                                \
     }
 DEFINE_FILL(fill_line, draw_line)
+DEFINE_FILL(fill_joint, draw_joint)
 DEFINE_FILL(fill_between_planes, trap_between_planes)
 DEFINE_FILL(fill_interval, draw_interval)
 DEFINE_FILL(fill_trap_in_interval, trap_in_interval)
@@ -191,6 +244,8 @@ static void fill_added(brush *b, const dp_added *a, double bias, fill *with) {
                                (float)a->points[i].y - (float)w->tile_y, (float)a->points[i].d};
         nearest = dp_max(nearest, a->points[i].d);
     }
+    for (int i = 0; i < 2; i++)
+        b->root[i] = (dp_point){(float)(a->root[i].x - w->tile_x), (float)(a->root[i].y - w->tile_y), 0};
     const double shift = -dp_depth_step(&w->frame->view, nearest, bias);
     b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile_x + a->dy * w->tile_y + shift), (float)a->dx,
                           (float)a->dy, (float)(a->nearest + shift)};
@@ -264,7 +319,10 @@ static void add_class(const shading *pass, const dp_primitive *primitive, uint32
         dp_added added[DP_ADDED_MOST];
         if (!edge_near_tile(w, p, edge, reach)) continue;
         const uint32_t count = shade(primitive, edge, &pen, added);
-        for (uint32_t i = 0; i < count; i++) fill_added(&b, &added[i], bias, pass->with);
+        for (uint32_t i = 0; i < count; i++) {
+            const bool joint = added[i].joint && line != DP_LINE_SILHOUETTE && pass->with == fill_line;
+            fill_added(&b, &added[i], bias, joint ? fill_joint : pass->with);
+        }
         w->stats.added_polygons += count;
     }
 }
@@ -345,14 +403,14 @@ static void between_depths_twice(dp_tile_worker *w) {
     add_faces(w, false, SAME, fill_trap_in_interval);
 }
 
-/* Inks where the stencil holds at least `least` and no nearer line is; the colour is that of the surface's
- * group. Clears the stencil. */
-static void ink_stencil(dp_tile_worker *w, dp_line line, uint8_t least) {
+/* Inks where anything is trapped and no nearer line is; the colour is that of the surface's group. Clears
+ * the stencil. */
+static void ink_stencil(dp_tile_worker *w, dp_line line) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) {
         const uint8_t count = w->stencil[i];
         w->stencil[i] = 0;
-        if (count < least || w->winner[i] == UINT32_MAX) continue;
-        if (w->ink[i] && ink_line(w->ink[i]) != DP_LINE_VALLEY) continue;
+        if (!count || w->winner[i] == UINT32_MAX) continue;
+        if (w->ink[i] & ADDED) continue;
         w->ink[i] = ink_of(line, group_of(w, w->polygons[w->winner[i]].id));
     }
 }
@@ -362,12 +420,12 @@ static void between_by_stencil(dp_tile_worker *w) {
     if (w->frame->lines & DP_VALLEY) {
         add_all(w, DP_VALLEY, fill_count_down);
         add_all(w, DP_VALLEY, fill_count_up);
-        ink_stencil(w, DP_LINE_VALLEY, 1);
+        ink_stencil(w, DP_LINE_VALLEY);
     }
     if (w->frame->lines & DP_INTERSECTION) {
-        add_faces(w, false, 0, fill_count_down);
-        add_faces(w, false, 0, fill_count_up); /* the surface itself counts too */
-        ink_stencil(w, DP_LINE_INTERSECTION, 2);
+        add_faces(w, false, -SAME, fill_count_down); /* the surface itself and its duplicates too */
+        add_faces(w, false, 0, fill_count_up);
+        ink_stencil(w, DP_LINE_INTERSECTION);
     }
 }
 
@@ -457,6 +515,7 @@ static bool begin(dp_tile_worker *w) {
 }
 
 void dp_tile_quads(dp_tile_worker *w) {
+
     const dp_style *const style = &w->frame->styles[0];
     if (!w->polygon_count || !begin(w)) return;
     if (style->between == DP_BETWEEN_PLANE) between_planes(w);

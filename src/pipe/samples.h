@@ -26,7 +26,11 @@ static inline dp_f4 dp_select(dp_i4 mask, dp_f4 a, dp_f4 b) {
     return (dp_f4)((mask & (dp_i4)a) | (~mask & (dp_i4)b));
 }
 static inline dp_i4 dp_selecti(dp_i4 mask, dp_i4 a, dp_i4 b) { return (mask & a) | (~mask & b); }
-static inline bool dp_any(dp_i4 mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+static inline bool dp_any(dp_i4 mask) {
+    typedef int64_t i2 __attribute__((vector_size(16)));
+    const i2 halves = (i2)mask;
+    return (halves[0] | halves[1]) != 0;
+}
 
 /* Index of the first lane of pixel (x, y), tile coordinates; its samples follow. */
 static inline size_t dp_pixel_lane(const dp_sampling *s, uint32_t x, uint32_t y) {

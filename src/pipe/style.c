@@ -36,7 +36,7 @@ static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
     const int needed = style->between == DP_BETWEEN_PLANE ? 2 : style->between == DP_BETWEEN_STENCIL ? 3 : 1;
     if (style->passes == 0) style->passes = needed;
     if (style->passes == 1 && style->ink == DP_INK_QUADS && style->between != DP_BETWEEN_INTERVAL)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs between=interval");
+        return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs the interval test (--between interval)");
     if (style->passes < 1 || style->passes > 3)
         return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
     return DP_OK;
@@ -45,6 +45,8 @@ static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
 dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag) {
     if (!resolved) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_style_resolve: resolved is NULL");
     dp_style full = style ? *style : (dp_style){0};
+    if (full.lines & ~(DP_ALL_LINES | DP_NO_LINES))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "lines holds bits that stand for no class of lines");
     if (!full.lines) full.lines = DP_ALL_LINES;
     full.lines &= DP_ALL_LINES;
     if (!full.lines) full.lines = DP_NO_LINES; /* stays so when resolved twice */

@@ -10,10 +10,8 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->stats = (dp_stats){0};
     worker->piece_count = 0;
     dp_sampling_init(&worker->sampling, frame->target.samples);
-    size_t capacity = 0;
-    dp_free(&worker->memory, worker->winner);
-    worker->winner = NULL;
-    return dp_reserve(&worker->memory, &worker->winner, &capacity, frame->tile_samples, sizeof *worker->winner);
+    return dp_reserve(&worker->memory, &worker->winner, &worker->winner_cap, frame->tile_samples,
+                      sizeof *worker->winner);
 }
 
 void dp_tile_worker_free(dp_tile_worker *worker) {
@@ -38,6 +36,14 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->world);
     dp_free(&memory, worker->clip);
     dp_outline_scratch_free(&worker->scratch, &memory);
+}
+
+uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
+    return sizeof *w + w->winner_cap * sizeof *w->winner + w->polygons_cap * sizeof *w->polygons +
+           w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
+           w->slots_cap * sizeof *w->edge_slots + w->candidates_cap * sizeof *w->candidates +
+           w->probes_cap * sizeof *w->probes + w->pieces_cap * sizeof *w->pieces +
+           w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 
 static void clear(dp_tile_worker *w) {

@@ -10,6 +10,9 @@
 #include "pipe/samples.h"
 #include "pipe/spine.h"
 
+/* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
+#define DP_BESIDE 1.5f
+
 enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
 
 enum {
@@ -17,6 +20,7 @@ enum {
     DP_POLYGON_EDGE_ON = 2, /* covers nothing; counts as back-facing */
     DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
     DP_POLYGON_TOUCHES = 8, /* its points reach the tile itself, not only its margin */
+    DP_POLYGON_WITHIN = 32, /* all its points lie in the tile or right beside it */
     DP_POLYGON_HIDDEN = 16  /* lies well behind the surface everywhere (cull.c) */
 };
 
@@ -99,8 +103,10 @@ struct dp_tile_worker {
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap, candidates_cap, probes_cap, pieces_cap;
-    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count, candidate_count, probe_count;
+    size_t winner_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t candidates_cap, probes_cap, pieces_cap;
+    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count;
+    uint32_t candidate_count, probe_count;
     size_t piece_count;
 
     uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
@@ -134,6 +140,7 @@ struct dp_tile_worker {
 
 bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
 void dp_tile_worker_free(dp_tile_worker *worker);
+uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 
 /* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);

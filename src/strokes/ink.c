@@ -6,9 +6,10 @@
  * each class is laid over the picture in the order of LAYERS.
  *
  * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke the
- * surface may come nearer (a valley's sides, a rounded outline) and still belong to it. It is cut so
- * where outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
- * looks like a defect, and strokes end round. */
+ * surface may come nearer (a valley's sides) and still belong to it; and what lies behind the planes of the
+ * polygons that meet at the spine does, as a rounded outline does. It is cut so where outlines are drawn, at
+ * which it then ends; where they are not, a cut without a line to end at looks like a defect, and strokes
+ * end round. */
 #include "strokes/stroke.h"
 
 #include "pipe/samples.h"
@@ -22,8 +23,9 @@ static const dp_line LAYERS[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTI
 /* How much nearer than the spine (in pixel sizes) a surface may be, at `distance` px from it, and still
  * not hide the stroke: sides that rise by up to eight to one, and outlines that curve towards the eye
  * with a radius of up to half the picture (a circle rises by sqrt(2 r x)). */
-static float nearer_allowed(const dp_frame *frame, float distance) {
-    return 2 + 8 * distance + sqrtf((float)frame->view.height * distance);
+static float nearer_allowed(const dp_frame *frame, const dp_stroke *s, float distance) {
+    const float rounded = s->line == DP_LINE_SILHOUETTE ? sqrtf((float)frame->view.height * distance) : 0;
+    return 2 + 8 * distance + rounded;
 }
 
 static dp_tile_rect place(void *arg, uint32_t index, uint32_t worker) {
@@ -74,8 +76,10 @@ typedef struct tile_ink {
     uint32_t x1, y1;    /* of its end, within the picture */
 } tile_ink;
 
-static bool on_plane(const float plane[3], float x, float y, float d, float tolerance) {
-    return fabsf(plane[0] + plane[1] * x + plane[2] * y - d) <= tolerance;
+/* The depth of one of the stroke's own polygons, carried on over the pixel; where it is steep, that of the
+ * pixel's nearest part. A NaN for none. */
+static float own_plane(const float plane[3], float x, float y) {
+    return plane[0] + plane[1] * x + plane[2] * y + 0.5f * (fabsf(plane[1]) + fabsf(plane[2]));
 }
 
 /* Share of the pixel's samples that do not hide the stroke. */
@@ -86,13 +90,12 @@ static float visible_share(const tile_ink *ink, const dp_stroke *s, uint32_t x, 
     const float *const depth = ink->depth + (size_t)((y - ink->y0) * DP_TILE + (x - ink->x0)) * samples;
     const float spine = s->a.d + (s->b.d - s->a.d) * t;
     const double step = dp_depth_step(&ink->frame->view, spine, 1);
-    const float limit = spine + (float)(step * nearer_allowed(ink->frame, distance));
+    const float fx = (float)x + 0.5f, fy = (float)y + 0.5f, slack = (float)step * 2;
+    float limit = spine + (float)(step * nearer_allowed(ink->frame, s, distance));
+    limit = dp_maxf(own_plane(s->plane[0], fx, fy) + slack, limit);
+    limit = dp_maxf(own_plane(s->plane[1], fx, fy) + slack, limit);
     uint32_t visible = 0;
-    for (uint32_t i = 0; i < samples; i++) {
-        const float fx = (float)x + 0.5f, fy = (float)y + 0.5f, d = depth[i];
-        visible += d <= limit || on_plane(s->plane[0], fx, fy, d, (float)step * 4) ||
-                   on_plane(s->plane[1], fx, fy, d, (float)step * 4);
-    }
+    for (uint32_t i = 0; i < samples; i++) visible += depth[i] <= limit;
     return (float)visible / (float)samples;
 }
 

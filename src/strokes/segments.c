@@ -126,8 +126,11 @@ static void make_segment(const dp_frame *frame, const dp_piece *piece, dp_segmen
     const dp_vec3 at = dp_unproject(&frame->view, a);
     for (int i = 0; i < 2; i++) {
         stroke->plane[i][0] = NAN;
-        if (polygons[i] != UINT32_MAX)
-            screen_plane(&frame->view, at, dp_polygon_normal(frame, polygons[i]), stroke->plane[i]);
+        if (polygons[i] == UINT32_MAX) continue;
+        const dp_vec3 normal = dp_polygon_normal(frame, polygons[i]);
+        const bool back = dp_dot(normal, dp_view_vector(&frame->view, at)) >= 0;
+        if (back && piece->line == DP_LINE_SILHOUETTE) continue; /* it leads towards the eye outside */
+        screen_plane(&frame->view, at, normal, stroke->plane[i]);
     }
 }
 

@@ -8,7 +8,7 @@
 typedef struct dp_stroke {
     dp_point a, b;     /* ends of the spine; screen space */
     float half_width;  /* px */
-    float plane[2][3]; /* d0, dx, dy of the two polygons that meet at the spine; NaN: none */
+    float plane[2][3]; /* d0, dx, dy of the polygons that meet at the spine; NaN: none */
     dp_color color;
     uint8_t line;      /* dp_line */
 } dp_stroke;
