@@ -22,7 +22,8 @@ help:
 	@echo 'make sanitize   run the tests under the sanitizers and in the hostile build'
 	@echo 'make fuzz       run every fuzzer for long: MINUTES=10 each'
 	@echo 'make accuracy   score pictures against exact lines'
-	@echo 'make bench      time frames of generated models'
+	@echo 'make bench      time frames, ten minutes long, beside Mesa; BENCH_QUICK=1: two'
+	@echo 'make bench-big  draw a 5 GB file; TRIANGLES=2000000 makes it smaller'
 	@echo 'make gallery    draw the pictures of docs/gallery again'
 	@echo 'make install    install below PREFIX=/usr/local'
 	@echo 'make setup      only install what is missing to build'
@@ -58,6 +59,10 @@ bench: setup
 	@$(MAKE) --no-print-directory all
 	@scripts/bench.sh $(BUILD)/drypoint
 
+bench-big: setup
+	@$(MAKE) --no-print-directory all
+	@scripts/bench-big.sh $(BUILD)/drypoint $(TRIANGLES)
+
 gallery: setup
 	@$(MAKE) --no-print-directory all
 	@scripts/gallery.sh $(BUILD)/drypoint
@@ -74,5 +79,5 @@ format-check:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all help setup setup-check demo check check-all test sanitize fuzz accuracy bench gallery \
+.PHONY: all help setup setup-check demo check check-all test sanitize fuzz accuracy bench bench-big gallery \
         install format format-check clean

@@ -60,7 +60,7 @@ static const row rows[] = {
      .label = "ink=quads, as printed",
      .ink = DP_INK_QUADS,
      .method = DP_METHOD_PAPER},
-    {.group = "method", .label = "edge table off", .edge_table_off = true, .quick = true},
+    {.group = "method", .label = "edge table off", .edge_table_off = true},
     {.group = "method", .label = "back faces culled", .cull = true, .quick = true},
 };
 enum { ROW_COUNT = sizeof rows / sizeof *rows };
@@ -91,11 +91,13 @@ typedef struct suite {
     peer peer;
     unsigned peer_width, peer_height; /* the size that the peer is warm for */
     bool peer_warm[VARIANT_COUNT];
+    double last_ms[VARIANT_COUNT]; /* of the last frame; 0: none yet */
     /* The row at hand. */
     dp_context *context;
     dp_target target;
     dp_camera camera;
     dp_style styles[2]; /* OWN, OWN_FLAT */
+    dp_stats stats;     /* of the last frame of OWN */
     variant variants[VARIANT_COUNT];
 } suite;
 
@@ -140,43 +142,56 @@ static void draw_variant(suite *s, int which, bool keep) {
                                              which == PEER_LINES_0 || which == PEER_LINES_4, time);
     if (v->gone) return;
     v->spent += time->ms;
+    s->last_ms[which] = time->ms;
+    if (which == OWN) s->stats = stats;
     for (int k = 0; k < DP_STAGE_COUNT; k++) v->stages[k][v->count] = (float)stats.stage_ms[k];
     v->count += keep;
 }
 
-static void warm_up(suite *s) {
+/* A peer's frame that would eat up a row's share of the time is drawn in the rows about triangles
+ * only. */
+static bool too_slow(const suite *s, const row *r, int which, double share) {
     const double triangles = (double)(s->extent.corners - 2 * s->extent.polygons);
+    if (which >= PEER_LINES_0 && triangles > PEER_LINES_TRIANGLES_MAX) return true;
+    return r != &plain_row && which > OWN_FLAT && s->last_ms[which] > share / 3;
+}
+
+/* First frames. One that takes longer than all frames should is kept: there will be no better. */
+static void warm_up(suite *s, const row *r, double share) {
     if (s->peer_width != s->target.width || s->peer_height != s->target.height)
         memset(s->peer_warm, 0, sizeof s->peer_warm);
     s->peer_width = s->target.width;
     s->peer_height = s->target.height;
     for (int k = 0; k < VARIANT_COUNT; k++) {
         variant *const v = &s->variants[k];
-        *v = (variant){.gone = k >= PEER_LINES_0 && triangles > PEER_LINES_TRIANGLES_MAX};
-        if (!v->gone && !s->peer_warm[k]) draw_variant(s, k, false);
+        *v = (variant){.gone = too_slow(s, r, k, share)};
+        if (v->gone || s->peer_warm[k]) continue;
+        draw_variant(s, k, false);
+        if (!v->gone && v->spent > share) v->count = 1;
         v->spent = 0;
         s->peer_warm[k] = k > OWN_FLAT;
     }
 }
 
 /* The variant that has had the least time and needs or may have more; -1: none. */
-static int next_variant(const suite *s, bool time_left) {
+static int next_variant(const suite *s, double share, bool time_left) {
     int best = -1;
     for (int k = 0; k < VARIANT_COUNT; k++) {
         const variant *const v = &s->variants[k];
-        const unsigned least = k <= OWN_FLAT ? OWN_FRAMES_MIN : 1;
+        const unsigned least = k <= OWN_FLAT && s->last_ms[k] < share ? OWN_FRAMES_MIN : 1;
         if (v->gone || v->count == FRAMES_MAX || (!time_left && v->count >= least)) continue;
         if (best < 0 || v->spent < s->variants[best].spent) best = k;
     }
     return best;
 }
 
-static void measure(suite *s) {
+static void measure(suite *s, const row *r) {
     const double start = now_ms(CLOCK_MONOTONIC);
-    const double end = start + (s->deadline - start) / (s->rows_left ? s->rows_left : 1);
+    const double left = s->deadline > start ? s->deadline - start : 0;
+    const double share = left / (s->rows_left ? s->rows_left : 1);
     int which;
-    warm_up(s);
-    while ((which = next_variant(s, now_ms(CLOCK_MONOTONIC) < end)) >= 0)
+    warm_up(s, r, share);
+    while ((which = next_variant(s, share, now_ms(CLOCK_MONOTONIC) < start + share)) >= 0)
         draw_variant(s, which, true);
     if (s->rows_left) s->rows_left--;
 }
@@ -210,7 +225,8 @@ static const char *name_of(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-static void print_row(const suite *s, const row *r, const dp_stats *stats) {
+static void print_row(const suite *s, const row *r) {
+    const dp_stats *const stats = &s->stats;
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     printf("{\"group\": \"%s\", \"label\": \"%s\", \"model\": \"%s\", \"main\": %s, "
            "\"triangles\": %llu, \"width\": %u, \"height\": %u, \"samples\": %u, \"threads\": %ld, "
@@ -257,11 +273,8 @@ static void do_row(suite *s, const row *r) {
     if (s->quick && !r->quick) return;
     fprintf(stderr, "bench: %s, %s %s\n", name_of(s->model), r->group, r->label);
     if (set_up(s, r)) {
-        dp_stats stats = {0};
-        frame_time ignored;
-        measure(s);
-        draw_own(s, OWN, &ignored, &stats); /* for what it counts, not for its time */
-        print_row(s, r, &stats);
+        measure(s, r);
+        print_row(s, r);
     } else {
         fprintf(stderr, "suite: no memory for this row\n");
     }
@@ -275,6 +288,7 @@ static bool do_model(suite *s, const char *model) {
     dp_diag diag = {0};
     s->model = model;
     s->peer_width = 0;
+    memset(s->last_ms, 0, sizeof s->last_ms);
     if (dp_source_open(model, NULL, &s->source, &diag) ||
         dp_source_extent(s->source, &s->extent, &diag)) {
         fprintf(stderr, "suite: %s: %s\n", model, diag.message);

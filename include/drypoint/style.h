@@ -53,7 +53,8 @@ typedef enum dp_between {
 
 typedef enum dp_ink {
     DP_INK_STROKES = 0, /* visible feature segments, drawn as round strokes */
-    DP_INK_QUADS        /* the added polygons are the line, as in the paper */
+    DP_INK_QUADS        /* the added polygons are the line, as in the paper; nothing tells a border
+                           from a ridge there: it is drawn as one, or with ridges off in its own colour */
 } dp_ink;
 
 typedef struct dp_line_style {
@@ -70,7 +71,8 @@ typedef struct dp_style {
     dp_method method;
     dp_between between;
     dp_ink ink;
-    int passes;              /* over a tile's polygons, quads only; 0: what `between` needs */
+    int passes;              /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
+                                interval one, as printed; with 2 it does not depend on their order) */
     float between_offset;    /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
     dp_color paper;          /* 0 means white */
     dp_color surface;        /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */

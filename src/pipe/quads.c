@@ -378,7 +378,8 @@ static void between_planes(dp_tile_worker *w) {
 
 /* In submission order: the polygon, its silhouette or ridge, its valley. */
 static void between_depths_once(dp_tile_worker *w) {
-    const shading lines = {w, ~(uint32_t)DP_VALLEY, fill_interval}, valleys = {w, DP_VALLEY, fill_trap_in_interval};
+    const shading lines = {w, ~(uint32_t)DP_VALLEY, fill_interval};
+    const shading valleys = {w, DP_VALLEY, fill_trap_in_interval};
     for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         const uint32_t group = group_of(w, p->id);
