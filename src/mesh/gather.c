@@ -10,29 +10,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Corner pointers of one polygon, and scratch to split it; grows to the largest polygon. */
-typedef struct scratch {
-    const float **at;
-    uint32_t *links;
-    uint32_t (*triangles)[3];
-    size_t at_cap, links_cap, triangles_cap;
-} scratch;
-
 typedef struct gatherer {
     dp_polygon_store *store;
     const dp_allocator *memory;
     dp_stats *stats;
     dp_diag *diag;
-    scratch scratch;
     bool indexed, has_firsts, has_flags, has_groups, has_source;
     uint64_t handed_out; /* polygons of earlier batches */
 } gatherer;
-
-static void free_scratch(gatherer *g) {
-    dp_free(g->memory, g->scratch.at);
-    dp_free(g->memory, g->scratch.links);
-    dp_free(g->memory, g->scratch.triangles);
-}
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator) {
     dp_free(allocator, store->positions);
@@ -41,6 +26,9 @@ void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocato
     dp_free(allocator, store->source_polygon);
     dp_free(allocator, store->edge_flags);
     dp_free(allocator, store->groups);
+    dp_free(allocator, store->scratch.at);
+    dp_free(allocator, store->scratch.links);
+    dp_free(allocator, store->scratch.triangles);
     *store = (dp_polygon_store){0};
 }
 
@@ -70,7 +58,7 @@ static bool locate(const dp_batch *batch, size_t first, size_t n, const float **
 }
 
 static bool reserve_scratch(gatherer *g, size_t n) {
-    scratch *const s = &g->scratch;
+    dp_split_scratch *const s = &g->store->scratch;
     return dp_reserve(g->memory, &s->at, &s->at_cap, n, sizeof *s->at) &&
            dp_reserve(g->memory, &s->links, &s->links_cap, n, sizeof *s->links) &&
            dp_reserve(g->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
@@ -89,8 +77,8 @@ static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
             *result = out_of_memory(g);
             return false;
         }
-        if (locate(batch, batch->firsts[i], n, g->scratch.at) &&
-            !dp_is_convex_planar(g->scratch.at, (uint32_t)n))
+        if (locate(batch, batch->firsts[i], n, g->store->scratch.at) &&
+            !dp_is_convex_planar(g->store->scratch.at, (uint32_t)n))
             return false;
     }
     return true;
@@ -157,13 +145,13 @@ static dp_result append_whole(gatherer *g, const dp_batch *batch, size_t i, size
 static dp_result append_split(gatherer *g, const dp_batch *batch, size_t i, size_t first, size_t n,
                               uint32_t base) {
     const uint32_t count =
-        dp_split_polygon(g->scratch.at, (uint32_t)n, g->scratch.links, g->scratch.triangles);
+        dp_split_polygon(g->store->scratch.at, (uint32_t)n, g->store->scratch.links, g->store->scratch.triangles);
     g->stats->split++;
     for (uint32_t t = 0; t < count; t++) {
         if (!reserve_polygon(g, 3)) return out_of_memory(g);
         begin_polygon(g, batch, i);
         for (int k = 0; k < 3; k++) {
-            const uint32_t from = g->scratch.triangles[t][k], to = g->scratch.triangles[t][(k + 1) % 3];
+            const uint32_t from = g->store->scratch.triangles[t][k], to = g->store->scratch.triangles[t][(k + 1) % 3];
             const bool outline = to == (from + 1) % n;
             add_corner(g, base, batch, first + from, outline && flag_of(batch, first + from));
         }
@@ -181,8 +169,8 @@ static dp_result append_polygon(gatherer *g, const dp_batch *batch, size_t i, ui
     g->stats->triangles += n - 2;
     if (n == 3) return append_whole(g, batch, i, first, n, base);
     if (!reserve_scratch(g, n)) return out_of_memory(g);
-    const bool known = locate(batch, first, n, g->scratch.at);
-    if (!known || dp_is_convex_planar(g->scratch.at, (uint32_t)n))
+    const bool known = locate(batch, first, n, g->store->scratch.at);
+    if (!known || dp_is_convex_planar(g->store->scratch.at, (uint32_t)n))
         return append_whole(g, batch, i, first, n, base);
     return append_split(g, batch, i, first, n, base);
 }
@@ -256,7 +244,5 @@ dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocat
     }
     store->vertices = store->corner_count = store->polygons = 0;
     gatherer g = {.store = store, .memory = allocator, .stats = stats, .diag = diag};
-    const dp_result result = gather(&g, source, out);
-    free_scratch(&g);
-    return result;
+    return gather(&g, source, out);
 }

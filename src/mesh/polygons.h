@@ -21,8 +21,17 @@ typedef struct dp_polygons {
     uint32_t count;
 } dp_polygons;
 
+/* Corner pointers of one polygon, and what splitting it needs; grown to the largest polygon. */
+typedef struct dp_split_scratch {
+    const float **at;
+    uint32_t *links;
+    uint32_t (*triangles)[3];
+    size_t at_cap, links_cap, triangles_cap;
+} dp_split_scratch;
+
 /* Arrays that a frame may need to own; they stay for the next frame. Zero is empty. */
 typedef struct dp_polygon_store {
+    dp_split_scratch scratch;
     float *positions;
     uint32_t *corners, *firsts, *source_polygon;
     uint8_t *edge_flags;

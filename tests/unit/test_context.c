@@ -548,6 +548,42 @@ static void statistics_and_segments_add_up(void **state) {
     dp_source_destroy(source);
 }
 
+/* Counts calls that get memory. */
+static void *counting_alloc(size_t size, void *user) {
+    ++*(size_t *)user;
+    return malloc(size);
+}
+static void *counting_realloc(void *block, size_t size, void *user) {
+    ++*(size_t *)user;
+    return realloc(block, size);
+}
+static void counting_free(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+/* With one worker the second frame finds all memory where the first left it. */
+static void later_frames_allocate_nothing(void **state) {
+    static const char *const shapes[] = {"gear", "boxes", "terrain"};
+    static uint8_t rgba[BYTES];
+    (void)state;
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        size_t count = 0;
+        const dp_allocator allocator = {counting_alloc, counting_realloc, counting_free, &count};
+        const dp_context_desc desc = {.allocator = &allocator, .threads = 1};
+        dp_context *context = NULL;
+        dp_source *source = new_shape(shapes[i], NULL);
+        assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+        assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
+        assert_true(count > 0);
+        count = 0;
+        for (int frame = 0; frame < 3; frame++) assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
+        assert_int_equal(count, 0);
+        dp_context_destroy(context);
+        dp_source_destroy(source);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contexts_work_side_by_side),
@@ -561,6 +597,7 @@ int main(void) {
         cmocka_unit_test(planes_are_optional),
         cmocka_unit_test(extreme_sizes),
         cmocka_unit_test(statistics_and_segments_add_up),
+        cmocka_unit_test(later_frames_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
