@@ -73,10 +73,10 @@ static inline bool dp_planes_cross_within(float gap, float gx, float gy, float r
 /* What the shaders are made of ---------------------------------------------------------------- */
 
 /* A paper method's polygon reaches no further than this many times the pen's reach. */
-#define DP_PAPER_REACH 2.0
+#define DP_PAPER_REACH 1.5
 /* |V·N| and |V·R| count as no less than this, so that the paper's quotients stay finite: a polygon seen
- * at less than 3.6 degrees grows by no more than 16 widths in space, and its line gets thinner. */
-#define DP_PAPER_GRAZING (1.0 / 16)
+ * at less than 1.8 degrees grows by no more than 32 widths in space, and its line gets thinner. */
+#define DP_PAPER_GRAZING (1.0 / 32)
 /* An added polygon comes nearer by no more than this many pixel sizes per px away from its edge. */
 #define DP_STEEPEST 4.0
 
