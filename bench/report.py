@@ -255,7 +255,7 @@ def plot(rows):
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
            f'font-family="sans-serif" font-size="12" fill="#222">',
            f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
-           text_at(LEFT, 18, "Time of a frame of the subdivided and simplified model, 1680×1050")]
+           text_at(LEFT, 18, f"Time of a frame against triangles: {name}, 1680×1050 pixels")]
     out += axes(x_of, y_of, x_range, y_range)
     labels = []
     for (_, label, colour, dashes), points in curves:
