@@ -15,9 +15,10 @@ extern "C" {
 DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                             dp_diag *diag);
 
-/* Writes [height][width][4] RGBA, not premultiplied. A regular file is written beside its target and
- * renamed when whole, so that the old one stays until then; a device or pipe is written in place;
- * "-" is standard output. DP_ERR_IO (a full disk too), DP_ERR_MEMORY. */
+/* Writes [height][width][4] RGBA, not premultiplied, rows `stride` bytes apart (0: 4 * width). A
+ * regular file is written beside its target and renamed when whole, so that the old one stays until
+ * then; a device or pipe is written in place; "-" is standard output. DP_ERR_IO (a full disk too),
+ * DP_ERR_MEMORY. */
 DP_API dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width,
                                  uint32_t height, size_t stride, dp_diag *diag);
 
