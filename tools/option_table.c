@@ -37,7 +37,7 @@ const option option_table[] = {
     {"up", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(up), AT(has_up), 0, 0,
      "What is up in the picture. Default: 0,1,0."},
     {"fov", 0, "DEG", OPTION_INSIDE, GROUP_CAMERA, PICTURE, AT(fov), AT(has_fov), 0, 180,
-     "Vertical field of view. Default: 35."},
+     "Vertical field of view. Default: 35; with --eye alone, what shows the model whole."},
     {"ortho", 0, "HEIGHT", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(ortho), AT(has_ortho), 0, 1e30,
      "Orthographic projection; HEIGHT is what is seen, in the model's units, 0 is fitted."},
     {"view", 0, "front|back|left|right|top|bottom|iso",
@@ -66,20 +66,21 @@ const option option_table[] = {
      "Edges whose dihedral angle is above this are valleys. Default: 210."},
 
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
-     "Build added polygons on the screen, exact in pixels, or by the formulas of Raskar 2001 as "
-     "printed. Default: exact."},
+     "With --ink quads: build added polygons on the screen, exact in pixels, or by the formulas of "
+     "Raskar 2001 as printed. Default: exact."},
     {"between", 0, "plane|interval|stencil",
      OPTION_WORD, GROUP_METHOD, PICTURE, AT(between), 0, 0, 0,
-     "How valleys and intersections are told from what is hidden: by planes, by the paper's two "
-     "depth buffers, or by its appendix's stencil. Default: plane."},
+     "With --ink quads: how valleys and intersections are told from what is hidden: by planes, by the "
+     "paper's two depth buffers, or by its appendix's stencil. Default: plane."},
     {"ink", 0, "strokes|quads", OPTION_WORD, GROUP_METHOD, PICTURE, AT(ink), 0, 0, 0,
      "Draw the visible pieces of lines as strokes, or let the added polygons be the line, as in the "
      "paper. Default: strokes."},
     {"passes", 0, "1|2", OPTION_WORD, GROUP_METHOD, PICTURE, AT(passes), 0, 0, 0,
-     "Passes over the polygons of a tile. Default: what --between needs."},
+     "With --ink quads: passes over the polygons of a tile; 1 needs --between interval. Default: what "
+     "--between needs."},
     {"edge-table", 0, "on|off", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edge_table), 0, 0, 0,
-     "Resolve edges by a small table per tile where that is possible, or let every line emerge from "
-     "the depth test. Default: on."},
+     "With --ink strokes: resolve edges by a small table per tile where that is possible, or look for "
+     "what lies across every edge on the screen. Default: on."},
     {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
      "Do not paint back faces: faster for closed models, holes in open ones."},
 

@@ -70,8 +70,9 @@ typedef enum dp_file_format {
 typedef struct dp_file_options {
     dp_file_format format;
     const dp_allocator *allocator;
-    /* Called now and then while reading, by dp_source_next too (so `user` must outlive the source); fraction in [0, 1], or negative when the size is unknown.
-     * A non-zero return stops with DP_ERR_CANCELLED. */
+    /* Called now and then while reading, by dp_source_next too (so `user` must outlive the source);
+     * fraction in [0, 1], or negative when the size is unknown. A non-zero return stops with
+     * DP_ERR_CANCELLED. */
     int (*progress)(void *user, double fraction);
     void *user;
 } dp_file_options;

@@ -37,13 +37,14 @@ typedef uint32_t dp_color;
 #define DP_COLOR_NONE 0xFFFFFF00u
 #define DP_RGB(r, g, b) (((dp_color)(r) << 24) | ((dp_color)(g) << 16) | ((dp_color)(b) << 8) | 0xFFu)
 
-/* How the added polygons get their shape. */
+/* How the added polygons of DP_INK_QUADS get their shape. */
 typedef enum dp_method {
     DP_METHOD_EXACT = 0, /* built on the screen: widths exact in pixels, plane depth with a limit */
     DP_METHOD_PAPER      /* the formulas of Raskar 2001, sections 2.1 to 2.3, as printed */
 } dp_method;
 
-/* How valleys and intersections are told from what is merely hidden (Raskar 2001, 2.3, 2.4). */
+/* How valleys and intersections are told from what is merely hidden, with DP_INK_QUADS
+ * (Raskar 2001, 2.3, 2.4). */
 typedef enum dp_between {
     DP_BETWEEN_PLANE = 0, /* two passes: the planes cross within half a line width; order-free */
     DP_BETWEEN_INTERVAL,  /* the paper's two depth buffers z1, z2 = z1 + offset, one pass */
@@ -52,7 +53,8 @@ typedef enum dp_between {
 
 typedef enum dp_ink {
     DP_INK_STROKES = 0, /* visible feature segments, drawn as round strokes */
-    DP_INK_QUADS        /* the added polygons are the line, as in the paper */
+    DP_INK_QUADS        /* the added polygons are the line, as in the paper; nothing tells a border
+                           from a ridge there: it is drawn as one, or with ridges off in its own colour */
 } dp_ink;
 
 typedef struct dp_line_style {
@@ -69,12 +71,13 @@ typedef struct dp_style {
     dp_method method;
     dp_between between;
     dp_ink ink;
-    int passes;              /* over the polygons of a tile: 1 or 2; 0 means what `between` needs */
+    int passes;              /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
+                                interval one, as printed; with 2 it does not depend on their order) */
     float between_offset;    /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
     dp_color paper;          /* 0 means white */
     dp_color surface;        /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
     bool cull_back_faces;    /* do not paint back faces as surface (closed models lose nothing) */
-    bool edge_table_off;     /* resolve no edge by the tile's table: let every line emerge */
+    bool edge_table_off;     /* strokes only: resolve no edge by the tile's table, let every line emerge */
 } dp_style;
 
 /* The style with every default filled in. DP_ERR_ARGUMENT names the member that is out of range. */

@@ -97,7 +97,8 @@ bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_v
     if ((dp_outcode(p->view, ca) | dp_outcode(p->view, cb)) && !dp_clip_segment(p->view, ca, cb, &t0, &t1))
         return false;
     const dp_vec3 e = dp_edge_direction(p, edge);
-    const dp_vec3 a = dp_mix(p->world[edge], p->world[next], t0), b = dp_mix(p->world[edge], p->world[next], t1);
+    const dp_vec3 from = p->world[edge], to = p->world[next];
+    const dp_vec3 a = dp_mix(from, to, t0), b = dp_mix(from, to, t1);
     const dp_vec3 quad[4] = {a, b, dp_paper_offset(p->view, b, e, direction, normal, px),
                              dp_paper_offset(p->view, a, e, direction, normal, px)};
     return dp_paper_project(p, edge, quad, 4, DP_PAPER_REACH * px, out);
@@ -203,7 +204,8 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_screen_e
     dp_pointd from = joint_point(e, own.slope, reach, 0, rise[0]);
     for (uint32_t i = 1; i <= spans; i++) {
         const double share = (double)i / spans;
-        const dp_pointd to = joint_point(e, own.slope, reach, hand * angle * share, rise[0] + (rise[1] - rise[0]) * share);
+        const double up = rise[0] + (rise[1] - rise[0]) * share;
+        const dp_pointd to = joint_point(e, own.slope, reach, hand * angle * share, up);
         out[count].points[0] = e->b, out[count].points[1] = from, out[count].points[2] = to;
         out[count].root[0] = out[count].root[1] = e->b;
         out[count].count = 3;

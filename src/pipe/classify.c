@@ -13,11 +13,13 @@ static dp_vec3 far_corner(const dp_polygons *polygons, uint32_t polygon, uint32_
 }
 
 static dp_fold fold_towards(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound,
-                            dp_vec3 into_b) {
+                            dp_vec3 at, dp_vec3 into_b) {
     dp_fold fold = {.normal_a = dp_polygon_normal(frame, a), .normal_b = dp_polygon_normal(frame, b)};
     if (!a_as_wound) fold.normal_a = dp_scale(fold.normal_a, -1);
     if (!b_as_wound) fold.normal_b = dp_scale(fold.normal_b, -1);
-    fold.normal = dp_unit(dp_add(fold.normal_a, fold.normal_b));
+    const dp_vec3 mean = dp_add(fold.normal_a, fold.normal_b);
+    /* two sides of a sheet folded flat have no outside: towards the eye, then */
+    fold.normal = dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(dp_view_vector(&frame->view, at), -1);
     fold.concave = dp_dot(fold.normal_a, into_b) > 0;
     return fold;
 }
@@ -27,7 +29,7 @@ dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_
     const dp_polygons *const polygons = &frame->polygons;
     const dp_vec3 on_edge = corner_position(polygons, dp_first_corner(polygons, b) + edge_b);
     const dp_vec3 into_b = dp_sub(far_corner(polygons, b, edge_b), on_edge);
-    return fold_towards(frame, a, a_as_wound, b, b_as_wound, into_b);
+    return fold_towards(frame, a, a_as_wound, b, b_as_wound, on_edge, into_b);
 }
 
 dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound, dp_vec3 at) {
@@ -39,7 +41,7 @@ dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t 
         const dp_vec3 na = dp_polygon_normal(frame, a);
         if (i == 0 || fabs(dp_dot(na, dp_sub(p, at))) > fabs(dp_dot(na, dp_sub(far, at)))) far = p;
     }
-    return fold_towards(frame, a, a_as_wound, b, b_as_wound, dp_sub(far, at));
+    return fold_towards(frame, a, a_as_wound, b, b_as_wound, at, dp_sub(far, at));
 }
 
 double dp_fold_dihedral(const dp_fold *fold) {

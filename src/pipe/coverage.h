@@ -10,6 +10,13 @@
 
 #include "pipe/samples.h"
 
+/* Inlined into a loop that takes it as a constant argument, which compilers do only when they optimise. */
+#ifdef __OPTIMIZE__
+#define DP_INLINED static inline __attribute__((always_inline))
+#else
+#define DP_INLINED static inline
+#endif
+
 typedef struct dp_edge_function {
     float a, b, c; /* a x + b y + c; inside where >= threshold */
     float threshold;
@@ -67,7 +74,7 @@ static inline void dp_trim_row(const dp_edge_function *e, float y, int *x0, int 
 
 /* Calls cover(arg, …) for every vector of samples in the box, covered or not. `vectors` is that of the
  * sampling, given apart so that it can be a constant; `cover` is one too, and is inlined. */
-static inline __attribute__((always_inline)) void
+DP_INLINED void
 dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p, const uint32_t vectors,
                  dp_cover *const cover, void *arg) {
     const dp_edge_function *const e = c->e;

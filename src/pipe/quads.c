@@ -78,8 +78,6 @@ typedef struct brush {
     bool meets;
 } brush;
 
-#define INLINE static inline __attribute__((always_inline))
-
 static dp_f4 *depth_at(const brush *b, size_t lane) { return (dp_f4 *)(void *)(b->w->depth + lane); }
 static dp_f4 *ink_depth_at(const brush *b, size_t lane) { return (dp_f4 *)(void *)(b->w->ink_depth + lane); }
 static dp_i4 *ink_at(const brush *b, size_t lane) { return (dp_i4 *)(void *)(b->w->ink + lane); }
@@ -110,7 +108,7 @@ static bool passes_root(const brush *b, size_t lane, float d, float reach) {
 }
 
 /* Nearest wins, over the finished faces. */
-INLINE void draw_line(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void draw_line(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_i4 win = in & (d > *depth_at(b, lane)) & (d > *ink_depth_at(b, lane));
     *ink_depth_at(b, lane) = dp_select(win, d, *ink_depth_at(b, lane));
@@ -119,7 +117,7 @@ INLINE void draw_line(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
 
 /* The same for the joints of ridges. Around a corner lie polygons that share no edge with this one and may
  * curve away from it without any fold: close surfaces must pass through the corner. */
-INLINE void draw_joint(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void draw_joint(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_i4 win = in & (d > *depth_at(b, lane)) & (d > *ink_depth_at(b, lane));
     if (!dp_any(win)) return;
@@ -145,7 +143,7 @@ static bool may_intersect(brush *b, uint32_t other) {
 }
 
 /* The between-test of planes, against the finished faces. */
-INLINE void trap_between_planes(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void trap_between_planes(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     brush *const b = arg;
     const dp_f4 surface = *depth_at(b, lane);
     const dp_i4 trapped = in & (d <= surface) & (d >= behind(surface, b->trap));
@@ -165,7 +163,7 @@ INLINE void trap_between_planes(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
 
 /* The between-test: z1 >= d >= z2, where z1 is that of a face. Nothing is trapped under a silhouette or a
  * ridge, although these update z1 too. */
-INLINE dp_i4 between(const brush *b, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED dp_i4 between(const brush *b, size_t lane, dp_i4 in, dp_f4 d) {
     const dp_f4 z1 = *ink_depth_at(b, lane);
     const dp_i4 ink = *ink_at(b, lane);
     const dp_i4 line = ink & splat(ADDED);
@@ -173,7 +171,7 @@ INLINE dp_i4 between(const brush *b, size_t lane, dp_i4 in, dp_f4 d) {
 }
 
 /* The paper's: faces and lines update z1; what does not is asked for the between-test. */
-INLINE void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_f4 z1 = *ink_depth_at(b, lane);
     const dp_i4 win = in & (d > z1);
@@ -183,18 +181,18 @@ INLINE void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     *ink_at(b, lane) = dp_selecti(trapped, splat(b->ink), ink);
 }
 
-INLINE void trap_in_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void trap_in_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     *ink_at(b, lane) = dp_selecti(between(b, lane, in, d), splat(b->ink), *ink_at(b, lane));
 }
 
-INLINE void count_down(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void count_down(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_i4 front = in & (d > *depth_at(b, lane));
     for (uint32_t i = 0; i < 4; i++) b->w->stencil[lane + i] += (uint8_t)front[i]; /* a mask is -1 */
 }
 
-INLINE void count_up(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void count_up(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const brush *const b = arg;
     const dp_i4 front = in & (behind(d, b->nearer) > *depth_at(b, lane));
     for (uint32_t i = 0; i < 4; i++) b->w->stencil[lane + i] -= (uint8_t)front[i];
@@ -378,7 +376,8 @@ static void between_planes(dp_tile_worker *w) {
 
 /* In submission order: the polygon, its silhouette or ridge, its valley. */
 static void between_depths_once(dp_tile_worker *w) {
-    const shading lines = {w, ~(uint32_t)DP_VALLEY, fill_interval}, valleys = {w, DP_VALLEY, fill_trap_in_interval};
+    const shading lines = {w, ~(uint32_t)DP_VALLEY, fill_interval};
+    const shading valleys = {w, DP_VALLEY, fill_trap_in_interval};
     for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         const uint32_t group = group_of(w, p->id);

@@ -8,7 +8,7 @@ typedef struct face {
     uint32_t index;
 } face;
 
-static inline __attribute__((always_inline)) void draw(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void draw(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const face *const f = arg;
     const int32_t id = (int32_t)f->index;
     dp_f4 *const depth = (dp_f4 *)(void *)(f->worker->depth + lane);
@@ -19,7 +19,7 @@ static inline __attribute__((always_inline)) void draw(void *arg, size_t lane, d
 }
 
 /* The same, and tells where the polygon comes close to what was there (intersect.c). */
-static inline __attribute__((always_inline)) void draw_watching(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+DP_INLINED void draw_watching(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const face *const f = arg;
     const dp_f4 gap = d - *(const dp_f4 *)(const void *)(f->worker->depth + lane);
     const dp_i4 close = in & (gap < dp_splat(f->polygon->watch)) & (gap > dp_splat(-f->polygon->watch));

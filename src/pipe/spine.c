@@ -1,8 +1,8 @@
 /* Spines: see spine.h. */
 #include "pipe/spine.h"
 
-/* Distance of sample points on the screen, px: half a pixel resolves where a line disappears. */
-static const double SPACING = 0.5;
+/* Distance of sample points on the screen, px: a quarter of a pixel resolves where a line disappears. */
+static const double SPACING = 0.25;
 
 static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal) {
     const dp_vec3 q = dp_mad(p, normal, DP_PROBE_LIFT * dp_pixel_size(view, d));
