@@ -196,8 +196,13 @@ SERIES = [  # variant, label, colour, dashes
 ]
 
 
-def decades(values):
-    return math.floor(math.log10(min(values))), math.ceil(math.log10(max(values)))
+def logarithms(values):
+    """The range of the logarithms, with some room around them."""
+    return math.log10(min(values)) - 0.1, math.log10(max(values)) + 0.1
+
+
+def decades(limits):
+    return range(math.ceil(limits[0]), math.floor(limits[1]) + 1)
 
 
 def short(exponent):
@@ -219,11 +224,11 @@ def spread_apart(labels, step):
 
 def axes(x_of, y_of, x_range, y_range):
     out = []
-    for e in range(x_range[0], x_range[1] + 1):
+    for e in decades(x_range):
         x = x_of(10 ** e)
         out.append(f'<path d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#ddd"/>')
         out.append(text_at(x, HEIGHT - BOTTOM + 18, short(e), 'text-anchor="middle"'))
-    for e in range(y_range[0], y_range[1] + 1):
+    for e in decades(y_range):
         y = y_of(10 ** e)
         label = f"{10 ** e:g} ms" if e < 3 else f"{10 ** (e - 3)} s"
         out.append(f'<path d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}" stroke="#ddd"/>')
@@ -241,15 +246,15 @@ def plot(rows):
     curves = [(series, sorted(points)) for series, points in curves if points]
     if not curves:
         return ""
-    x_range = decades([x for _, points in curves for x, _ in points])
-    y_range = decades([y for _, points in curves for _, y in points])
+    x_range = logarithms([x for _, points in curves for x, _ in points])
+    y_range = logarithms([y for _, points in curves for _, y in points])
 
     def x_of(x):
-        part = (math.log10(x) - x_range[0]) / max(x_range[1] - x_range[0], 1)
+        part = (math.log10(x) - x_range[0]) / (x_range[1] - x_range[0])
         return LEFT + part * (WIDTH - LEFT - RIGHT)
 
     def y_of(y):
-        part = (math.log10(y) - y_range[0]) / max(y_range[1] - y_range[0], 1)
+        part = (math.log10(y) - y_range[0]) / (y_range[1] - y_range[0])
         return HEIGHT - BOTTOM - part * (HEIGHT - TOP - BOTTOM)
 
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '

@@ -148,12 +148,13 @@ static void draw_variant(suite *s, int which, bool keep) {
     v->count += keep;
 }
 
-/* A peer's frame that would eat up a row's share of the time is drawn in the rows about triangles
- * only. */
+/* A peer's frame that would eat up a row's share of the time is drawn only where it is the
+ * yardstick: in the rows about triangles and about quads as ink. */
 static bool too_slow(const suite *s, const row *r, int which, double share) {
     const double triangles = (double)(s->extent.corners - 2 * s->extent.polygons);
     if (which >= PEER_LINES_0 && triangles > PEER_LINES_TRIANGLES_MAX) return true;
-    return r != &plain_row && which > OWN_FLAT && s->last_ms[which] > share / 3;
+    const bool yardstick = r == &plain_row || r->ink == DP_INK_QUADS;
+    return !yardstick && which > OWN_FLAT && s->last_ms[which] > share / 3;
 }
 
 /* First frames. One that takes longer than all frames should is kept: there will be no better. */
