@@ -20,7 +20,7 @@ static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
 
 static uint8_t clamp_px(float v) { return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : v); }
 
-static void set_box(dp_tile_polygon *out, float x0, float y0, float x1, float y1) {
+static inline __attribute__((always_inline)) void set_box(dp_tile_polygon *out, float x0, float y0, float x1, float y1) {
     out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
     out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
     if (x1 >= 0 && y1 >= 0 && x0 < DP_TILE && y0 < DP_TILE) out->flags |= DP_POLYGON_TOUCHES;

@@ -26,7 +26,7 @@ static bool reserve_pairs(const job *j, dp_bin_chunk *chunk, size_t need) {
 }
 
 static bool place_in(const job *j, dp_bin_chunk *chunk, uint32_t item, int32_t x, int32_t y) {
-    if (!reserve_pairs(j, chunk, chunk->count + 1)) return false;
+    if (chunk->count >= chunk->tiles_cap && !reserve_pairs(j, chunk, chunk->count + 1)) return false;
     chunk->tiles[chunk->count] = (uint32_t)y * j->tiles_x + (uint32_t)x;
     chunk->items[chunk->count++] = item;
     return true;

@@ -151,13 +151,29 @@ static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *f
     else if (dihedral > style->valley_angle) add_line(w, e, DP_LINE_VALLEY, fold->normal);
 }
 
+/* A triangle's normal in float32; false where it is too thin for that to be within half a degree. */
+static bool quick_triangle_normal(const dp_polygons *polygons, uint32_t id, float out[3]) {
+    const float *const a = dp_vertex_position(polygons, dp_corner_vertex(polygons, 3 * id));
+    const float *const b = dp_vertex_position(polygons, dp_corner_vertex(polygons, 3 * id + 1));
+    const float *const c = dp_vertex_position(polygons, dp_corner_vertex(polygons, 3 * id + 2));
+    const float ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const float vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const float n2 = nx * nx + ny * ny + nz * nz;
+    const float u2 = ux * ux + uy * uy + uz * uz, v2 = vx * vx + vy * vy + vz * vz;
+    if (!(n2 > 1e-6f * u2 * v2) || !(n2 > FLT_MIN)) return false;
+    const float inverse = 1 / sqrtf(n2);
+    out[0] = nx * inverse, out[1] = ny * inverse, out[2] = nz * inverse;
+    return true;
+}
+
 /* The unit normal in float32, for a first look; made when it is first asked for. */
 static const float *quick_normal(dp_tile_worker *w, uint32_t polygon) {
     dp_tile_polygon *const p = &w->polygons[polygon];
-    if (p->normal[0] == 0 && p->normal[1] == 0 && p->normal[2] == 0) {
-        const dp_vec3 n = dp_polygon_normal(w->frame, p->id);
-        p->normal[0] = (float)n.x, p->normal[1] = (float)n.y, p->normal[2] = (float)n.z;
-    }
+    if (p->normal[0] != 0 || p->normal[1] != 0 || p->normal[2] != 0) return p->normal;
+    if (!w->frame->polygons.firsts && quick_triangle_normal(&w->frame->polygons, p->id, p->normal)) return p->normal;
+    const dp_vec3 n = dp_polygon_normal(w->frame, p->id);
+    p->normal[0] = (float)n.x, p->normal[1] = (float)n.y, p->normal[2] = (float)n.z;
     return p->normal;
 }
 

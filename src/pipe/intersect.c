@@ -65,6 +65,18 @@ static bool widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     return any;
 }
 
+/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds of fine
+ * meshes come close here and there. */
+static void drop_lone(uint64_t suspects[DP_TILE]) {
+    uint64_t kept[DP_TILE];
+    for (int y = 0; y < DP_TILE; y++) {
+        const uint64_t above = y > 0 ? suspects[y - 1] : 0, below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
+        const uint64_t rows = above | below, all = rows | suspects[y];
+        kept[y] = suspects[y] & (rows | all << 1 | all >> 1);
+    }
+    memcpy(suspects, kept, sizeof kept);
+}
+
 /* A front and a back face come close along every outline of a closed model. They cross in sight only
  * where the back face is seen too: keeps the suspects near a pixel whose winner is a back face. */
 static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
@@ -188,6 +200,7 @@ void dp_tile_intersections(dp_tile_worker *w) {
     keep_seen_back_faces(w, w->suspects[1]);
     const bool mixed = widen(w->suspects[1], back);
     for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
+    drop_lone(w->suspects[0]);
     if (!widen(w->suspects[0], front)) return;
     memset(heads, 0xff, sizeof heads);
     if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);

@@ -135,7 +135,8 @@ struct dp_tile_worker {
 
 /* Grows one of the worker's arrays; remembers a failure. */
 #define DP_WORKER_RESERVE(worker, array, capacity, need)                                              \
-    (dp_reserve(&(worker)->memory, &(worker)->array, &(worker)->capacity, (need),                     \
+    ((need) <= (worker)->capacity ||                                                                  \
+     dp_reserve(&(worker)->memory, &(worker)->array, &(worker)->capacity, (need),                     \
                 sizeof *(worker)->array) ||                                                           \
      !((worker)->failed = true))
 
