@@ -24,11 +24,14 @@
 
 #include <string.h>
 
-/* How far added polygons are held off what they may touch, in pixel sizes: silhouettes and ridges behind,
- * valleys before. Rounding of float32 depth is a hundred times less. */
-static const double BIAS = 0.01;
-/* Two surfaces closer than this (pixel sizes) are one: duplicate polygons do not intersect. */
-static const double SAME = 0.002;
+/* Added polygons are held off what they may touch, silhouettes and ridges behind it, valleys before it, by a
+ * few roundings of float32 depth: more would leave holes where both halves of a line meet. Two surfaces
+ * twice as close as that are one: duplicate polygons do not intersect. */
+static const double BIAS = 1, SAME = 2;
+static double hold_off(const dp_view *view, double d, double bias) {
+    return bias * (4e-7 * fabs(d) + fabs(dp_depth_step(view, d, 0.0005)));
+}
+
 /* A trapped fragment lies at most this many line widths behind the surface, in space. */
 static const double TRAP = 4;
 /* Silhouettes of back faces that are seen themselves (open models) are not inked on a back face that
@@ -244,7 +247,7 @@ static void fill_added(brush *b, const dp_added *a, double bias, fill *with) {
     }
     for (int i = 0; i < 2; i++)
         b->root[i] = (dp_point){(float)(a->root[i].x - w->tile_x), (float)(a->root[i].y - w->tile_y), 0};
-    const double shift = -dp_depth_step(&w->frame->view, nearest, bias);
+    const double shift = -hold_off(&w->frame->view, nearest, bias);
     b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile_x + a->dy * w->tile_y + shift), (float)a->dx,
                           (float)a->dy, (float)(a->nearest + shift)};
     fill_points(b, points, a->count, with);
@@ -393,7 +396,7 @@ static void add_face(dp_tile_worker *w, uint32_t index, bool back, double bias, 
                .other = UINT32_MAX};
     aim(&b, style, DP_LINE_INTERSECTION);
     dp_tile_polygon q = *p;
-    const float shift = (float)dp_depth_step(&w->frame->view, (double)p->nearest, bias);
+    const float shift = (float)hold_off(&w->frame->view, (double)p->nearest, bias);
     q.d0 -= shift, q.nearest -= shift;
     fill_face(&b, &q, with);
 }
