@@ -3,14 +3,16 @@
 
 #define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
 
-dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, double degrees) {
-    const double c = cos(degrees * RADIANS_PER_DEGREE), s = sin(degrees * RADIANS_PER_DEGREE);
-    return dp_add(dp_scale(n, -s), dp_scale(dp_cross(e, n), -c));
+dp_pen dp_pen_make(dp_method method, double reach, double angle) {
+    return (dp_pen){method, reach, angle, cos(angle * RADIANS_PER_DEGREE), sin(angle * RADIANS_PER_DEGREE)};
 }
 
-dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, double degrees) {
-    const double c = cos(degrees * RADIANS_PER_DEGREE), s = sin(degrees * RADIANS_PER_DEGREE);
-    return dp_add(dp_scale(n, -c), dp_scale(dp_cross(e, n), s));
+dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, const dp_pen *pen) {
+    return dp_add(dp_scale(n, -pen->sine), dp_scale(dp_cross(e, n), -pen->cosine));
+}
+
+dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, const dp_pen *pen) {
+    return dp_add(dp_scale(n, -pen->cosine), dp_scale(dp_cross(e, n), pen->sine));
 }
 
 /* ------- the paper's formula ------- */
@@ -65,14 +67,15 @@ static bool set_plane(dp_added *out) {
 bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *points, uint32_t count,
                       double reach, dp_added *out) {
     dp_clip_point clip[DP_ADDED_POINTS], scratch[DP_ADDED_POINTS];
-    dp_screen_edge e;
-    if (!dp_screen_edge_make(p, edge, &e)) return false;
+    dp_screen_edge room;
+    const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
+    if (!e) return false;
     int codes = 0;
     for (uint32_t i = 0; i < count; i++) {
         clip[i] = dp_to_clip(p->view, points[i]);
         codes |= dp_outcode(p->view, clip[i]);
     }
-    out->root[0] = e.a, out->root[1] = e.b;
+    out->root[0] = e->a, out->root[1] = e->b;
     out->joint = false;
     out->count = dp_clip_polygon(p->view, codes, clip, count, scratch);
     if (!out->count) return false;
@@ -80,10 +83,10 @@ bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *point
         out->points[i] = dp_to_screen(p->view, clip[i]);
         if (!isfinite(out->points[i].x + out->points[i].y + out->points[i].d)) return false;
     }
-    const double n = e.nx * e.a.x + e.ny * e.a.y, t = e.tx * e.a.x + e.ty * e.a.y;
-    out->count = cut(out->points, out->count, -e.nx, -e.ny, n + reach);
-    if (out->count) out->count = cut(out->points, out->count, e.tx, e.ty, reach - t);
-    if (out->count) out->count = cut(out->points, out->count, -e.tx, -e.ty, reach + t + e.length);
+    const double n = e->nx * e->a.x + e->ny * e->a.y, t = e->tx * e->a.x + e->ty * e->a.y;
+    out->count = cut(out->points, out->count, -e->nx, -e->ny, n + reach);
+    if (out->count) out->count = cut(out->points, out->count, e->tx, e->ty, reach - t);
+    if (out->count) out->count = cut(out->points, out->count, -e->tx, -e->ty, reach + t + e->length);
     return out->count && set_plane(out);
 }
 
@@ -119,15 +122,17 @@ bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *o
     out->a = dp_to_screen(p->view, ca);
     out->b = dp_to_screen(p->view, cb);
     out->middle = dp_clip_mix(ca, cb, 0.5);
-    out->length = hypot(out->b.x - out->a.x, out->b.y - out->a.y);
+    const double x = out->b.x - out->a.x, y = out->b.y - out->a.y;
+    out->length = sqrt(x * x + y * y);
     if (!(out->length > SHORTEST) || !isfinite(out->length + out->a.d + out->b.d)) return false;
-    out->tx = (out->b.x - out->a.x) / out->length;
-    out->ty = (out->b.y - out->a.y) / out->length;
+    out->tx = x / out->length, out->ty = y / out->length;
     /* a front-facing polygon has its inside to the left of its edges; the screen's y runs down */
     out->nx = p->front ? -out->ty : out->ty;
     out->ny = p->front ? out->tx : -out->tx;
     out->along = (out->b.d - out->a.d) / out->length;
-    out->steep = dp_depth_step(p->view, fmax(out->a.d, out->b.d), DP_STEEPEST);
+    out->steep = dp_depth_step(p->view, dp_max(out->a.d, out->b.d), DP_STEEPEST);
+    out->direction = dp_edge_direction(p, edge);
+    out->own = dp_lean_of(p->view, out, dp_cross(out->direction, p->normal)).slope;
     return true;
 }
 
@@ -165,52 +170,64 @@ void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_adde
     out->nearest = fmax(e->a.d, e->b.d) + fmax(d, 0);
 }
 
-double dp_screen_rise(const dp_primitive *p, uint32_t edge, double degrees) {
-    dp_screen_edge e;
-    if (!dp_screen_edge_make(p, edge, &e)) return NAN;
-    const dp_vec3 along = dp_edge_direction(p, edge);
-    const dp_lean quad = dp_lean_of(p->view, &e, dp_quad_direction(along, p->normal, degrees));
-    const dp_lean own = dp_lean_of(p->view, &e, dp_cross(along, p->normal));
-    return quad.outward ? quad.slope - own.slope : NAN;
+dp_lean dp_quad_lean(const dp_primitive *p, const dp_screen_edge *edge, const dp_pen *pen) {
+    return dp_lean_of(p->view, edge, dp_quad_direction(edge->direction, p->normal, pen));
 }
 
-/* Joints are made of triangles that span this angle at most (the rim misses the circle by 3 % of its
- * radius), and there are at most this many. */
-static const double SPAN = 30 * RADIANS_PER_DEGREE;
+/* Joints are made of triangles whose rims miss the circle by no more than this (px), or as many as there is
+ * room for. */
+static const double SAGITTA = 0.3;
 enum { SPANS = DP_ADDED_MOST - 1 };
 
-static dp_pointd joint_point(const dp_screen_edge *e, double slope, double reach, double angle, double rise) {
-    const double c = cos(angle), s = sin(angle);
-    const double x = reach * (e->nx * c - e->ny * s), y = reach * (e->nx * s + e->ny * c);
-    const double t = x * e->tx + y * e->ty, n = x * e->nx + y * e->ny;
-    return (dp_pointd){e->b.x + x, e->b.y + y,
-                       fmin(e->b.d + e->along * t + slope * n + reach * rise, e->b.d + reach * e->steep)};
+static uint32_t spans_of(double angle, double reach) {
+    const double span = 2 * acos(1 - dp_min(SAGITTA / reach, 1));
+    return (uint32_t)dp_min(ceil(angle / span), SPANS);
 }
 
-uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_screen_edge *e, double reach,
-                         const double rise[2], dp_added *out) {
+/* How much the quad at an edge rises over the polygon's own plane, depth per px. NaN: it faces away. */
+static double rise_of(const dp_primitive *p, const dp_screen_edge *e, const dp_pen *pen) {
+    const dp_lean lean = dp_quad_lean(p, e, pen);
+    return lean.outward ? lean.slope - e->own : NAN;
+}
+
+/* On the rim, in direction (x, y). */
+static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, double y, double rise) {
+    const double t = x * e->tx + y * e->ty, n = x * e->nx + y * e->ny;
+    const double d = e->b.d + reach * (e->along * t + e->own * n + rise);
+    return (dp_pointd){e->b.x + reach * x, e->b.y + reach * y, dp_min(d, e->b.d + reach * e->steep)};
+}
+
+uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen, double reach, bool folded,
+                         dp_added *out) {
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
-    const dp_lean own = dp_lean_of(p->view, e, dp_cross(dp_edge_direction(p, edge), p->normal));
-    dp_screen_edge f;
-    if (!isfinite(own.slope) || !isfinite(rise[0] + rise[1])) return 0;
-    if (dp_outcode(p->view, p->clip[next]) || !dp_screen_edge_make(p, next, &f)) return 0;
+    dp_screen_edge rooms[2];
+    const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &rooms[0]);
+    const dp_screen_edge *const f = dp_screen_edge_of(p, next, &rooms[1]);
+    if (!e || !f || dp_outcode(p->view, p->clip[next])) return 0;
+    const double from_rise = folded ? rise_of(p, e, pen) : 0, to_rise = folded ? rise_of(p, f, pen) : 0;
+    if (!isfinite(e->own) || !isfinite(from_rise + to_rise)) return 0;
     /* the corners of a convex polygon turn one way, or the other way when seen from behind */
     const double hand = p->front ? -1 : 1;
-    const double sine = hand * (e->nx * f.ny - e->ny * f.nx), cosine = e->nx * f.nx + e->ny * f.ny;
+    const double sine = hand * (e->nx * f->ny - e->ny * f->nx), cosine = e->nx * f->nx + e->ny * f->ny;
     if (!(sine > 0) || cosine < -0.999) return 0;
     const double angle = atan2(sine, cosine);
-    const uint32_t spans = (uint32_t)fmin(ceil(angle / SPAN), SPANS);
+    const uint32_t spans = spans_of(angle, reach);
     uint32_t count = 0;
-    dp_pointd from = joint_point(e, own.slope, reach, 0, rise[0]);
+    dp_pointd from = rim_point(e, reach, e->nx, e->ny, from_rise);
     for (uint32_t i = 1; i <= spans; i++) {
-        const double share = (double)i / spans;
-        const double up = rise[0] + (rise[1] - rise[0]) * share;
-        const dp_pointd to = joint_point(e, own.slope, reach, hand * angle * share, up);
-        out[count].points[0] = e->b, out[count].points[1] = from, out[count].points[2] = to;
-        out[count].root[0] = out[count].root[1] = e->b;
-        out[count].count = 3;
-        out[count].joint = true;
-        count += set_plane(&out[count]);
+        const double share = (double)i / spans, up = from_rise + (to_rise - from_rise) * share;
+        double x = f->nx, y = f->ny;
+        if (i < spans) {
+            const double c = cos(angle * share), s = sin(hand * angle * share);
+            x = e->nx * c - e->ny * s, y = e->nx * s + e->ny * c;
+        }
+        const dp_pointd to = rim_point(e, reach, x, y, up);
+        dp_added *const a = &out[count];
+        a->points[0] = a->root[0] = a->root[1] = e->b;
+        a->points[1] = from, a->points[2] = to;
+        a->count = 3;
+        a->joint = true;
+        count += set_plane(a);
         from = to;
     }
     return count;

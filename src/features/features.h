@@ -20,6 +20,19 @@
 #include "pipe/view.h"
 #include <drypoint/style.h>
 
+/* An edge on the screen, clipped to the guarded frustum. */
+typedef struct dp_screen_edge {
+    dp_pointd a, b;
+    dp_clip_point middle;
+    dp_vec3 direction; /* E, world space */
+    double length;     /* px; 0: nothing of it is seen */
+    double tx, ty;     /* along, unit */
+    double nx, ny;     /* out of the polygon, unit */
+    double along;      /* change of depth per px along */
+    double own;        /* change of depth per px outward in the polygon's plane; infinite when edge-on */
+    double steep;      /* the same at DP_STEEPEST */
+} dp_screen_edge;
+
 /* A polygon as primitive assembly hands it over. */
 typedef struct dp_primitive {
     const dp_view *view;
@@ -27,6 +40,7 @@ typedef struct dp_primitive {
     const dp_vec3 *world;       /* [n] corners */
     const dp_clip_point *clip;  /* [n] the same in clip space */
     const uint8_t *edge_flags;  /* [n]; NULL: every edge draws */
+    const dp_screen_edge *edges; /* [n]; NULL: made when they are needed */
     dp_vec3 normal;             /* unit, as wound */
     bool front;                 /* edge-on counts as back-facing */
 } dp_primitive;
@@ -34,9 +48,11 @@ typedef struct dp_primitive {
 /* What is to be drawn. */
 typedef struct dp_pen {
     dp_method method;
-    double reach; /* px, how far added polygons reach over the edge */
-    double angle; /* degrees: theta or phi */
+    double reach;        /* px, how far added polygons reach over the edge */
+    double angle;        /* degrees: theta or phi */
+    double cosine, sine; /* of the angle */
 } dp_pen;
+dp_pen dp_pen_make(dp_method method, double reach, double angle);
 
 enum {
     DP_ADDED_POINTS = 16, /* 4 corners + 6 planes of the frustum + 3 sides of the reach, rounded up */
@@ -84,9 +100,9 @@ static inline dp_vec3 dp_edge_direction(const dp_primitive *p, uint32_t edge) {
     return dp_unit(dp_sub(p->world[edge + 1 == p->n ? 0 : edge + 1], p->world[edge]));
 }
 
-/* The paper's Q and R for edge direction e, normal n, and an angle in degrees. */
-dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, double degrees);
-dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, double degrees);
+/* The paper's Q and R for edge direction e, normal n, and the pen's angle. */
+dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, const dp_pen *pen);
+dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, const dp_pen *pen);
 
 /* P_k + w D [z sin(alpha) (V·C) / (V·M)] for the corner at p of an edge along e, with D = `direction` and
  * M = `normal` of the plane it moves in; w z is `px` seen at p. */
@@ -102,17 +118,16 @@ bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_v
 bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *points, uint32_t count,
                       double reach, dp_added *out);
 
-/* An edge on the screen, clipped to the guarded frustum. */
-typedef struct dp_screen_edge {
-    dp_pointd a, b;
-    dp_clip_point middle;
-    double length;  /* px */
-    double tx, ty;  /* along, unit */
-    double nx, ny;  /* out of the polygon, unit */
-    double along;   /* change of depth per px along */
-    double steep;   /* change of depth per px at DP_STEEPEST */
-} dp_screen_edge;
+/* False where nothing of the edge is seen. */
 bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *out);
+
+/* The same, looked up where the primitive brings its edges along and made in `room` where not. NULL:
+ * nothing of the edge is seen. */
+static inline const dp_screen_edge *dp_screen_edge_of(const dp_primitive *p, uint32_t edge,
+                                                      dp_screen_edge *room) {
+    if (p->edges) return p->edges[edge].length > 0 ? &p->edges[edge] : NULL;
+    return dp_screen_edge_make(p, edge, room) ? room : NULL;
+}
 
 /* How the plane through the edge along `direction` (unit, world) lies to the eye. */
 typedef struct dp_lean {
@@ -124,15 +139,14 @@ dp_lean dp_lean_of(const dp_view *view, const dp_screen_edge *edge, dp_vec3 dire
 /* The rectangle of `reach` px outside the edge, with a depth that changes by `slope` per px. */
 void dp_screen_quad(const dp_screen_edge *edge, double reach, double slope, dp_added *out);
 
-/* How much the quad of an edge at an angle (degrees) rises over the polygon's own plane, depth per px; NaN
- * where it faces away. */
-double dp_screen_rise(const dp_primitive *p, uint32_t edge, double degrees);
+/* The plane of the quad at the pen's angle. */
+dp_lean dp_quad_lean(const dp_primitive *p, const dp_screen_edge *edge, const dp_pen *pen);
 
 /* The round joint between that rectangle and the next edge's, around the corner where `edge` ends, in thin
- * triangles: their outer corners lie `reach` px away, `rise` per px over the polygon's own plane (from
- * rise[0] on this edge's side to rise[1] on the next one's). Returns how many; none when the corner is
- * clipped or the polygon seen edge-on. */
-uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_screen_edge *on_screen, double reach,
-                         const double rise[2], dp_added *out);
+ * triangles. It is a cone: as far over the polygon's own plane as the quads at the pen's angle are
+ * (silhouettes: `folded` is false, and it lies in the plane). Returns how many triangles; none when the
+ * corner is clipped, the polygon seen edge-on or a quad seen from behind. */
+uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen, double reach, bool folded,
+                         dp_added *out);
 
 #endif

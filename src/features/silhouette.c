@@ -21,13 +21,11 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
 
 /* A polygon that is nearly edge-on would shoot towards the eye: it is held to DP_STEEPEST. */
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
-    dp_screen_edge e;
-    if (!dp_screen_edge_make(p, edge, &e)) return 0;
-    const dp_lean lean = dp_lean_of(p->view, &e, dp_cross(dp_edge_direction(p, edge), p->normal));
-    if (lean.slope == -INFINITY) return 0; /* it leads straight away from the eye: nothing to be seen */
-    const double slope = fmin(lean.slope, e.steep);
-    dp_screen_quad(&e, pen->reach, slope, &out[0]);
-    return 1 + dp_screen_joint(p, edge, &e, pen->reach, (const double[2]){0, 0}, &out[1]);
+    dp_screen_edge room;
+    const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
+    if (!e || e->own == -INFINITY) return 0; /* it leads straight away from the eye: nothing to be seen */
+    dp_screen_quad(e, pen->reach, dp_min(e->own, e->steep), &out[0]);
+    return 1 + dp_screen_joint(p, edge, pen, pen->reach, false, &out[1]);
 }
 
 uint32_t dp_shade_silhouette(const dp_primitive *p, uint32_t edge, const dp_pen *pen,

@@ -24,11 +24,14 @@
 
 #include <string.h>
 
-/* How far added polygons are held off what they may touch, in pixel sizes: silhouettes and ridges behind,
- * valleys before. Rounding of float32 depth is a hundred times less. */
-static const double BIAS = 0.01;
-/* Two surfaces closer than this (pixel sizes) are one: duplicate polygons do not intersect. */
-static const double SAME = 0.002;
+/* Added polygons are held off what they may touch, silhouettes and ridges behind it, valleys before it, by a
+ * few roundings of float32 depth: more would leave holes where both halves of a line meet. Two surfaces
+ * twice as close as that are one: duplicate polygons do not intersect. */
+static const double BIAS = 1, SAME = 2;
+static double hold_off(const dp_view *view, double d, double bias) {
+    return bias * (4e-7 * fabs(d) + fabs(dp_depth_step(view, d, 0.0005)));
+}
+
 /* A trapped fragment lies at most this many line widths behind the surface, in space. */
 static const double TRAP = 4;
 /* Silhouettes of back faces that are seen themselves (open models) are not inked on a back face that
@@ -244,7 +247,7 @@ static void fill_added(brush *b, const dp_added *a, double bias, fill *with) {
     }
     for (int i = 0; i < 2; i++)
         b->root[i] = (dp_point){(float)(a->root[i].x - w->tile_x), (float)(a->root[i].y - w->tile_y), 0};
-    const double shift = -dp_depth_step(&w->frame->view, nearest, bias);
+    const double shift = -hold_off(&w->frame->view, nearest, bias);
     b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile_x + a->dy * w->tile_y + shift), (float)a->dx,
                           (float)a->dy, (float)(a->nearest + shift)};
     fill_points(b, points, a->count, with);
@@ -258,12 +261,35 @@ typedef struct shading {
     fill *with;
 } shading;
 
+/* ------- what is hidden anyway ------- */
+
+static uint32_t block_of(float px) {
+    return px <= 0 ? 0 : px >= DP_TILE - 1 ? DP_TILE / DP_BLOCK - 1 : (uint32_t)px / DP_BLOCK;
+}
+
+/* Nothing that the polygon adds within `reach` px can come out: it would have to come nearer, or be trapped
+ * behind something that is nearer, by more than `rise` pixel sizes. */
+static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p, float reach, double rise) {
+    const dp_view *const view = &w->frame->view;
+    const double near_d = (double)p->nearest, share = rise / view->focal;
+    if (view->perspective && share > 0.5) return false;
+    const float limit = (float)(view->perspective ? near_d / (1 - share) : near_d + share);
+    const uint32_t x0 = block_of(p->x0 - reach), x1 = block_of(p->x1 + 1 + reach);
+    const uint32_t y0 = block_of(p->y0 - reach), y1 = block_of(p->y1 + 1 + reach);
+    for (uint32_t y = y0; y <= y1; y++)
+        for (uint32_t x = x0; x <= x1; x++)
+            if (w->farthest[y][x] <= limit) return false;
+    return true;
+}
+
 /* A polygon of the tile with its corners fetched; false: no memory. */
 static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    if (!DP_WORKER_RESERVE(w, world, world_cap, n) || !DP_WORKER_RESERVE(w, clip, clip_cap, n)) return false;
+    if (!DP_WORKER_RESERVE(w, world, world_cap, n) || !DP_WORKER_RESERVE(w, clip, clip_cap, n) ||
+        !DP_WORKER_RESERVE(w, screen_edges, screen_edges_cap, n))
+        return false;
     for (uint32_t i = 0; i < n; i++) {
         w->world[i] = dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
         w->clip[i] = dp_to_clip(&w->frame->view, w->world[i]);
@@ -272,6 +298,9 @@ static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
                           .edge_flags = polygons->edge_flags ? polygons->edge_flags + first : NULL,
                           .normal = dp_polygon_normal(w->frame, p->id),
                           .front = p->flags & DP_POLYGON_FRONT};
+    for (uint32_t i = 0; i < n; i++)
+        if (!dp_screen_edge_make(out, i, &w->screen_edges[i])) w->screen_edges[i].length = 0;
+    out->edges = w->screen_edges;
     return true;
 }
 
@@ -289,9 +318,8 @@ static bool edge_near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, ui
 static dp_pen pen_of(const dp_style *style, dp_line line) {
     const bool whole = line == DP_LINE_SILHOUETTE ||
                        (line == DP_LINE_VALLEY && style->between == DP_BETWEEN_INTERVAL && style->passes == 1);
-    return (dp_pen){.method = style->method,
-                    .reach = (double)style->line[line].width * (whole ? 1 : 0.5),
-                    .angle = (double)(line == DP_LINE_VALLEY ? style->valley_angle : style->ridge_angle)};
+    const float angle = line == DP_LINE_VALLEY ? style->valley_angle : style->ridge_angle;
+    return dp_pen_make(style->method, (double)style->line[line].width * (whole ? 1 : 0.5), (double)angle);
 }
 
 static void aim(brush *b, const dp_style *style, dp_line line) {
@@ -325,6 +353,17 @@ static void add_class(const shading *pass, const dp_primitive *primitive, uint32
     }
 }
 
+/* How far the widest line of a polygon reaches on the screen, and towards the eye or the surface that traps it. */
+static bool hides_all(const dp_tile_worker *w, const dp_tile_polygon *p) {
+    const dp_style *const style = dp_polygon_style(w->frame, p->id);
+    const bool paper = style->method == DP_METHOD_PAPER;
+    float width = 0;
+    for (int i = 0; i < DP_LINE_COUNT; i++) width = dp_maxf(width, style->line[i].width);
+    const double nearer = paper ? 1 / DP_PAPER_GRAZING : DP_STEEPEST;
+    const double trap = style->between == DP_BETWEEN_PLANE ? TRAP * (double)width : (double)style->between_offset;
+    return is_hidden(w, p, width * (paper ? (float)DP_PAPER_REACH : 1) + 1, nearer * (double)width + trap + 1);
+}
+
 /* Ridge quads show borders too: as ridges, or with ridges off in the borders' colour. */
 static void add_lines(const shading *pass, uint32_t index) {
     dp_tile_worker *const w = pass->w;
@@ -332,6 +371,7 @@ static void add_lines(const shading *pass, uint32_t index) {
     const uint32_t lines = dp_polygon_style(w->frame, p->id)->lines & pass->lines;
     const bool front = p->flags & DP_POLYGON_FRONT;
     dp_primitive primitive;
+    if (hides_all(w, p)) return;
     if (!(lines & (front ? DP_RIDGE | DP_BORDER | DP_VALLEY : DP_SILHOUETTE)) || !fetch(w, index, &primitive))
         return;
     if (!front) add_class(pass, &primitive, index, DP_LINE_SILHOUETTE, dp_shade_silhouette, BIAS);
@@ -356,7 +396,7 @@ static void add_face(dp_tile_worker *w, uint32_t index, bool back, double bias, 
                .other = UINT32_MAX};
     aim(&b, style, DP_LINE_INTERSECTION);
     dp_tile_polygon q = *p;
-    const float shift = (float)dp_depth_step(&w->frame->view, (double)p->nearest, bias);
+    const float shift = (float)hold_off(&w->frame->view, (double)p->nearest, bias);
     q.d0 -= shift, q.nearest -= shift;
     fill_face(&b, &q, with);
 }

@@ -35,6 +35,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->stencil);
     dp_free(&memory, worker->world);
     dp_free(&memory, worker->clip);
+    dp_free(&memory, worker->screen_edges);
     dp_outline_scratch_free(&worker->scratch, &memory);
 }
 

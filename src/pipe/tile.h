@@ -126,7 +126,8 @@ struct dp_tile_worker {
     uint8_t *stencil;
     dp_vec3 *world;   /* corners of one polygon */
     dp_clip_point *clip;
-    size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap;
+    struct dp_screen_edge *screen_edges;
+    size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap, screen_edges_cap;
 
     dp_outline_scratch scratch; /* for one polygon */
     dp_stats stats;

@@ -61,8 +61,7 @@ static const double behind[4][3] = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
 /* A wall that leads straight away from an eye at infinity; its normal points to +x. */
 static const double edge_on[4][3] = {{0, 0, 0}, {0, 0, -1}, {0, 1, -1}, {0, 1, 0}};
 
-static const dp_pen exact = {DP_METHOD_EXACT, 6, 140};
-static dp_pen pen_at(dp_method method, double angle) { return (dp_pen){method, 6, angle}; }
+static dp_pen pen_at(dp_method method, double angle) { return dp_pen_make(method, 6, angle); }
 
 static double depth_at(const dp_added *a, double x, double y) {
     return fmin(a->d0 + a->dx * x + a->dy * y, a->nearest);
@@ -78,18 +77,27 @@ static double furthest(const dp_added *a, const dp_screen_edge *e) {
 
 /* ------- directions ------- */
 
+static dp_vec3 q_at(dp_vec3 e, dp_vec3 n, double angle) {
+    const dp_pen pen = pen_at(DP_METHOD_PAPER, angle);
+    return dp_quad_direction(e, n, &pen);
+}
+static dp_vec3 r_at(dp_vec3 e, dp_vec3 n, double angle) {
+    const dp_pen pen = pen_at(DP_METHOD_PAPER, angle);
+    return dp_quad_normal(e, n, &pen);
+}
+
 /* At 180 degrees the quad continues the polygon, at 90 it stands behind it, at 270 before it. */
 static void directions_turn_with_the_angle(void **state) {
     const dp_vec3 e = {1, 0, 0}, n = {0, 0, 1}, o = {0, -1, 0};
     (void)state;
-    assert_vector(dp_quad_direction(e, n, 180), o);
-    assert_vector(dp_quad_normal(e, n, 180), n);
-    assert_vector(dp_quad_direction(e, n, 90), dp_v3(0, 0, -1));
-    assert_vector(dp_quad_normal(e, n, 90), o);
-    assert_vector(dp_quad_direction(e, n, 270), dp_v3(0, 0, 1));
-    assert_vector(dp_quad_normal(e, n, 270), dp_v3(0, 1, 0));
+    assert_vector(q_at(e, n, 180), o);
+    assert_vector(r_at(e, n, 180), n);
+    assert_vector(q_at(e, n, 90), dp_v3(0, 0, -1));
+    assert_vector(r_at(e, n, 90), o);
+    assert_vector(q_at(e, n, 270), dp_v3(0, 0, 1));
+    assert_vector(r_at(e, n, 270), dp_v3(0, 1, 0));
     for (double angle = 1; angle < 360; angle += 7) {
-        const dp_vec3 q = dp_quad_direction(e, n, angle), r = dp_quad_normal(e, n, angle);
+        const dp_vec3 q = q_at(e, n, angle), r = r_at(e, n, angle);
         assert_vector(dp_cross(q, e), r);
         assert_close(dp_dot(q, o), -cos(angle * PI / 180), 1e-12);
     }
@@ -102,10 +110,11 @@ static void silhouette_is_a_band_beside_the_edge(void **state) {
     for (int perspective = 0; perspective < 2; perspective++) {
         polygon p;
         dp_added out[DP_ADDED_MOST];
+        const dp_pen pen = pen_at(DP_METHOD_EXACT, 140);
         set_polygon(&p, perspective, behind, 4);
         assert_false(p.primitive.front);
         /* edge 3 runs from (1, 0) to (0, 0): the fin lies below it, 6 px wide, in the plane z = 0 */
-        const uint32_t count = dp_shade_silhouette(&p.primitive, 3, &exact, out);
+        const uint32_t count = dp_shade_silhouette(&p.primitive, 3, &pen, out);
         assert_true(count >= 1 && out[0].count == 4);
         assert_point(out[0].points[0], 220, 200);
         assert_point(out[0].points[1], 200, 200);
@@ -200,10 +209,11 @@ static void edge_on_polygons_stay_bounded(void **state) {
     (void)state;
     set_polygon(&p, false, edge_on, 4);
     p.primitive.front = false; /* edge-on counts as back-facing */
+    const dp_pen pen = pen_at(DP_METHOD_EXACT, 140);
     const uint32_t near_edge = 3, far_edge = 1, eye_edge = 0;
-    assert_int_equal(dp_shade_silhouette(&p.primitive, far_edge, &exact, out), 0);
-    assert_int_equal(dp_shade_silhouette(&p.primitive, eye_edge, &exact, out), 0); /* a point on the screen */
-    assert_int_equal(dp_shade_silhouette(&p.primitive, near_edge, &exact, out), 1);
+    assert_int_equal(dp_shade_silhouette(&p.primitive, far_edge, &pen, out), 0);
+    assert_int_equal(dp_shade_silhouette(&p.primitive, eye_edge, &pen, out), 0); /* a point on the screen */
+    assert_int_equal(dp_shade_silhouette(&p.primitive, near_edge, &pen, out), 1);
     assert_point(out[0].points[2], 206, 200); /* to +x, where the normal points */
     assert_close(depth_at(&out[0], 206, 190), -10 + DP_STEEPEST * 6 / 20, 1e-9);
 }
@@ -244,7 +254,7 @@ static void paper_quads_at_several_angles(void **state) {
         const dp_vec3 e = dp_edge_direction(&p.primitive, 0), n = p.primitive.normal;
         for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
             const dp_pen pen = pen_at(DP_METHOD_PAPER, angles[i]);
-            const dp_vec3 q = dp_quad_direction(e, n, angles[i]), r = dp_quad_normal(e, n, angles[i]);
+            const dp_vec3 q = q_at(e, n, angles[i]), r = r_at(e, n, angles[i]);
             const dp_vec3 moved = dp_paper_offset(&p.view, p.world[1], e, q, r, pen.reach);
             const dp_pointd at = dp_to_screen(&p.view, dp_to_clip(&p.view, moved));
             dp_added out[DP_ADDED_MOST];
