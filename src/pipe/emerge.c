@@ -143,9 +143,7 @@ static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t
     if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
     const dp_vec3 at = dp_mix(e->a, e->b, 0.5);
     const dp_fold fold = dp_fold_at(w->frame, p->id, p->flags & DP_POLYGON_FRONT, q->id, q->flags & DP_POLYGON_FRONT, at);
-    const dp_style *const style = dp_polygon_style(w->frame, p->id);
-    const double dihedral = dp_fold_dihedral(&fold);
-    f.line = dihedral <= style->ridge_angle ? (int)DP_LINE_RIDGE : dihedral > style->valley_angle ? (int)DP_LINE_VALLEY : -1;
+    f.line = dp_fold_line(&fold, dp_polygon_style(w->frame, p->id));
     f.normal = fold.normal;
     return f;
 }
