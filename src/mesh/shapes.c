@@ -92,7 +92,7 @@ static void build_nearest(dp_model *model, const entry *e, uint64_t triangles, u
             high = middle;
     }
     const uint64_t above = build(model, e, high, seed), below = build(model, e, low, seed);
-    if (triangles > below && above > triangles && above - triangles < triangles - below)
+    if (triangles > below && above >= triangles && above - triangles < triangles - below)
         build(model, e, high, seed);
 }
 

@@ -49,3 +49,12 @@ double dp_fold_dihedral(const dp_fold *fold) {
     const double degrees = atan2(sine, dp_dot(fold->normal_a, fold->normal_b)) * 180 / 3.14159265358979323846;
     return fold->concave ? 180 + degrees : 180 - degrees;
 }
+
+/* Rounding of float32 coordinates, so that all edges that meet a threshold exactly fall on one side of it. */
+static const double ROUNDING = 1e-3; /* degrees */
+
+int dp_fold_line(const dp_fold *fold, const dp_style *style) {
+    const double dihedral = dp_fold_dihedral(fold);
+    if (dihedral <= style->ridge_angle + ROUNDING) return DP_LINE_RIDGE;
+    return dihedral > style->valley_angle + ROUNDING ? (int)DP_LINE_VALLEY : -1;
+}

@@ -21,4 +21,7 @@ dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t 
 /* Degrees: 180 is flat, less is convex (Raskar 2001, 2.2). */
 double dp_fold_dihedral(const dp_fold *fold);
 
+/* DP_LINE_RIDGE, DP_LINE_VALLEY, or -1 for neither. */
+int dp_fold_line(const dp_fold *fold, const dp_style *style);
+
 #endif

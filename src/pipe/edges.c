@@ -146,9 +146,8 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
 
 static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *fold) {
     const dp_style *const style = dp_polygon_style(w->frame, w->polygons[e->a].id);
-    const double dihedral = dp_fold_dihedral(fold);
-    if (dihedral <= style->ridge_angle) add_line(w, e, DP_LINE_RIDGE, fold->normal);
-    else if (dihedral > style->valley_angle) add_line(w, e, DP_LINE_VALLEY, fold->normal);
+    const int line = dp_fold_line(fold, style);
+    if (line >= 0) add_line(w, e, (dp_line)line, fold->normal);
 }
 
 /* A triangle's normal in float32; false where it is too thin for that to be within half a degree. */

@@ -143,15 +143,18 @@ static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t
     if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
     const dp_vec3 at = dp_mix(e->a, e->b, 0.5);
     const dp_fold fold = dp_fold_at(w->frame, p->id, p->flags & DP_POLYGON_FRONT, q->id, q->flags & DP_POLYGON_FRONT, at);
-    const dp_style *const style = dp_polygon_style(w->frame, p->id);
-    const double dihedral = dp_fold_dihedral(&fold);
-    f.line = dihedral <= style->ridge_angle ? (int)DP_LINE_RIDGE : dihedral > style->valley_angle ? (int)DP_LINE_VALLEY : -1;
+    f.line = dp_fold_line(&fold, dp_polygon_style(w->frame, p->id));
     f.normal = fold.normal;
     return f;
 }
 
-static finding judge(const dp_tile_worker *w, const emerging *e, const dp_lookup *l) {
-    const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : l[1].found, behind = l[2].found;
+/* Near an end of the edge, polygons that only share its corner lie within FAR of it too. */
+static bool is_near_end(const emerging *e, uint32_t k) { return k < 2 || k + 2 >= e->spine.n; }
+
+static finding judge(const dp_tile_worker *w, const emerging *e, uint32_t k) {
+    const dp_lookup *const l = w->lookups + e->first + (size_t)LOOKUPS * (k - e->k0);
+    const uint32_t far = is_near_end(e, k) ? UINT32_MAX : l[1].found, behind = l[2].found;
+    const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : far;
     const dp_tile_polygon *const p = &w->polygons[e->loose.polygon];
     const dp_lookup *const own = &l[2];
     const bool covered = behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
@@ -173,13 +176,27 @@ static void add_run(dp_tile_worker *w, const emerging *e, finding f, uint32_t k0
                                             .line = (uint8_t)f.line}, &spine);
 }
 
+static bool is_same(const finding *a, const finding *b) { return a->line == b->line && a->neighbour == b->neighbour; }
+
+/* One sample point alone, between two that agree or at the edge's end, is where something merely passes
+ * through the edge or touches its corner: it goes with its neighbours. */
+static finding settle(const emerging *e, uint32_t k, const finding *before, const finding *here, const finding *after) {
+    if (e->spine.n < 3) return *here;
+    if (k == 0) return *after;
+    if (k + 1 == e->spine.n) return *before;
+    return is_same(before, after) ? *before : *here;
+}
+
 /* Runs of sample points with the same line and neighbour become candidates. */
 static void add_lines(dp_tile_worker *w, const emerging *e) {
-    finding last = {-1, UINT32_MAX, {0, 0, 0}};
+    finding last = {-1, UINT32_MAX, {0, 0, 0}}, before, here = judge(w, e, e->k0), after = here;
     uint32_t start = e->k0;
     for (uint32_t k = e->k0; k < e->k1 && !w->failed; k++) {
-        const finding f = judge(w, e, w->lookups + e->first + (size_t)LOOKUPS * (k - e->k0));
-        if (f.line == last.line && f.neighbour == last.neighbour) continue;
+        before = k > e->k0 ? here : after;
+        here = k > e->k0 ? after : here;
+        after = k + 1 < e->k1 ? judge(w, e, k + 1) : here;
+        const finding f = settle(e, k, &before, &here, &after);
+        if (is_same(&f, &last)) continue;
         add_run(w, e, last, start, k);
         last = f, start = k;
     }
