@@ -85,6 +85,7 @@ bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *point
     }
     const double n = e->nx * e->a.x + e->ny * e->a.y, t = e->tx * e->a.x + e->ty * e->a.y;
     out->count = cut(out->points, out->count, -e->nx, -e->ny, n + reach);
+    if (out->count) out->count = cut(out->points, out->count, e->nx, e->ny, reach - n);
     if (out->count) out->count = cut(out->points, out->count, e->tx, e->ty, reach - t);
     if (out->count) out->count = cut(out->points, out->count, -e->tx, -e->ty, reach + t + e->length);
     return out->count && set_plane(out);

@@ -55,7 +55,7 @@ typedef struct dp_pen {
 dp_pen dp_pen_make(dp_method method, double reach, double angle);
 
 enum {
-    DP_ADDED_POINTS = 16, /* 4 corners + 6 planes of the frustum + 3 sides of the reach, rounded up */
+    DP_ADDED_POINTS = 16, /* 4 corners + 6 planes of the frustum + 4 sides of the reach, rounded up */
     DP_ADDED_MOST = 8     /* per edge and class */
 };
 
@@ -90,6 +90,8 @@ static inline bool dp_planes_cross_within(float gap, float gx, float gy, float r
 
 /* A paper method's polygon reaches no further than this many times the pen's reach. */
 #define DP_PAPER_REACH 1.5
+/* The same along an axis of the screen: it is both outward and along the edge. */
+#define DP_PAPER_MARGIN (DP_PAPER_REACH * 1.4143)
 /* |V·N| and |V·R| count as no less than this, so that the paper's quotients stay finite: a polygon seen
  * at less than 1.8 degrees grows by no more than 32 widths in space, and its line gets thinner. */
 #define DP_PAPER_GRAZING (1.0 / 32)

@@ -23,7 +23,7 @@ static float margin_of(const dp_frame *f) {
     if (f->styles[0].ink != DP_INK_QUADS) return MARGIN;
     for (uint32_t i = 0; i < f->style_count; i++)
         for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmaxf(widest, f->styles[i].line[k].width);
-    return 1 + widest * (f->styles[0].method == DP_METHOD_PAPER ? (float)DP_PAPER_REACH : 1);
+    return 1 + widest * (f->styles[0].method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1);
 }
 
 const char *dp_stage_name(dp_stage stage) {

@@ -338,7 +338,7 @@ static void add_class(const shading *pass, const dp_primitive *primitive, uint32
     const uint32_t group = group_of(w, p->id);
     const dp_style *const style = &w->frame->styles[group];
     const dp_pen pen = pen_of(style, line);
-    const float reach = (float)pen.reach * (pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_REACH : 1) + 1;
+    const float reach = (float)pen.reach * (pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1) + 1;
     brush b = {.w = w, .ink = ink_of(line, group), .self = index, .other = UINT32_MAX};
     aim(&b, style, line);
     for (uint32_t edge = 0; edge < primitive->n; edge++) {
@@ -361,7 +361,7 @@ static bool hides_all(const dp_tile_worker *w, const dp_tile_polygon *p) {
     for (int i = 0; i < DP_LINE_COUNT; i++) width = dp_maxf(width, style->line[i].width);
     const double nearer = paper ? 1 / DP_PAPER_GRAZING : DP_STEEPEST;
     const double trap = style->between == DP_BETWEEN_PLANE ? TRAP * (double)width : (double)style->between_offset;
-    return is_hidden(w, p, width * (paper ? (float)DP_PAPER_REACH : 1) + 1, nearer * (double)width + trap + 1);
+    return is_hidden(w, p, width * (paper ? (float)DP_PAPER_MARGIN : 1) + 1, nearer * (double)width + trap + 1);
 }
 
 /* Ridge quads show borders too: as ridges, or with ridges off in the borders' colour. */

@@ -67,11 +67,14 @@ static double depth_at(const dp_added *a, double x, double y) {
     return fmin(a->d0 + a->dx * x + a->dy * y, a->nearest);
 }
 
-/* No more than is asked for is outside of the edge, in px. */
+/* How far beside the edge's box a polygon reaches, px: tiles are widened by so much. */
 static double furthest(const dp_added *a, const dp_screen_edge *e) {
     double most = 0;
-    for (uint32_t i = 0; i < a->count; i++)
-        most = fmax(most, (a->points[i].x - e->a.x) * e->nx + (a->points[i].y - e->a.y) * e->ny);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const dp_pointd p = a->points[i];
+        most = fmax(most, fmax(fmin(e->a.x, e->b.x) - p.x, p.x - fmax(e->a.x, e->b.x)));
+        most = fmax(most, fmax(fmin(e->a.y, e->b.y) - p.y, p.y - fmax(e->a.y, e->b.y)));
+    }
     return most;
 }
 
@@ -325,7 +328,7 @@ static void check_all(const polygon *p) {
                     const dp_pen pen = pen_at((dp_method)method, angles[a]);
                     const uint32_t count = shaders[s](&p->primitive, edge, &pen, out);
                     assert_true(count <= DP_ADDED_MOST);
-                    check_added(p, edge, out, count, pen.reach * (method == DP_METHOD_PAPER ? DP_PAPER_REACH : 1));
+                    check_added(p, edge, out, count, pen.reach * (method == DP_METHOD_PAPER ? DP_PAPER_MARGIN : 1));
                 }
 }
 
