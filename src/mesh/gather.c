@@ -15,7 +15,7 @@ typedef struct gatherer {
     const dp_allocator *memory;
     dp_stats *stats;
     dp_diag *diag;
-    bool indexed, has_firsts, has_flags, has_groups, has_source;
+    bool has_firsts, has_flags, has_groups, has_source;
     uint64_t handed_out; /* polygons of earlier batches */
 } gatherer;
 

@@ -112,7 +112,7 @@ static void make_segment(const dp_frame *frame, const dp_piece *piece, dp_segmen
     const dp_style *const style = dp_polygon_style(frame, piece->a);
     const dp_line_style *const line = &style->line[piece->line];
     dp_spine spine = {0};
-    piece_spine(frame, piece, &spine);
+    (void)piece_spine(frame, piece, &spine); /* it could be made when the piece was found: it can now */
     const dp_pointd a = spine_point(&spine, (double)piece->k0 / piece->n);
     const dp_pointd b = spine_point(&spine, (double)piece->k1 / piece->n);
     *segment = (dp_segment){.line = (dp_line)piece->line, .polygon = source_number(frame, piece->a),
