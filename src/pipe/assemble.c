@@ -1,5 +1,9 @@
-/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box. */
-#include "pipe/intersect.h"
+/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box; front faces
+ * are drawn on the way. Triangles go through the kernel; what is here takes any polygon. */
+#include "kernel/kernels.h"
+#include "pipe/tile.h"
+
+#include <string.h>
 
 /* Plane through the points by Newell's method, which takes any number of them. */
 static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
@@ -39,82 +43,87 @@ static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     set_box(out, x0, y0, x1, y1);
 }
 
-static dp_vertex to_tile(const dp_tile_worker *w, float x, float y, float d, uint32_t key) {
-    return (dp_vertex){x - (float)w->tile_x, y - (float)w->tile_y, d, key};
+static void draw_front(dp_tile_worker *w, uint32_t index) {
+    const dp_tile_polygon *const p = &w->polygons[index];
+    if (p->flags & DP_POLYGON_FRONT && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, index);
 }
 
-static bool has_room(dp_tile_worker *w, uint32_t points) {
-    if (w->polygon_count < w->polygons_cap && w->point_count + points <= w->points_cap) return true;
-    return DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) &&
-           DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + points);
+/* The points of a polygon, in tile space, at `points`. */
+static void put_points(const dp_tile_worker *w, uint32_t id, const dp_outline *outline, dp_vertex *points) {
+    const uint32_t first = dp_first_corner(&w->frame->polygons, id);
+    for (uint32_t i = 0; i < outline->count; i++) {
+        const dp_point p = outline->points[i];
+        const uint32_t key =
+            outline->clipped ? 0 : w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
+        points[i] = (dp_vertex){p.x - (float)w->tile_x, p.y - (float)w->tile_y, p.d, key};
+    }
 }
 
-/* Any polygon, clipped or not. */
+/* Fills polygon `index`, whose points are to lie at `point`; the worker has room for both. */
+static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t point, const dp_outline *outline) {
+    const dp_facing facing = dp_outline_facing(w->frame, id, outline);
+    dp_tile_polygon *const out = &w->polygons[index];
+    dp_vertex *const points = w->points + point;
+    *out = (dp_tile_polygon){.id = id, .point = point, .points = outline->count & 0xffffff};
+    out->flags = (facing.front ? DP_POLYGON_FRONT : 0) | (facing.edge_on ? DP_POLYGON_EDGE_ON : 0) |
+                 (outline->clipped ? DP_POLYGON_CLIPPED : 0);
+    put_points(w, id, outline, points);
+    plane_setup(points, outline->count, out);
+    box_setup(points, outline->count, out);
+    draw_front(w, index);
+}
+
+static bool make_outline(dp_tile_worker *w, uint32_t id, dp_outline *outline) {
+    const dp_outline_state state = dp_outline_make(w->frame, id, &w->scratch, outline);
+    if (state == DP_OUTLINE_MEMORY) w->failed = true;
+    return !state;
+}
+
 static void add_polygon(dp_tile_worker *w, uint32_t id) {
     dp_outline outline;
-    const dp_outline_state state = dp_outline_make(w->frame, id, &w->scratch, &outline);
-    if (state == DP_OUTLINE_MEMORY) w->failed = true;
-    if (state) return;
-    const uint32_t n = outline.count, first = dp_first_corner(&w->frame->polygons, id);
-    if (!has_room(w, n)) return;
-    const dp_facing facing = dp_outline_facing(w->frame, id, &outline);
-    dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
-    *out = (dp_tile_polygon){.id = id, .point = w->point_count, .points = n};
-    out->flags = (facing.front ? DP_POLYGON_FRONT : 0) | (facing.edge_on ? DP_POLYGON_EDGE_ON : 0) |
-                 (outline.clipped ? DP_POLYGON_CLIPPED : 0);
-    dp_vertex *const points = w->points + w->point_count;
-    for (uint32_t i = 0; i < n; i++) {
-        const dp_point p = outline.points[i];
-        const uint32_t key =
-            outline.clipped ? 0 : w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
-        points[i] = to_tile(w, p.x, p.y, p.d, key);
-    }
-    w->point_count += n;
-    plane_setup(points, n, out);
-    box_setup(points, n, out);
-    out->watch = dp_watch_reach(w, out);
+    if (!make_outline(w, id, &outline)) return;
+    if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
+        !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + outline.count))
+        return;
+    const uint32_t point = w->point_count;
+    w->point_count += outline.count;
+    set_polygon(w, w->polygon_count++, id, point, &outline);
 }
 
-/* The same for a triangle that needs no clipping and is not nearly edge-on; false where it is not. */
-static bool add_triangle(dp_tile_worker *w, uint32_t id) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_vertex *const vertices = w->frame->vertices;
-    const dp_vertex a = vertices[dp_corner_vertex(polygons, 3 * id)];
-    const dp_vertex b = vertices[dp_corner_vertex(polygons, 3 * id + 1)];
-    const dp_vertex c = vertices[dp_corner_vertex(polygons, 3 * id + 2)];
-    if (dp_needs_clipping(a, b, c)) return false;
-    const float bx = b.x - a.x, by = b.y - a.y, bd = b.d - a.d, cx = c.x - a.x, cy = c.y - a.y, cd = c.d - a.d;
-    const float area = bx * cy - by * cx;
-    const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
-    if (!(fabsf(area) > DP_NEARLY_EDGE_ON * reach)) return false;
-    if (!has_room(w, 3)) return true; /* the worker has failed */
-    dp_tile_polygon *const out = &w->polygons[w->polygon_count++];
-    dp_vertex *const points = w->points + w->point_count;
-    points[0] = to_tile(w, a.x, a.y, a.d, a.key);
-    points[1] = to_tile(w, b.x, b.y, b.d, b.key);
-    points[2] = to_tile(w, c.x, c.y, c.d, c.key);
-    const float inverse = 1 / area;
-    const float dx = (bd * cy - by * cd) * inverse, dy = (bx * cd - bd * cx) * inverse;
-    *out = (dp_tile_polygon){.id = id, .point = w->point_count, .points = 3,
-                             .flags = area < 0 ? DP_POLYGON_FRONT : 0, .dx = dx, .dy = dy,
-                             .d0 = a.d - dx * points[0].x - dy * points[0].y};
-    w->point_count += 3;
-    out->nearest = dp_maxf(a.d, dp_maxf(b.d, c.d));
-    set_box(out, dp_minf(points[0].x, dp_minf(points[1].x, points[2].x)),
-            dp_minf(points[0].y, dp_minf(points[1].y, points[2].y)),
-            dp_maxf(points[0].x, dp_maxf(points[1].x, points[2].x)),
-            dp_maxf(points[0].y, dp_maxf(points[1].y, points[2].y)));
-    out->watch = dp_watch_reach(w, out);
+/* One that is clipped gets new points, and its old ones are left lying. */
+void dp_tile_reassemble(dp_tile_worker *w, uint32_t index) {
+    const uint32_t id = w->polygons[index].id;
+    uint32_t point = w->polygons[index].point;
+    dp_outline outline;
+    if (!make_outline(w, id, &outline)) return;
+    if (outline.count > 3) {
+        if (!DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + outline.count)) return;
+        point = w->point_count;
+        w->point_count += outline.count;
+    }
+    set_polygon(w, index, id, point, &outline);
+}
+
+static bool collect_ids(dp_tile_worker *w, uint32_t *count) {
+    const dp_bins *const bins = &w->frame->polygon_bins;
+    if (!DP_WORKER_RESERVE(w, ids, ids_cap, dp_bins_tile_count(bins, w->tile))) return false;
+    *count = 0;
+    for (uint32_t c = 0; c < bins->chunk_count; c++) {
+        const dp_bin_chunk *const chunk = &bins->chunks[c];
+        const uint32_t first = chunk->offsets[w->tile], n = chunk->offsets[w->tile + 1] - first;
+        memcpy(w->ids + *count, chunk->entries + first, n * sizeof *w->ids);
+        *count += n;
+    }
     return true;
 }
 
 void dp_tile_assemble(dp_tile_worker *w) {
-    const dp_bins *const bins = &w->frame->polygon_bins;
-    const bool polygons = w->frame->polygons.firsts;
+    uint32_t count;
     w->polygon_count = w->point_count = 0;
-    for (uint32_t c = 0; c < bins->chunk_count; c++) {
-        const dp_bin_chunk *const chunk = &bins->chunks[c];
-        for (uint32_t i = chunk->offsets[w->tile]; i < chunk->offsets[w->tile + 1] && !w->failed; i++)
-            if (polygons || !add_triangle(w, chunk->entries[i])) add_polygon(w, chunk->entries[i]);
+    if (!collect_ids(w, &count)) return;
+    if (!w->frame->polygons.firsts) {
+        w->frame->kernels->assemble(w, w->ids, count);
+        return;
     }
+    for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);
 }

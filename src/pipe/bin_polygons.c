@@ -42,7 +42,7 @@ static bool place_triangle(const job *j, uint32_t id, dp_tile_rect *rect) {
     if (dp_needs_clipping(v[0], v[1], v[2])) return false;
     const float bx = v[1].x - v[0].x, by = v[1].y - v[0].y, cx = v[2].x - v[0].x, cy = v[2].y - v[0].y;
     const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
-    if (!(fabsf(bx * cy - by * cx) > DP_NEARLY_EDGE_ON * reach)) return false;
+    if (!(fabsf(bx * cy - by * cx) > j->frame->nearly_edge_on * reach)) return false;
     *rect = rect_around(j, dp_minf(v[0].x, dp_minf(v[1].x, v[2].x)), dp_minf(v[0].y, dp_minf(v[1].y, v[2].y)),
                         dp_maxf(v[0].x, dp_maxf(v[1].x, v[2].x)), dp_maxf(v[0].y, dp_maxf(v[1].y, v[2].y)));
     return true;

@@ -1,15 +1,16 @@
-/* A tile's faces, and which polygons lie hidden behind them.
+/* Which polygons of a tile lie hidden behind its front faces, and the back faces that do not.
  *
- * Front faces are rasterized first. Then each block of pixels knows its furthest sample; a polygon whose
+ * Front faces are drawn first (assemble.c). Then each block of pixels knows its furthest sample; a polygon whose
  * nearest point lies well behind that in all blocks around it can be seen nowhere, and neither can its
  * edges. In a closed model that is true of nearly all back faces: they are not rasterized at all, add no
  * edges of their own to the table and hide no lines that something nearer does not hide already.
  *
  * The depths compared are those of samples, so "well behind" must cover what the surface does between
  * two of them: SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. */
+#include "kernel/kernels.h"
 #include "pipe/tile.h"
 
-static const double SLACK = 6; /* pixel sizes */
+static const float SLACK = 6; /* pixel sizes */
 
 enum { BLOCKS = DP_TILE / DP_BLOCK };
 
@@ -38,7 +39,7 @@ static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
     if (!(p->flags & DP_POLYGON_TOUCHES)) return false;
     /* a polygon at the tile's border may be seen beyond it */
     if (p->x0 < 1 || p->y0 < 1 || p->x1 > DP_TILE - 2 || p->y1 > DP_TILE - 2) return false;
-    const float nearest = p->nearest + (float)fabs(dp_depth_step(&w->frame->view, p->nearest, SLACK));
+    const float nearest = p->nearest + dp_depth_steps(w->frame, p->nearest, SLACK);
     for (uint32_t by = (p->y0 - 1u) / DP_BLOCK; by <= (p->y1 + 1u) / DP_BLOCK; by++)
         for (uint32_t bx = (p->x0 - 1u) / DP_BLOCK; bx <= (p->x1 + 1u) / DP_BLOCK; bx++)
             if (!(nearest < w->farthest[by][bx])) return false;
@@ -46,14 +47,10 @@ static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
 }
 
 void dp_tile_faces(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (p->flags & DP_POLYGON_FRONT && dp_is_surface(w, p)) dp_tile_raster(w, p, i);
-    }
     find_farthest(w);
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         dp_tile_polygon *const p = &w->polygons[i];
         if (is_hidden(w, p)) p->flags |= DP_POLYGON_HIDDEN;
-        else if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) dp_tile_raster(w, p, i);
+        else if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, i);
     }
 }

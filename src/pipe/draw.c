@@ -8,6 +8,8 @@
 
 #include "base/diag.h"
 #include "features/features.h"
+#include "kernel/kernels.h"
+#include "pipe/outline.h"
 
 #include <string.h>
 #include <time.h>
@@ -103,6 +105,15 @@ static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *
     if (out->rgba_stride < 4 * (size_t)out->width)
         return dp_fail(diag, DP_ERR_ARGUMENT, "rgba_stride is less than a row of pixels");
     return DP_OK;
+}
+
+/* What kernels need of the view, in float32. */
+static void begin_view(dp_frame *f) {
+    const float size = (float)(1 / f->view.focal);
+    f->kernels = dp_kernels_best();
+    f->nearly_edge_on = dp_nearly_edge_on(&f->view);
+    f->step_scale = f->view.perspective ? size : 0;
+    f->step_offset = f->view.perspective ? 0 : size;
 }
 
 static bool begin_workers(dp_context *c) {
@@ -278,6 +289,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->flat_cosine = flat_cosine(styles, style_count);
     dp_result result = check_target(target, &f->target, diag);
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
+    if (!result) begin_view(f);
     if (!result) result = draw(c, source, diag);
     if (result) f->segment_count = 0;
     f->styles = NULL; /* borrowed for this call only */

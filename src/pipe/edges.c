@@ -41,7 +41,10 @@ static bool clear_table(dp_tile_worker *w) {
     while (slots < 2 * edges) slots *= 2;
     w->slot_count = slots;
     w->edge_count = w->meeting_count = 0;
-    if (!DP_WORKER_RESERVE(w, edge_slots, slots_cap, 2 * (size_t)slots)) return false;
+    if (!DP_WORKER_RESERVE(w, edge_slots, slots_cap, 2 * (size_t)slots) ||
+        !DP_WORKER_RESERVE(w, normals, normals_cap, w->polygon_count))
+        return false;
+    memset(w->normals, 0, w->polygon_count * sizeof *w->normals);
     memset(w->edge_slots, 0, 2 * (size_t)slots * sizeof *w->edge_slots);
     return DP_WORKER_RESERVE(w, edges, edges_cap, edges);
 }
@@ -168,12 +171,13 @@ static bool quick_triangle_normal(const dp_polygons *polygons, uint32_t id, floa
 
 /* The unit normal in float32, for a first look; made when it is first asked for. */
 static const float *quick_normal(dp_tile_worker *w, uint32_t polygon) {
-    dp_tile_polygon *const p = &w->polygons[polygon];
-    if (p->normal[0] != 0 || p->normal[1] != 0 || p->normal[2] != 0) return p->normal;
-    if (!w->frame->polygons.firsts && quick_triangle_normal(&w->frame->polygons, p->id, p->normal)) return p->normal;
-    const dp_vec3 n = dp_polygon_normal(w->frame, p->id);
-    p->normal[0] = (float)n.x, p->normal[1] = (float)n.y, p->normal[2] = (float)n.z;
-    return p->normal;
+    const uint32_t id = w->polygons[polygon].id;
+    float *const normal = w->normals[polygon];
+    if (normal[0] != 0 || normal[1] != 0 || normal[2] != 0) return normal;
+    if (!w->frame->polygons.firsts && quick_triangle_normal(&w->frame->polygons, id, normal)) return normal;
+    const dp_vec3 n = dp_polygon_normal(w->frame, id);
+    normal[0] = (float)n.x, normal[1] = (float)n.y, normal[2] = (float)n.z;
+    return normal;
 }
 
 /* Most edges are flatter than any threshold; one product tells. */

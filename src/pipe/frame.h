@@ -48,7 +48,10 @@ typedef struct dp_tile_worker dp_tile_worker; /* tile.h */
 typedef struct dp_frame {
     const dp_allocator *memory;
     dp_threads *threads;
+    const struct dp_kernels *kernels;
     dp_view view;
+    float nearly_edge_on;            /* px: a polygon this thin on the screen needs a second look (outline.h) */
+    float step_scale, step_offset;   /* depth over one pixel size is d * step_scale + step_offset */
     const dp_style *styles; /* by group, resolved; [style_count] */
     uint32_t style_count;
     dp_target target;

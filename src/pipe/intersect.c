@@ -8,9 +8,8 @@
  * candidate line like an edge, with the same probes.
  *
  * Data structure: polygons in lists by suspect pixel (`crowd`); a set of pairs that were tested. */
-#include "pipe/intersect.h"
-
 #include "pipe/crossing.h"
+#include "pipe/tile.h"
 
 #include <string.h>
 
@@ -35,21 +34,18 @@ static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
     return shared;
 }
 
-void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth) {
-    const dp_tile_polygon *const p = &w->polygons[index];
-    for (uint32_t i = 0; i < 4; i++) {
-        const uint32_t other = w->winner[lane + i];
-        if (!close[i] || other == UINT32_MAX || other == index) continue;
-        const size_t pixel = (lane + i) / w->sampling.samples;
-        const uint32_t x = (uint32_t)pixel % DP_TILE, y = (uint32_t)pixel / DP_TILE;
-        const dp_tile_polygon *const q = &w->polygons[other];
-        if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) continue;
-        uint64_t *const row = &w->suspects[!(p->flags & q->flags & DP_POLYGON_FRONT)][y];
-        if (*row >> x & 1) continue;
-        const float reach = dp_watch_px(w) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
-        if (fabsf(depth[i] - w->depth[lane + i]) > reach) continue;
-        if (!shared_corners(w->frame, p->id, q->id)) *row |= (uint64_t)1 << x;
-    }
+void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, float depth) {
+    const uint32_t other = w->winner[lane];
+    if (other == UINT32_MAX || other == index) return;
+    const dp_tile_polygon *const p = &w->polygons[index], *const q = &w->polygons[other];
+    const size_t pixel = lane / w->sampling.samples;
+    const uint32_t x = (uint32_t)pixel % DP_TILE, y = (uint32_t)pixel / DP_TILE;
+    if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return;
+    uint64_t *const row = &w->suspects[!(p->flags & q->flags & DP_POLYGON_FRONT)][y];
+    if (*row >> x & 1) return;
+    const float reach = dp_watch_px(w) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
+    if (fabsf(depth - w->depth[lane]) > reach) return;
+    if (!shared_corners(w->frame, p->id, q->id)) *row |= (uint64_t)1 << x;
 }
 
 /* Pixels and their neighbours. False when there are none. */

@@ -94,7 +94,7 @@ dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_ou
         const double bx = (double)p[i + 1].x - p[0].x, by = (double)p[i + 1].y - p[0].y;
         area += ax * by - ay * bx;
     }
-    if (fabs(area) > DP_NEARLY_EDGE_ON * reach) return (dp_facing){area < 0, false};
+    if (fabs(area) > (double)frame->nearly_edge_on * reach) return (dp_facing){area < 0, false};
     return (dp_facing){faces_eye(frame, polygon), fabs(area) <= EDGE_ON * reach};
 }
 

@@ -30,8 +30,11 @@ typedef struct dp_outline {
 dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon, dp_outline_scratch *scratch,
                                  dp_outline *out);
 
-/* Below this (px) the area on the screen does not tell a polygon's facing; the world does. */
-#define DP_NEARLY_EDGE_ON (1.0f / 64)
+/* Thinner than this (px) the area on the screen does not tell a polygon's facing; the world does. Corners are
+ * placed to float32 precision, within a few pictures of the screen. */
+static inline float dp_nearly_edge_on(const dp_view *view) {
+    return (float)(dp_max(1024, dp_max(view->width, view->height)) / (1 << 19));
+}
 
 /* How the outline of frame polygon `polygon` lies to the eye. */
 typedef struct dp_facing {

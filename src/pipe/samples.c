@@ -8,8 +8,22 @@ static const int8_t pattern16[16][2] = {{1, 1},  {-1, -3}, {-3, 2}, {4, -1}, {-5
                                         {5, 3},  {3, -5},  {-2, 6}, {0, -7}, {-4, -6}, {-6, 4},
                                         {-8, 0}, {7, -4},  {6, 7},  {-7, -8}};
 
+static const int8_t (*pattern_of(uint32_t samples))[2] {
+    return samples == 4 ? pattern4 : samples == 8 ? pattern8 : pattern16;
+}
+
+void dp_block_init(dp_block *block, uint32_t samples) {
+    const int8_t(*const pattern)[2] = pattern_of(samples);
+    for (uint32_t i = 0; i < 16; i++) {
+        const uint32_t sample = i % samples;
+        block->px[i] = (float)(i / samples);
+        block->sx[i] = samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][0] / 16;
+        block->sy[i] = samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][1] / 16;
+    }
+}
+
 void dp_sampling_init(dp_sampling *sampling, uint32_t samples) {
-    const int8_t(*pattern)[2] = samples == 4 ? pattern4 : samples == 8 ? pattern8 : pattern16;
+    const int8_t(*const pattern)[2] = pattern_of(samples);
     const bool single = samples == 1;
     *sampling = (dp_sampling){.samples = samples,
                               .cell_width = single ? 4 : 1,

@@ -19,6 +19,14 @@ typedef struct dp_sampling {
     dp_f4 x[4], y[4];    /* of each lane, px from the cell's corner */
 } dp_sampling;
 
+/* A run of pixels with as many samples as a kernel has lanes, or one pixel with more: where each sample's
+ * pixel lies in the run, and the sample in its pixel (px). Samples of a pixel are consecutive. */
+typedef struct dp_block {
+    float px[16], sx[16], sy[16];
+} dp_block;
+
+void dp_block_init(dp_block *block, uint32_t samples);
+
 void dp_sampling_init(dp_sampling *sampling, uint32_t samples);
 
 static inline dp_f4 dp_splat(float v) { return (dp_f4){v, v, v, v}; }

@@ -1,4 +1,5 @@
 /* Finding a tile's surface and lines: faces, edges, visibility, in that order. */
+#include "kernel/kernels.h"
 #include "pipe/tile.h"
 
 #include <string.h>
@@ -9,7 +10,9 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->failed = false;
     worker->stats = (dp_stats){0};
     worker->piece_count = 0;
+    worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
     dp_sampling_init(&worker->sampling, frame->target.samples);
+    dp_block_init(&worker->block, frame->target.samples);
     return dp_reserve(&worker->memory, &worker->winner, &worker->winner_cap, frame->tile_samples,
                       sizeof *worker->winner);
 }
@@ -18,7 +21,9 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     const dp_allocator memory = worker->memory;
     if (!memory.free) return; /* never used */
     dp_free(&memory, worker->winner);
+    dp_free(&memory, worker->ids);
     dp_free(&memory, worker->polygons);
+    dp_free(&memory, worker->normals);
     dp_free(&memory, worker->points);
     dp_free(&memory, worker->edges);
     dp_free(&memory, worker->meetings);
@@ -40,7 +45,8 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
 }
 
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
-    return sizeof *w + w->winner_cap * sizeof *w->winner + w->polygons_cap * sizeof *w->polygons +
+    return sizeof *w + w->winner_cap * sizeof *w->winner + w->ids_cap * sizeof *w->ids +
+           w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
            w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
            w->slots_cap * sizeof *w->edge_slots + w->candidates_cap * sizeof *w->candidates +
            w->probes_cap * sizeof *w->probes + w->pieces_cap * sizeof *w->pieces +

@@ -28,14 +28,19 @@ enum {
 typedef struct dp_tile_polygon {
     uint32_t id;             /* in the frame */
     uint32_t point;          /* first of its points */
-    uint32_t points;         /* how many */
-    uint32_t flags;
-    uint8_t x0, y0, x1, y1;  /* pixels it may cover, inclusive, clamped to the tile */
+    union {
+        struct {
+            uint8_t x0, y0, x1, y1; /* pixels it may cover, inclusive, clamped to the tile */
+        };
+        uint8_t box[4];
+    };
+    uint32_t flags : 8;
+    uint32_t points : 24;    /* how many */
     float nearest;           /* largest d of its points */
     float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
-    float normal[3];         /* world space, unit; set by edges.c where it needs it */
-    float watch;             /* a sample this close in depth may be of a polygon that crosses it */
 } dp_tile_polygon;
+
+_Static_assert(sizeof(dp_tile_polygon) == 32, "kernel/assemble.inc writes it as two vectors");
 
 /* An edge of the tile's table: what met there. */
 typedef struct dp_edge_entry {
@@ -90,12 +95,17 @@ struct dp_tile_worker {
     dp_allocator memory;
     bool failed; /* out of memory: the tile is abandoned */
 
+    bool watching; /* for intersections, while faces are drawn */
+    dp_block block; /* of samples that the kernels draw at once */
+
     uint32_t tile, tile_x, tile_y;
     float farthest[DP_TILE / DP_BLOCK][DP_TILE / DP_BLOCK]; /* depth of a block's furthest sample (cull.c) */
     float *depth;     /* the tile's samples */
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
+    uint32_t *ids; /* of the tile's polygons, in the frame */
     dp_tile_polygon *polygons;
+    float (*normals)[3]; /* by polygon: world space, unit; set by edges.c where it needs them */
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     dp_edge_entry *edges;
     dp_meeting *meetings;
@@ -103,7 +113,7 @@ struct dp_tile_worker {
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t winner_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t winner_cap, ids_cap, normals_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
     uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count;
     uint32_t candidate_count, probe_count;
@@ -148,9 +158,8 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
 /* The stages of dp_tile_find, each in its own file. */
-void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c */
+void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c; draws front faces */
 void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c */
-void dp_tile_raster(dp_tile_worker *worker, const dp_tile_polygon *polygon, uint32_t index); /* raster.c */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
 void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
 void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
@@ -162,8 +171,11 @@ void dp_tile_bare_surface(dp_tile_worker *worker);
 /* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
 void dp_tile_quads(dp_tile_worker *worker);
 
-/* Called while `index` is rasterized and lies close to what some lanes hold (intersect.c). */
-void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, dp_i4 close, dp_f4 depth);
+/* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face (assemble.c). */
+void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index);
+
+/* Called while `index` is rasterized and its depth lies close to what sample `lane` holds (intersect.c). */
+void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, float depth);
 
 /* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe and the final
  * k0, k1 are filled here (probes.c). */
@@ -193,6 +205,22 @@ bool dp_tile_covers(const dp_tile_worker *worker, const dp_tile_polygon *polygon
 static inline bool dp_is_surface(const dp_tile_worker *worker, const dp_tile_polygon *p) {
     if ((p->flags & (DP_POLYGON_TOUCHES | DP_POLYGON_EDGE_ON)) != DP_POLYGON_TOUCHES) return false;
     return p->flags & DP_POLYGON_FRONT || !dp_polygon_style(worker->frame, p->id)->cull_back_faces;
+}
+
+/* Change of depth d over `px` pixel sizes along the line of sight, in float32 (dp_depth_step). */
+static inline float dp_depth_steps(const dp_frame *frame, float d, float px) {
+    return px * (fabsf(d) * frame->step_scale + frame->step_offset);
+}
+
+/* A crossing is looked for this far around a sample, px: beyond the next sample on the other side … */
+static inline float dp_watch_px(const dp_tile_worker *w) { return w->sampling.samples == 1 ? 1.5f : 0.75f; }
+
+/* … or where the gap in depth is less than this many pixel sizes: the other polygon may be the steep one. */
+#define DP_WATCH_GAP 8
+
+/* A sample this close in depth to a plane may be of a polygon that crosses it. */
+static inline float dp_watch_reach(const dp_tile_worker *w, float dx, float dy, float nearest) {
+    return dp_watch_px(w) * (fabsf(dx) + fabsf(dy)) + dp_depth_steps(w->frame, nearest, DP_WATCH_GAP);
 }
 
 /* The depth of a polygon's plane at a point of the tile. */

@@ -1,0 +1,36 @@
+/* The kernels: loops over many vertices, polygons or samples, for several kinds of processors.
+ *
+ * Each is written once, in the .inc files, on vectors whose width is a constant (lanes.h), and compiled
+ * for each width in plain.c, base.c, avx2.c and avx512.c. Plain C is the truth: the others do the same operations
+ * in the same order and give the same bits (tests/unit/test_kernels.c). */
+#ifndef DP_KERNEL_KERNELS_H
+#define DP_KERNEL_KERNELS_H
+
+#include "pipe/view.h"
+
+struct dp_tile_worker;
+struct dp_tile_polygon;
+struct dp_vertex;
+struct dp_polygons;
+
+typedef struct dp_kernels {
+    const char *name; /* "plain", "base", "avx2", "avx512" */
+    uint32_t lanes;
+    /* Appends triangles to the tile's polygons, planes and boxes made, and draws its front faces
+     * (assemble.inc). Needs room for count + 16 polygons. */
+    void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count);
+    /* Draws one convex polygon into the tile's samples (raster.inc). */
+    void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
+} dp_kernels;
+
+extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;
+
+enum { DP_KERNELS_MAX = 4 };
+
+/* Those that this processor runs, slowest first. Returns how many. */
+uint32_t dp_kernels_list(const dp_kernels *list[DP_KERNELS_MAX]);
+
+/* The fastest of them. In builds with tests, the environment's DRYPOINT_CPU names another. */
+const dp_kernels *dp_kernels_best(void);
+
+#endif

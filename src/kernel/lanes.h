@@ -1,0 +1,261 @@
+/* Vectors of DP_LANES floats or ints, for kernels that are written once and compiled for several widths.
+ *
+ * A file that includes this has set DP_LANES: 1 is plain C, 4 any processor (SSE2, NEON), 8 AVX2, 16 AVX-512.
+ * Every operation is one IEEE operation per lane, the same at any width, so that all widths give equal
+ * bits (contraction is off, cmake/). A mask comes from a comparison and goes into `l_select` and
+ * `lm_bits`; how it is kept is this file's business.
+ * `l_min`, `l_max` give their second argument where either is NaN, as dp_minf and dp_maxf do. */
+#ifndef DP_KERNEL_LANES_H
+#define DP_KERNEL_LANES_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#if DP_LANES >= 8
+#include <immintrin.h>
+#endif
+
+/* Into kernels whose arguments are constants; compilers obey only when they optimise. */
+#ifdef __OPTIMIZE__
+#define DP_LANES_INLINE static inline __attribute__((always_inline))
+#else
+#define DP_LANES_INLINE static inline
+#endif
+
+#if DP_LANES == 1
+typedef float dp_lf;
+typedef int32_t dp_li;
+typedef bool dp_lm;
+#else
+typedef float dp_lf __attribute__((vector_size(4 * DP_LANES)));
+typedef int32_t dp_li __attribute__((vector_size(4 * DP_LANES)));
+#if DP_LANES == 16
+typedef __mmask16 dp_lm;
+#else
+typedef dp_li dp_lm;
+#endif
+#endif
+
+/* ------- any width ------- */
+
+DP_LANES_INLINE dp_lf l_load(const float *p) {
+    dp_lf v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+DP_LANES_INLINE dp_li li_load(const void *p) {
+    dp_li v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+DP_LANES_INLINE void l_store(float *p, dp_lf v) { memcpy(p, &v, sizeof v); }
+DP_LANES_INLINE void li_store(void *p, dp_li v) { memcpy(p, &v, sizeof v); }
+
+/* ------- plain C ------- */
+
+#if DP_LANES == 1
+DP_LANES_INLINE dp_lf l_splat(float v) { return v; }
+DP_LANES_INLINE dp_li li_splat(int32_t v) { return v; }
+DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
+DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
+DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a && b; }
+DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a || b; }
+DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a != b; }
+DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return !a; }
+DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
+DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return m; }
+DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) { return m ? a : b; }
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return m ? a : b; }
+DP_LANES_INLINE dp_lf l_abs(dp_lf v) { return fabsf(v); }
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return sqrtf(v); }
+DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return a < b ? a : b; }
+DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return a > b ? a : b; }
+DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (int32_t)v; }
+
+/* ------- four lanes ------- */
+
+#elif DP_LANES == 4
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+DP_LANES_INLINE dp_lf l_splat(float v) { return (dp_lf){v, v, v, v}; }
+DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li){v, v, v, v}; }
+DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
+DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
+DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
+DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
+DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
+DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
+DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return ~a; }
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return (m & a) | (~m & b); }
+DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) { return (dp_lf)li_select(m, (dp_li)a, (dp_li)b); }
+DP_LANES_INLINE dp_lf l_abs(dp_lf v) { return (dp_lf)((dp_li)v & li_splat(INT32_MAX)); }
+#ifdef __SSE2__
+DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return (uint32_t)_mm_movemask_ps((__m128)m); }
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf)_mm_sqrt_ps((__m128)v); }
+DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return (dp_lf)_mm_min_ps((__m128)a, (__m128)b); }
+DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm_max_ps((__m128)a, (__m128)b); }
+DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm_cvttps_epi32((__m128)v); }
+#else
+DP_LANES_INLINE uint32_t lm_bits(dp_lm m) {
+    return ((uint32_t)m[0] & 1) | ((uint32_t)m[1] & 2) | ((uint32_t)m[2] & 4) | ((uint32_t)m[3] & 8);
+}
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
+DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return l_select(a < b, a, b); }
+DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return l_select(a > b, a, b); }
+DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return __builtin_convertvector(v, dp_li); }
+#endif
+
+/* ------- AVX2 ------- */
+
+#elif DP_LANES == 8
+DP_LANES_INLINE dp_lf l_splat(float v) { return (dp_lf)_mm256_set1_ps(v); }
+DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li)_mm256_set1_epi32(v); }
+DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
+DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
+DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
+DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
+DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
+DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
+DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return ~a; }
+DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return (uint32_t)_mm256_movemask_ps((__m256)m); }
+DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) {
+    return (dp_lf)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)m);
+}
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return (dp_li)l_select(m, (dp_lf)a, (dp_lf)b); }
+DP_LANES_INLINE dp_lf l_abs(dp_lf v) { return (dp_lf)((dp_li)v & li_splat(INT32_MAX)); }
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf)_mm256_sqrt_ps((__m256)v); }
+DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return (dp_lf)_mm256_min_ps((__m256)a, (__m256)b); }
+DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm256_max_ps((__m256)a, (__m256)b); }
+DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm256_cvttps_epi32((__m256)v); }
+
+/* ------- AVX-512 ------- */
+
+#else
+DP_LANES_INLINE dp_lf l_splat(float v) { return (dp_lf)_mm512_set1_ps(v); }
+DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li)_mm512_set1_epi32(v); }
+DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
+DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ); }
+DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return (dp_lm)(a & b); }
+DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return (dp_lm)(a | b); }
+DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return (dp_lm)(a ^ b); }
+DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return (dp_lm)~a; }
+DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return m; }
+DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) {
+    return (dp_lf)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a);
+}
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) {
+    return (dp_li)_mm512_mask_blend_epi32(m, (__m512i)b, (__m512i)a);
+}
+DP_LANES_INLINE dp_lf l_abs(dp_lf v) { return (dp_lf)_mm512_abs_ps((__m512)v); }
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf)_mm512_sqrt_ps((__m512)v); }
+DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return (dp_lf)_mm512_min_ps((__m512)a, (__m512)b); }
+DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm512_max_ps((__m512)a, (__m512)b); }
+DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm512_cvttps_epi32((__m512)v); }
+#endif
+
+DP_LANES_INLINE dp_lm l_gt(dp_lf a, dp_lf b) { return l_lt(b, a); }
+DP_LANES_INLINE dp_lm l_ge(dp_lf a, dp_lf b) { return l_le(b, a); }
+
+/* ------- records of four words, one per lane -------
+ *
+ * Lane l's record lies at base + at[l] (in records). As rows, row i holds the whole records of lanes 4 g + i, group
+ * g after group g; as columns, column i holds word i of every lane. */
+
+#if DP_LANES > 1
+typedef float dp_record __attribute__((vector_size(16)));
+
+DP_LANES_INLINE dp_record l_record(const void *base, uint32_t at) {
+    dp_record r;
+    memcpy(&r, (const char *)base + 16 * (size_t)at, sizeof r);
+    return r;
+}
+
+/* Records at[0], at[4], … of up to four groups. */
+DP_LANES_INLINE dp_lf l_row(const void *base, const uint32_t *at) {
+#if DP_LANES == 4
+    return (dp_lf)l_record(base, at[0]);
+#elif DP_LANES == 8
+    return (dp_lf)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)l_record(base, at[0])),
+                                       (__m128)l_record(base, at[4]), 1);
+#else
+    const __m512 a = _mm512_castps128_ps512((__m128)l_record(base, at[0]));
+    const __m512 b = _mm512_insertf32x4(a, (__m128)l_record(base, at[4]), 1);
+    const __m512 c = _mm512_insertf32x4(b, (__m128)l_record(base, at[8]), 2);
+    return (dp_lf)_mm512_insertf32x4(c, (__m128)l_record(base, at[12]), 3);
+#endif
+}
+
+/* Puts the records of a row at base, base + group, … (bytes). */
+DP_LANES_INLINE void l_put_row(char *base, size_t group, dp_lf row) {
+#if DP_LANES == 4
+    (void)group;
+    memcpy(base, &row, 16);
+#elif DP_LANES == 8
+    _mm_storeu_ps((float *)(void *)base, _mm256_castps256_ps128((__m256)row));
+    _mm_storeu_ps((float *)(void *)(base + group), _mm256_extractf128_ps((__m256)row, 1));
+#else
+    _mm_storeu_ps((float *)(void *)base, _mm512_castps512_ps128((__m512)row));
+    _mm_storeu_ps((float *)(void *)(base + group), _mm512_extractf32x4_ps((__m512)row, 1));
+    _mm_storeu_ps((float *)(void *)(base + 2 * group), _mm512_extractf32x4_ps((__m512)row, 2));
+    _mm_storeu_ps((float *)(void *)(base + 3 * group), _mm512_extractf32x4_ps((__m512)row, 3));
+#endif
+}
+
+/* The first two words of every record. */
+DP_LANES_INLINE dp_lm lm_first_pair(void) {
+#if DP_LANES == 4
+    return (dp_lm){-1, -1, 0, 0};
+#elif DP_LANES == 8
+    return (dp_lm){-1, -1, 0, 0, -1, -1, 0, 0};
+#else
+    return 0x3333;
+#endif
+}
+
+/* Rows to columns, and back. */
+DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
+#if DP_LANES == 4 && defined __SSE2__
+    const __m128 a = _mm_unpacklo_ps((__m128)r[0], (__m128)r[1]), b = _mm_unpackhi_ps((__m128)r[0], (__m128)r[1]);
+    const __m128 c = _mm_unpacklo_ps((__m128)r[2], (__m128)r[3]), d = _mm_unpackhi_ps((__m128)r[2], (__m128)r[3]);
+    r[0] = (dp_lf)_mm_movelh_ps(a, c), r[1] = (dp_lf)_mm_movehl_ps(c, a);
+    r[2] = (dp_lf)_mm_movelh_ps(b, d), r[3] = (dp_lf)_mm_movehl_ps(d, b);
+#elif DP_LANES == 4
+    const dp_lf a = r[0], b = r[1], c = r[2], d = r[3];
+    r[0] = (dp_lf){a[0], b[0], c[0], d[0]}, r[1] = (dp_lf){a[1], b[1], c[1], d[1]};
+    r[2] = (dp_lf){a[2], b[2], c[2], d[2]}, r[3] = (dp_lf){a[3], b[3], c[3], d[3]};
+#elif DP_LANES == 8
+    const __m256 a = _mm256_unpacklo_ps((__m256)r[0], (__m256)r[1]), b = _mm256_unpackhi_ps((__m256)r[0], (__m256)r[1]);
+    const __m256 c = _mm256_unpacklo_ps((__m256)r[2], (__m256)r[3]), d = _mm256_unpackhi_ps((__m256)r[2], (__m256)r[3]);
+    r[0] = (dp_lf)_mm256_shuffle_ps(a, c, 0x44), r[1] = (dp_lf)_mm256_shuffle_ps(a, c, 0xee);
+    r[2] = (dp_lf)_mm256_shuffle_ps(b, d, 0x44), r[3] = (dp_lf)_mm256_shuffle_ps(b, d, 0xee);
+#else
+    const __m512 a = _mm512_unpacklo_ps((__m512)r[0], (__m512)r[1]), b = _mm512_unpackhi_ps((__m512)r[0], (__m512)r[1]);
+    const __m512 c = _mm512_unpacklo_ps((__m512)r[2], (__m512)r[3]), d = _mm512_unpackhi_ps((__m512)r[2], (__m512)r[3]);
+    r[0] = (dp_lf)_mm512_shuffle_ps(a, c, 0x44), r[1] = (dp_lf)_mm512_shuffle_ps(a, c, 0xee);
+    r[2] = (dp_lf)_mm512_shuffle_ps(b, d, 0x44), r[3] = (dp_lf)_mm512_shuffle_ps(b, d, 0xee);
+#endif
+}
+#endif
+
+/* Stores the lanes of `mask`. */
+DP_LANES_INLINE void l_store_some(float *p, dp_lm mask, dp_lf v) {
+#if DP_LANES == 16
+    _mm512_mask_storeu_ps(p, mask, (__m512)v);
+#else
+    l_store(p, l_select(mask, v, l_load(p)));
+#endif
+}
+DP_LANES_INLINE void li_store_some(void *p, dp_lm mask, dp_li v) {
+#if DP_LANES == 16
+    _mm512_mask_storeu_epi32(p, mask, (__m512i)v);
+#else
+    li_store(p, li_select(mask, v, li_load(p)));
+#endif
+}
+
+#endif
