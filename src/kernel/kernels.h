@@ -10,12 +10,17 @@
 
 struct dp_tile_worker;
 struct dp_tile_polygon;
-struct dp_vertex;
-struct dp_polygons;
+struct dp_frame;
+struct dp_tile_rect;
+
+/* A rectangle's x0 where the kernel leaves the polygon to the general way. */
+#define DP_UNPLACED INT16_MIN
 
 typedef struct dp_kernels {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;
+    /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px (place.inc). */
+    void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count, struct dp_tile_rect *rects);
     /* Appends triangles to the tile's polygons, planes and boxes made, and draws its front faces
      * (assemble.inc). Needs room for count + 16 polygons. */
     void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count);

@@ -5,29 +5,35 @@
 #include "base/memory.h"
 #include "base/threads.h"
 
-/* Tiles [x0, x1) x [y0, y1); empty when x0 >= x1. */
+/* Tiles [x0, x1) x [y0, y1), not yet clipped to the picture; empty when x0 >= x1. */
 typedef struct dp_tile_rect {
-    int32_t x0, y0, x1, y1;
+    int16_t x0, y0, x1, y1;
 } dp_tile_rect;
 
 /* One chunk of items: `entries` of tile t are [offsets[t], offsets[t + 1]), ascending. */
 typedef struct dp_bin_chunk {
     uint32_t *entries, *offsets;
-    uint32_t *items, *tiles; /* the same pairs as they came */
-    size_t entries_cap, offsets_cap, items_cap, tiles_cap;
-    size_t count;
+    size_t entries_cap, offsets_cap;
     bool failed; /* out of memory */
 } dp_bin_chunk;
 
+/* What one worker needs while it fills a chunk: rectangles, and (tile, item) pairs as they come. */
+typedef struct dp_bin_scratch {
+    dp_tile_rect *rects;
+    uint32_t *items, *tiles;
+    size_t rects_cap, items_cap, tiles_cap;
+} dp_bin_scratch;
+
 typedef struct dp_bins {
     dp_bin_chunk *chunks;
+    dp_bin_scratch *scratch; /* by worker */
     uint32_t chunk_count, tile_count;
-    size_t chunks_cap;
+    size_t chunks_cap, scratch_cap;
 } dp_bins;
 
-/* Which tiles item `index` touches. `worker` as in dp_task. When it spans more than a few tiles,
+/* Which tiles items [first, first + count) touch. `worker` as in dp_task. Where an item spans more than a few,
  * `touches` (optional) is asked about each of them. */
-typedef dp_tile_rect dp_bin_place(void *arg, uint32_t index, uint32_t worker);
+typedef void dp_bin_place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker);
 typedef bool dp_bin_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker);
 
 /* Bins items [0, count) into tiles_x * tiles_y tiles. False when memory is out. */
@@ -35,6 +41,9 @@ bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tile
                   dp_bin_place *place, dp_bin_touches *touches, void *arg, dp_threads *threads,
                   const dp_allocator *memory);
 void dp_bins_free(dp_bins *bins, const dp_allocator *memory);
+
+/* Memory that stays, bytes. */
+uint64_t dp_bins_bytes(const dp_bins *bins);
 
 /* How many items tile t holds. */
 size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile);

@@ -1,4 +1,5 @@
 /* Which tiles a polygon touches; and the one place where bad polygons are dropped and counted. */
+#include "kernel/kernels.h"
 #include "pipe/stages.h"
 
 typedef struct job {
@@ -9,15 +10,11 @@ typedef struct job {
 
 static const dp_tile_rect NOWHERE = {0, 0, 0, 0};
 
-/* floor(px / DP_TILE); what is placed lies within a few pictures of the screen, so OFFSET makes it positive. */
-static int32_t tile_of(float px) {
-    enum { OFFSET = 1 << 14 };
-    return (int32_t)(px * (1.0f / DP_TILE) + OFFSET) - OFFSET;
-}
+static int16_t tile_of(float px) { return (int16_t)floorf(px / DP_TILE); }
 
 static dp_tile_rect rect_around(const job *j, float x0, float y0, float x1, float y1) {
-    return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), tile_of(x1 + j->margin) + 1,
-                          tile_of(y1 + j->margin) + 1};
+    return (dp_tile_rect){tile_of(x0 - j->margin), tile_of(y0 - j->margin), (int16_t)(tile_of(x1 + j->margin) + 1),
+                          (int16_t)(tile_of(y1 + j->margin) + 1)};
 }
 
 static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
@@ -30,29 +27,7 @@ static dp_tile_rect rect_of(const job *j, const dp_outline *outline) {
     return rect_around(j, x0, y0, x1, y1);
 }
 
-/* A triangle that needs no clipping and has an area on the screen; false where that is not so. */
-static bool place_triangle(const job *j, uint32_t id, dp_tile_rect *rect) {
-    const dp_polygons *const polygons = &j->frame->polygons;
-    dp_vertex v[3];
-    for (uint32_t i = 0; i < 3; i++) {
-        const uint32_t vertex = dp_corner_vertex(polygons, 3 * id + i);
-        if (vertex >= polygons->vertex_count) return false;
-        v[i] = j->frame->vertices[vertex];
-    }
-    if (dp_needs_clipping(v[0], v[1], v[2])) return false;
-    const float bx = v[1].x - v[0].x, by = v[1].y - v[0].y, cx = v[2].x - v[0].x, cy = v[2].y - v[0].y;
-    const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
-    if (!(fabsf(bx * cy - by * cx) > j->frame->nearly_edge_on * reach)) return false;
-    *rect = rect_around(j, dp_minf(v[0].x, dp_minf(v[1].x, v[2].x)), dp_minf(v[0].y, dp_minf(v[1].y, v[2].y)),
-                        dp_maxf(v[0].x, dp_maxf(v[1].x, v[2].x)), dp_maxf(v[0].y, dp_maxf(v[1].y, v[2].y)));
-    return true;
-}
-
-static dp_tile_rect place(void *arg, uint32_t polygon, uint32_t worker) {
-    const job *const j = arg;
-    dp_bin_worker *const self = &j->workers[worker];
-    dp_tile_rect rect;
-    if (!j->frame->polygons.firsts && place_triangle(j, polygon, &rect)) return rect;
+static dp_tile_rect place_polygon(const job *j, uint32_t polygon, dp_bin_worker *self) {
     dp_outline outline;
     switch (dp_outline_make(j->frame, polygon, &self->scratch, &outline)) {
     case DP_OUTLINE_OUTSIDE: return NOWHERE;
@@ -67,6 +42,18 @@ static dp_tile_rect place(void *arg, uint32_t polygon, uint32_t worker) {
     }
     if (outline.clipped) self->stats.clipped++;
     return rect_of(j, &outline);
+}
+
+static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
+    const job *const j = arg;
+    dp_bin_worker *const self = &j->workers[worker];
+    if (j->frame->polygons.firsts) {
+        for (uint32_t i = 0; i < count; i++) rects[i] = place_polygon(j, first + i, self);
+        return;
+    }
+    j->frame->kernels->place(j->frame, j->margin, first, count, rects);
+    for (uint32_t i = 0; i < count; i++)
+        if (rects[i].x0 == DP_UNPLACED) rects[i] = place_polygon(j, first + i, self);
 }
 
 /* False when one edge has the whole widened tile on its outside. The outline is convex; which side is

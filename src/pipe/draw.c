@@ -205,21 +205,12 @@ static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
                    (unsigned long long)s->dropped_corners);
 }
 
-static uint64_t bins_bytes(const dp_bins *bins) {
-    uint64_t sum = bins->chunks_cap * sizeof *bins->chunks;
-    for (size_t i = 0; i < bins->chunks_cap; i++) {
-        const dp_bin_chunk *const c = &bins->chunks[i];
-        sum += sizeof(uint32_t) * (c->entries_cap + c->offsets_cap + c->items_cap + c->tiles_cap);
-    }
-    return sum;
-}
-
 /* All that stays from frame to frame, but for the small change. */
 static uint64_t scratch_bytes(const dp_context *c) {
     const dp_polygon_store *const p = &c->polygons;
     uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
-                   c->pieces_cap * sizeof(dp_tile_pieces) + bins_bytes(&c->frame.polygon_bins) +
-                   bins_bytes(&c->frame.stroke_bins);
+                   c->pieces_cap * sizeof(dp_tile_pieces) + dp_bins_bytes(&c->frame.polygon_bins) +
+                   dp_bins_bytes(&c->frame.stroke_bins);
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
            c->strokes.strokes_cap * sizeof(dp_stroke);

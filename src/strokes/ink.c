@@ -28,16 +28,19 @@ static float nearer_allowed(const dp_frame *frame, const dp_stroke *s, float dis
     return 2 + 8 * distance + rounded;
 }
 
-static dp_tile_rect place(void *arg, uint32_t index, uint32_t worker) {
-    const dp_frame *const frame = arg;
-    const dp_stroke *const s = &frame->strokes[index];
-    (void)worker;
+static dp_tile_rect rect_of(const dp_stroke *s) {
     const float r = s->half_width + 1;
     const float x0 = dp_minf(s->a.x, s->b.x) - r, x1 = dp_maxf(s->a.x, s->b.x) + r;
     const float y0 = dp_minf(s->a.y, s->b.y) - r, y1 = dp_maxf(s->a.y, s->b.y) + r;
     if (!(x1 > x0 && y1 > y0)) return (dp_tile_rect){0, 0, 0, 0};
-    return (dp_tile_rect){(int32_t)floorf(x0 / DP_TILE), (int32_t)floorf(y0 / DP_TILE),
-                          (int32_t)floorf(x1 / DP_TILE) + 1, (int32_t)floorf(y1 / DP_TILE) + 1};
+    return (dp_tile_rect){(int16_t)floorf(x0 / DP_TILE), (int16_t)floorf(y0 / DP_TILE),
+                          (int16_t)(floorf(x1 / DP_TILE) + 1), (int16_t)(floorf(y1 / DP_TILE) + 1)};
+}
+
+static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
+    const dp_frame *const frame = arg;
+    (void)worker;
+    for (uint32_t i = 0; i < count; i++) rects[i] = rect_of(&frame->strokes[first + i]);
 }
 
 static float distance_to(const dp_stroke *s, float x, float y, float *t) {
