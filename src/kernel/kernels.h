@@ -26,6 +26,8 @@ typedef struct dp_kernels {
     void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
+    /* The unit normals of the tile's seen triangles (normals.inc). */
+    void (*normals)(struct dp_tile_worker *worker);
 } dp_kernels;
 
 extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;

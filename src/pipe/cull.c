@@ -12,7 +12,7 @@
 
 static const float SLACK = 6; /* pixel sizes */
 
-enum { BLOCKS = DP_TILE / DP_BLOCK };
+enum { BLOCKS = DP_TILE / DP_BLOCK, SMALL = 8 /* px */ };
 
 static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     const float *const d = w->depth + dp_pixel_lane(&w->sampling, x, y);
@@ -35,22 +35,42 @@ static void find_farthest(dp_tile_worker *w) {
         }
 }
 
-static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
-    if (!(p->flags & DP_POLYGON_TOUCHES)) return false;
-    /* a polygon at the tile's border may be seen beyond it */
-    if (p->x0 < 1 || p->y0 < 1 || p->x1 > DP_TILE - 2 || p->y1 > DP_TILE - 2) return false;
-    const float nearest = p->nearest + dp_depth_steps(w->frame, p->nearest, SLACK);
-    for (uint32_t by = (p->y0 - 1u) / DP_BLOCK; by <= (p->y1 + 1u) / DP_BLOCK; by++)
-        for (uint32_t bx = (p->x0 - 1u) / DP_BLOCK; bx <= (p->x1 + 1u) / DP_BLOCK; bx++)
-            if (!(nearest < w->farthest[by][bx])) return false;
+/* Pixels beyond the tile are not known: what is large and reaches its border is taken for seen, lest a line be
+ * lost that runs along the border between its last samples and those of the next tile. */
+static bool is_hidden_box(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
+    const uint32_t last = DP_TILE - 1;
+    const bool border = x0 < 1 || y0 < 1 || x1 > last - 1 || y1 > last - 1;
+    if (border && (x1 - x0 > SMALL || y1 - y0 > SMALL)) return false;
+    const float limit = nearest + dp_depth_steps(w->frame, nearest, SLACK);
+    const uint32_t bx0 = (x0 ? x0 - 1 : 0) / DP_BLOCK, bx1 = (x1 < last ? x1 + 1 : last) / DP_BLOCK;
+    const uint32_t by0 = (y0 ? y0 - 1 : 0) / DP_BLOCK, by1 = (y1 < last ? y1 + 1 : last) / DP_BLOCK;
+    for (uint32_t by = by0; by <= by1; by++)
+        for (uint32_t bx = bx0; bx <= bx1; bx++)
+            if (!(limit < w->farthest[by][bx])) return false;
     return true;
+}
+
+static uint32_t clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v; }
+
+bool dp_tile_hides(const dp_tile_worker *w, float x0, float y0, float x1, float y1, float nearest) {
+    return is_hidden_box(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
+}
+
+static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
+    return is_hidden_box(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
 }
 
 void dp_tile_faces(dp_tile_worker *w) {
     find_farthest(w);
+    w->seen_count = 0;
+    if (!DP_WORKER_RESERVE(w, seen, seen_cap, (size_t)w->polygon_count)) return;
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         dp_tile_polygon *const p = &w->polygons[i];
-        if (is_hidden(w, p)) p->flags |= DP_POLYGON_HIDDEN;
-        else if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, i);
+        if (is_hidden(w, p)) {
+            p->flags |= DP_POLYGON_HIDDEN;
+            continue;
+        }
+        w->seen[w->seen_count++] = i;
+        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, i);
     }
 }

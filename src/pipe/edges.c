@@ -4,10 +4,11 @@
  * meet here, without adjacency (docs/architecture.md). Edges are named by the bits of their
  * ends' positions: an index buffer, split vertices and a bare soup give the same names.
  *
- * Data structure: open addressing over (hash, 1 + entry) pairs; entries in order of first meeting, so
- * that what is found does not depend on the hash. Invariant: at most half of the slots are used. Hidden
- * polygons come last and add no edges: an edge between two of them is hidden itself.
+ * Data structure: open addressing; `edges` are the slots in order of first meeting, so that what is found
+ * does not depend on the hash. Invariant: at most two thirds of the slots are used. Hidden polygons stay
+ * away: their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that too.
  * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
+#include "kernel/kernels.h"
 #include "pipe/classify.h"
 #include "pipe/tile.h"
 
@@ -27,66 +28,89 @@ static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_
            dp_maxf(a.y, b.y) >= -DP_BESIDE && dp_minf(a.y, b.y) <= DP_TILE + DP_BESIDE;
 }
 
-/* Corners of the polygons that may add edges. */
-static uint32_t count_edges(const dp_tile_worker *w) {
-    uint32_t edges = 0;
-    for (uint32_t i = 0; i < w->polygon_count; i++)
-        if (!(w->polygons[i].flags & DP_POLYGON_HIDDEN)) edges += dp_corner_count(&w->frame->polygons, w->polygons[i].id);
-    return edges;
+/* Numbers of edges that a slot can hold; those beyond are left to emerge. */
+enum { EDGE_MAX = UINT16_MAX };
+
+/* Corners of the polygons that are seen. */
+static size_t count_corners(const dp_tile_worker *w) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    if (!polygons->firsts) return 3 * (size_t)w->seen_count;
+    size_t corners = 0;
+    for (uint32_t i = 0; i < w->seen_count; i++) corners += dp_corner_count(polygons, w->polygons[w->seen[i]].id);
+    return corners;
 }
 
 static bool clear_table(dp_tile_worker *w) {
-    const uint32_t edges = count_edges(w);
-    uint32_t slots = 64;
-    while (slots < 2 * edges) slots *= 2;
-    w->slot_count = slots;
+    const size_t corners = count_corners(w);
+    const size_t slots = corners + corners / 4 + 64;
     w->edge_count = w->meeting_count = 0;
-    if (!DP_WORKER_RESERVE(w, edge_slots, slots_cap, 2 * (size_t)slots) ||
-        !DP_WORKER_RESERVE(w, normals, normals_cap, w->polygon_count))
+    w->slot_count = (uint32_t)slots;
+    if (slots >= DP_SLOT_FLAT || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
+        !DP_WORKER_RESERVE(w, edges, edges_cap, corners)) {
+        w->failed = true;
         return false;
-    memset(w->normals, 0, w->polygon_count * sizeof *w->normals);
-    memset(w->edge_slots, 0, 2 * (size_t)slots * sizeof *w->edge_slots);
-    return DP_WORKER_RESERVE(w, edges, edges_cap, edges);
-}
-
-static void meet(dp_tile_worker *w, dp_edge_entry *e, uint32_t polygon, uint32_t edge, bool opposed) {
-    if (e->met++ == 1) {
-        e->b = polygon, e->edge_b = edge, e->opposed = opposed;
-        return;
     }
-    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u)) return;
-    w->meetings[w->meeting_count] = (dp_meeting){polygon, edge, e->more};
-    e->more = ++w->meeting_count;
+    memset(w->edge_slots, 0, slots * sizeof *w->edge_slots);
+    return true;
 }
 
 static uint32_t edge_hash(uint32_t ka, uint32_t kb) {
-    const uint32_t hash = (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
-    return hash ^ hash >> 15;
+    return (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
 }
 
-/* Is the edge's place in the table free? Then no visible polygon has it. */
-static bool is_free(const dp_tile_worker *w, uint32_t hash) {
-    return !w->edge_slots[2 * (size_t)(hash & (w->slot_count - 1)) + 1];
+typedef struct ends {
+    uint32_t va, vb; /* vertices */
+} ends;
+
+static ends edge_ends(const dp_polygons *polygons, uint32_t id, uint32_t edge) {
+    const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);
+    return (ends){dp_corner_vertex(polygons, first + edge), dp_corner_vertex(polygons, first + (edge + 1 == n ? 0 : edge + 1))};
 }
 
-/* Enters an edge, or only meets it where a polygon that is not hidden has it too. */
-static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, uint32_t va, uint32_t vb, uint32_t hash) {
+/* Most edges are flatter than any threshold; one product tells. */
+static bool is_flat(const dp_tile_worker *w, uint32_t a, uint32_t b) {
+    const float *const p = w->normals[a], *const q = w->normals[b];
+    return w->polygons[a].flags & w->polygons[b].flags & DP_POLYGON_FRONT &&
+           p[0] * q[0] + p[1] * q[1] + p[2] * q[2] > w->frame->flat_cosine;
+}
+
+/* A third or later polygon at an edge. */
+static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t polygon, uint32_t edge) {
+    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u) ||
+        !DP_WORKER_RESERVE(w, slot_meetings, slot_meetings_cap, w->slot_count))
+        return;
+    dp_edge_slot *const s = &w->edge_slots[slot];
+    w->meetings[w->meeting_count] = (dp_meeting){polygon, edge, s->b & DP_SLOT_MORE ? w->slot_meetings[slot] : 0};
+    w->slot_meetings[slot] = ++w->meeting_count;
+    s->b |= DP_SLOT_MORE;
+}
+
+static void meet(dp_tile_worker *w, uint32_t slot, uint32_t polygon, uint32_t edge, bool opposed) {
+    dp_edge_slot *const s = &w->edge_slots[slot];
+    if (s->b) {
+        add_meeting(w, slot, polygon, edge);
+        return;
+    }
+    s->b = (polygon + 1) | (opposed ? is_flat(w, s->a - 1, polygon) ? DP_SLOT_FLAT : 0 : DP_SLOT_SAME_WAY);
+    s->edge_b = (uint16_t)edge;
+}
+
+/* Enters an edge of a polygon, or meets the one that is there. */
+static inline void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, ends e, uint32_t hash) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    const uint32_t mask = w->slot_count - 1;
-    for (uint32_t s = hash & mask;; s = (s + 1) & mask) {
-        uint32_t *const slot = w->edge_slots + 2 * (size_t)s;
-        if (!slot[1]) {
-            if (w->polygons[polygon].flags & DP_POLYGON_HIDDEN) return;
-            slot[0] = hash;
-            slot[1] = ++w->edge_count;
-            w->edges[w->edge_count - 1] = (dp_edge_entry){va, vb, polygon, UINT32_MAX, edge, 0, 1, 0, false};
+    const uint32_t count = w->slot_count;
+    for (uint32_t s = (uint32_t)((uint64_t)hash * count >> 32);; s = s + 1 == count ? 0 : s + 1) {
+        dp_edge_slot *const slot = &w->edge_slots[s];
+        if (!slot->a) {
+            *slot = (dp_edge_slot){hash, polygon + 1, 0, (uint16_t)edge, 0};
+            w->edges[w->edge_count++] = s;
             return;
         }
-        if (slot[0] != hash) continue;
-        dp_edge_entry *const e = &w->edges[slot[1] - 1];
-        const bool opposed = same_position(polygons, e->va, vb) && same_position(polygons, e->vb, va);
-        if (opposed || (same_position(polygons, e->va, va) && same_position(polygons, e->vb, vb))) {
-            meet(w, e, polygon, edge, opposed);
+        if (slot->hash != hash) continue;
+        const ends other = edge_ends(polygons, w->polygons[slot->a - 1].id, slot->edge_a);
+        const bool opposed = same_position(polygons, other.va, e.vb) && same_position(polygons, other.vb, e.va);
+        if (opposed || (same_position(polygons, other.va, e.va) && same_position(polygons, other.vb, e.vb))) {
+            meet(w, s, polygon, edge, opposed);
             return;
         }
     }
@@ -96,20 +120,31 @@ static bool is_flagged(const dp_polygons *polygons, uint32_t corner) {
     return !polygons->edge_flags || polygons->edge_flags[corner];
 }
 
+static void leave(dp_tile_worker *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_WORKER_RESERVE(w, loose, loose_cap, w->loose_count + 1u)) return;
+    w->loose[w->loose_count++] = (dp_loose_edge){polygon, edge};
+}
+
 /* Keys come from the tile's points where these are the corners, else from the vertices. */
 static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, uint32_t first) {
     if (!(p->flags & DP_POLYGON_CLIPPED)) return w->points[p->point + i].key;
     return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
 }
 
-static void insert_edge(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t index, uint32_t i, uint32_t next,
-                        uint32_t ka, uint32_t kb) {
+/* A triangle without flags, all of whose edges belong into the table; false where it is not like that. */
+static bool insert_triangle(dp_tile_worker *w, uint32_t index) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    const uint32_t hash = edge_hash(ka, kb), first = dp_first_corner(polygons, p->id);
-    if (p->flags & DP_POLYGON_HIDDEN && is_free(w, hash)) return;
-    if (!is_flagged(polygons, first + i) || !near_tile(w, p, i)) return;
-    const uint32_t va = dp_corner_vertex(polygons, first + i), vb = dp_corner_vertex(polygons, first + next);
-    if (ka != kb || !same_position(polygons, va, vb)) insert(w, index, i, va, vb, hash);
+    const dp_tile_polygon *const p = &w->polygons[index];
+    if ((p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) != DP_POLYGON_WITHIN) return false;
+    const dp_vertex *const at = w->points + p->point;
+    const uint32_t k0 = at[0].key, k1 = at[1].key, k2 = at[2].key;
+    if (k0 == k1 || k1 == k2 || k2 == k0) return false;
+    const uint32_t v0 = dp_corner_vertex(polygons, 3 * p->id), v1 = dp_corner_vertex(polygons, 3 * p->id + 1);
+    const uint32_t v2 = dp_corner_vertex(polygons, 3 * p->id + 2);
+    insert(w, index, 0, (ends){v0, v1}, edge_hash(k0, k1));
+    insert(w, index, 1, (ends){v1, v2}, edge_hash(k1, k2));
+    insert(w, index, 2, (ends){v2, v0}, edge_hash(k2, k0));
+    return true;
 }
 
 static void insert_polygon(dp_tile_worker *w, uint32_t index) {
@@ -119,10 +154,14 @@ static void insert_polygon(dp_tile_worker *w, uint32_t index) {
     const uint32_t k0 = key_of(w, p, 0, first);
     uint32_t ka = k0;
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t next = i + 1 == n ? 0 : i + 1;
-        const uint32_t kb = next ? key_of(w, p, next, first) : k0;
-        insert_edge(w, p, index, i, next, ka, kb);
+        const uint32_t next = i + 1 == n ? 0 : i + 1, kb = next ? key_of(w, p, next, first) : k0;
+        const uint32_t hash = edge_hash(ka, kb);
+        const ends e = {dp_corner_vertex(polygons, first + i), dp_corner_vertex(polygons, first + next)};
+        const bool real = ka != kb || !same_position(polygons, e.va, e.vb);
         ka = kb;
+        if (!real || !is_flagged(polygons, first + i) || !near_tile(w, p, i)) continue;
+        if (i > EDGE_MAX) leave(w, index, i);
+        else insert(w, index, i, e, hash);
     }
 }
 
@@ -131,7 +170,7 @@ static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry
     if (w->polygons[e->a].id < w->polygons[e->b].id) return *e;
     const bool opposed = e->opposed;
     return (dp_edge_entry){opposed ? e->vb : e->va, opposed ? e->va : e->vb, e->b, e->a, e->edge_b, e->edge_a,
-                           e->met, e->more, opposed};
+                           e->more, opposed};
 }
 
 /* A line of class `line` along an edge of polygon a, facing along `normal`. */
@@ -153,44 +192,45 @@ static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *f
     if (line >= 0) add_line(w, e, (dp_line)line, fold->normal);
 }
 
-/* A triangle's normal in float32; false where it is too thin for that to be within half a degree. */
-static bool quick_triangle_normal(const dp_polygons *polygons, uint32_t id, float out[3]) {
-    const float *const a = dp_vertex_position(polygons, dp_corner_vertex(polygons, 3 * id));
-    const float *const b = dp_vertex_position(polygons, dp_corner_vertex(polygons, 3 * id + 1));
-    const float *const c = dp_vertex_position(polygons, dp_corner_vertex(polygons, 3 * id + 2));
-    const float ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    const float vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const float n2 = nx * nx + ny * ny + nz * nz;
-    const float u2 = ux * ux + uy * uy + uz * uz, v2 = vx * vx + vy * vy + vz * vz;
-    if (!(n2 > 1e-6f * u2 * v2) || !(n2 > FLT_MIN)) return false;
-    const float inverse = 1 / sqrtf(n2);
-    out[0] = nx * inverse, out[1] = ny * inverse, out[2] = nz * inverse;
+/* The unit normal in float32, for a first look. */
+static void set_normal(dp_tile_worker *w, uint32_t polygon) {
+    const dp_vec3 n = dp_polygon_normal(w->frame, w->polygons[polygon].id);
+    float *const out = w->normals[polygon];
+    out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z;
+}
+
+static bool set_normals(dp_tile_worker *w) {
+    if (!DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)w->polygon_count)) return false;
+    if (!w->frame->polygons.firsts) w->frame->kernels->normals(w);
+    else
+        for (uint32_t i = 0; i < w->seen_count; i++) set_normal(w, w->seen[i]);
     return true;
 }
 
-/* The unit normal in float32, for a first look; made when it is first asked for. */
-static const float *quick_normal(dp_tile_worker *w, uint32_t polygon) {
-    const uint32_t id = w->polygons[polygon].id;
-    float *const normal = w->normals[polygon];
-    if (normal[0] != 0 || normal[1] != 0 || normal[2] != 0) return normal;
-    if (!w->frame->polygons.firsts && quick_triangle_normal(&w->frame->polygons, id, normal)) return normal;
-    const dp_vec3 n = dp_polygon_normal(w->frame, id);
-    normal[0] = (float)n.x, normal[1] = (float)n.y, normal[2] = (float)n.z;
-    return normal;
+void dp_tile_exact_normal(dp_tile_worker *w, uint32_t polygon) { set_normal(w, polygon); }
+
+/* What met at a slot. */
+static dp_edge_entry entry_of(const dp_tile_worker *w, uint32_t slot) {
+    const dp_edge_slot *const s = &w->edge_slots[slot];
+    const ends e = edge_ends(&w->frame->polygons, w->polygons[s->a - 1].id, s->edge_a);
+    return (dp_edge_entry){.va = e.va, .vb = e.vb, .a = s->a - 1, .b = (s->b & DP_SLOT_POLYGON) - 1, .edge_a = s->edge_a,
+                           .edge_b = s->edge_b, .more = s->b & DP_SLOT_MORE ? w->slot_meetings[slot] : 0,
+                           .opposed = !(s->b & DP_SLOT_SAME_WAY)};
 }
 
-/* Most edges are flatter than any threshold; one product tells. */
-static bool is_flat(dp_tile_worker *w, const dp_edge_entry *e) {
-    const float *const a = quick_normal(w, e->a), *const b = quick_normal(w, e->b);
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > w->frame->flat_cosine;
+/* An edge that lies hidden as polygons do; the other polygon at it may be one of these. */
+static bool is_hidden_edge(const dp_tile_worker *w, const dp_edge_slot *s) {
+    const dp_tile_polygon *const p = &w->polygons[s->a - 1];
+    if (p->flags & DP_POLYGON_CLIPPED) return false;
+    const dp_vertex a = w->points[p->point + s->edge_a];
+    const dp_vertex b = w->points[p->point + (s->edge_a + 1u == p->points ? 0 : s->edge_a + 1u)];
+    return dp_tile_hides(w, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x), dp_maxf(a.y, b.y), dp_maxf(a.d, b.d));
 }
 
 static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
     const uint32_t front_a = w->polygons[met->a].flags & DP_POLYGON_FRONT;
     const uint32_t front_b = w->polygons[met->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
-    if (front_a && front_b && is_flat(w, met)) return;
     const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
     const dp_fold fold = dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
     if (front_a && front_b) add_fold(w, e, &fold);
@@ -256,11 +296,6 @@ static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
     add_fold(w, e, &fold);
 }
 
-static void leave(dp_tile_worker *w, uint32_t polygon, uint32_t edge) {
-    if (!DP_WORKER_RESERVE(w, loose, loose_cap, w->loose_count + 1u)) return;
-    w->loose[w->loose_count++] = (dp_loose_edge){polygon, edge};
-}
-
 /* Every edge of every polygon is left to emerge (dp_style.edge_table_off). */
 static void leave_all(dp_tile_worker *w) {
     const dp_polygons *const polygons = &w->frame->polygons;
@@ -277,16 +312,20 @@ void dp_tile_edges(dp_tile_worker *w) {
         leave_all(w);
         return;
     }
-    if (!clear_table(w)) return;
-    for (uint32_t i = 0; i < w->polygon_count; i++)
-        if (!(w->polygons[i].flags & DP_POLYGON_HIDDEN)) insert_polygon(w, i);
-    for (uint32_t i = 0; i < w->polygon_count; i++)
-        if (w->polygons[i].flags & DP_POLYGON_HIDDEN) insert_polygon(w, i);
+    if (!clear_table(w) || !set_normals(w)) return;
+    const bool plain = !w->frame->polygons.firsts && !w->frame->polygons.edge_flags;
+    for (uint32_t i = 0; i < w->seen_count; i++)
+        if (!plain || !insert_triangle(w, w->seen[i])) insert_polygon(w, w->seen[i]);
     for (uint32_t i = 0; i < w->edge_count && !w->failed; i++) {
-        const dp_edge_entry *const e = &w->edges[i];
-        if (e->met == 1) leave(w, e->a, e->edge_a);
-        else if (e->met == 2 && e->opposed) resolve_pair(w, e);
-        else resolve_fan(w, e);
-        w->stats.edges_resolved += e->met > 1;
+        const dp_edge_slot *const s = &w->edge_slots[w->edges[i]];
+        w->stats.edges_resolved += s->b != 0;
+        if (s->b & DP_SLOT_FLAT && !(s->b & DP_SLOT_MORE)) continue;
+        if (!s->b) {
+            if (!is_hidden_edge(w, s)) leave(w, s->a - 1, s->edge_a);
+            continue;
+        }
+        const dp_edge_entry e = entry_of(w, w->edges[i]);
+        if (e.more || !e.opposed) resolve_fan(w, &e);
+        else resolve_pair(w, &e);
     }
 }

@@ -39,7 +39,7 @@ typedef struct emerging {
     uint32_t id;           /* frame polygon */
     dp_vec3 a, b;          /* ends, world space */
     dp_spine spine;
-    uint32_t k0, k1;       /* sample points in the tile, and one px around it */
+    uint32_t k0, k1;       /* sample points in the tile or right beside it */
     uint32_t first;        /* lookup */
 } emerging;
 
@@ -61,7 +61,9 @@ static dp_pointd edge_point(const dp_tile_worker *w, const dp_spine *s, uint32_t
     return p;
 }
 
-static bool near_tile(dp_pointd p) { return p.x >= -1 && p.y >= -1 && p.x <= DP_TILE + 1 && p.y <= DP_TILE + 1; }
+static bool near_tile(dp_pointd p) {
+    return p.x >= -DP_BESIDE && p.y >= -DP_BESIDE && p.x <= DP_TILE + DP_BESIDE && p.y <= DP_TILE + DP_BESIDE;
+}
 
 /* Sample points in and around the tile are consecutive: the tile is convex. */
 static bool find_range(const dp_tile_worker *w, emerging *e) {

@@ -25,7 +25,9 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->polygons);
     dp_free(&memory, worker->normals);
     dp_free(&memory, worker->points);
+    dp_free(&memory, worker->seen);
     dp_free(&memory, worker->edges);
+    dp_free(&memory, worker->slot_meetings);
     dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
     dp_free(&memory, worker->loose);
@@ -48,7 +50,8 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
     return sizeof *w + w->winner_cap * sizeof *w->winner + w->ids_cap * sizeof *w->ids +
            w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
            w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
-           w->slots_cap * sizeof *w->edge_slots + w->candidates_cap * sizeof *w->candidates +
+           w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
+           w->seen_cap * sizeof *w->seen + w->candidates_cap * sizeof *w->candidates +
            w->probes_cap * sizeof *w->probes + w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }

@@ -11,7 +11,7 @@
 #include "pipe/spine.h"
 
 /* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
-#define DP_BESIDE 1.5f
+#define DP_BESIDE 0.5f
 
 enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
 
@@ -42,14 +42,26 @@ typedef struct dp_tile_polygon {
 
 _Static_assert(sizeof(dp_tile_polygon) == 32, "kernel/assemble.inc writes it as two vectors");
 
-/* An edge of the tile's table: what met there. */
+/* A slot of the tile's table of edges: which polygons met there. */
+typedef struct dp_edge_slot {
+    uint32_t hash;
+    uint32_t a; /* 1 + tile polygon that came first; 0: the slot is free */
+    uint32_t b; /* 1 + the second, 0 while it is alone; and DP_SLOT_… */
+    uint16_t edge_a, edge_b; /* corner numbers within the polygons */
+} dp_edge_slot;
+
+#define DP_SLOT_SAME_WAY (1u << 31) /* b runs the edge as a does: the winding disagrees */
+#define DP_SLOT_MORE (1u << 30)     /* there are meetings beyond b */
+#define DP_SLOT_FLAT (1u << 29)     /* a and b make no line */
+#define DP_SLOT_POLYGON (DP_SLOT_FLAT - 1)
+
+/* An edge taken from the table. */
 typedef struct dp_edge_entry {
-    uint32_t va, vb;            /* vertices, in the direction of polygon a */
-    uint32_t a, b;              /* tile polygons; b UINT32_MAX while alone */
-    uint32_t edge_a, edge_b;    /* corner number within the polygon */
-    uint32_t met;               /* how many polygons */
-    uint32_t more;              /* 1 + first of the meetings beyond b, 0: none */
-    bool opposed;               /* b runs it from vb to va, as it should */
+    uint32_t va, vb;         /* vertices, in the direction of polygon a */
+    uint32_t a, b;           /* tile polygons */
+    uint32_t edge_a, edge_b; /* corner number within the polygon */
+    uint32_t more;           /* 1 + first of the meetings beyond b, 0: none */
+    bool opposed;            /* b runs it from vb to va, as it should */
 } dp_edge_entry;
 
 /* A third or later polygon at an edge. */
@@ -105,17 +117,19 @@ struct dp_tile_worker {
 
     uint32_t *ids; /* of the tile's polygons, in the frame */
     dp_tile_polygon *polygons;
-    float (*normals)[3]; /* by polygon: world space, unit; set by edges.c where it needs them */
+    float (*normals)[3]; /* by polygon: world space, unit; of those that are seen, made by edges.c */
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
-    dp_edge_entry *edges;
+    uint32_t *seen; /* polygons that are not hidden, ascending */
+    dp_edge_slot *edge_slots;
+    uint32_t *edges;         /* slots in order of first meeting */
     dp_meeting *meetings;
-    uint32_t *edge_slots; /* 2 * slot_count: hash, 1 + entry */
+    uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t winner_cap, ids_cap, normals_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t winner_cap, ids_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
-    uint32_t polygon_count, point_count, edge_count, meeting_count, slot_count;
+    uint32_t polygon_count, point_count, seen_count, edge_count, meeting_count, slot_count;
     uint32_t candidate_count, probe_count;
     size_t piece_count;
 
@@ -170,6 +184,12 @@ void dp_tile_bare_surface(dp_tile_worker *worker);
 
 /* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
 void dp_tile_quads(dp_tile_worker *worker);
+
+/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
+bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);
+
+/* Sets the normal of a polygon that is too thin for float32 (edges.c). */
+void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
 
 /* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face (assemble.c). */
 void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index);
