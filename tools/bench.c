@@ -9,6 +9,7 @@
 typedef struct bench {
     dp_source *source;
     dp_context *context;
+    dp_texture *texture;
     dp_target target;
     dp_stats *frames; /* [count] */
     uint32_t count;
@@ -57,12 +58,13 @@ static int draw_frames(bench *b, const dp_camera *camera, const dp_style *style,
 
 static int measure(const tool_settings *s, bench *b) {
     const dp_context_desc desc = {.threads = s->threads};
-    const dp_style style = make_style(s);
+    dp_style style = make_style(s);
     dp_extent extent;
     dp_camera camera;
     dp_diag diag = {0};
     int code = measure_model(s, b->source, &extent);
     if (!code) code = make_camera(s, &extent, &camera);
+    if (!code) code = make_stroke(s, &style, &b->texture);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
     return draw_frames(b, &camera, &style, s->model);
@@ -89,6 +91,7 @@ int command_bench(const tool_settings *s) {
     bench b = {0};
     const int code = run(s, &b);
     dp_context_destroy(b.context);
+    dp_texture_destroy(b.texture);
     dp_source_destroy(b.source);
     free(b.frames);
     free(b.target.rgba);

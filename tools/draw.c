@@ -19,6 +19,7 @@ static bool check_ending(const char *path) {
 typedef struct drawing {
     dp_source *source;
     dp_context *context;
+    dp_texture *texture;
     dp_target target;
     dp_stats stats;
 } drawing;
@@ -29,7 +30,9 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     const int wrong = make_camera(s, extent, &camera);
     if (wrong) return wrong;
     const dp_context_desc desc = {.threads = s->threads, .progress = progress_report};
-    const dp_style style = make_style(s);
+    dp_style style = make_style(s);
+    const int wrong_stroke = make_stroke(s, &style, &d->texture);
+    if (wrong_stroke) return wrong_stroke;
     dp_diag diag = {0};
     d->target = make_target(s);
     d->target.rgba = malloc((size_t)4 * d->target.width * d->target.height);
@@ -85,6 +88,7 @@ int command_draw(const tool_settings *s) {
     drawing d = {0};
     const int code = run(s, &d);
     dp_context_destroy(d.context);
+    dp_texture_destroy(d.texture);
     dp_source_destroy(d.source);
     free(d.target.rgba);
     return code;

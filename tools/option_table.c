@@ -11,7 +11,7 @@
 #define EVERY      (DRAW | INFO | MAKE | BENCH)
 #define AT(member) offsetof(tool_settings, member)
 
-const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "How lines are found",
+const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "Strokes", "How lines are found",
                                               "Model",   "Program", NULL};
 
 /* clang-format off */
@@ -65,6 +65,33 @@ const option option_table[] = {
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
      "Edges whose dihedral angle is above this are valleys. Default: 210."},
 
+    {"stroke", 0, "NAME|FILE.png", OPTION_TEXT, GROUP_STROKES, PICTURE, AT(stroke), 0, 0, 0,
+     "Draw lines with a texture: pencil, brush, charcoal, ink, dashes, dots, or any PNG (black is ink, or its alpha)."},
+    {"stroke-u", 0, "arc|polar", OPTION_WORD, GROUP_STROKES, PICTURE, AT(stroke_u), 0, 0, 0,
+     "Lay textures along lines by their length, or by the angle and distance from the model's centre (Hermosilla and "
+     "Vazquez 2010). Default: arc; with --edges adjacency, polar."},
+    {"stroke-k", 0, "F", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(stroke_k), AT(has_stroke_k), -100, 100,
+     "Polar: weight of the distance, per half a picture height; 0 for round models. Default: 0.5."},
+    {"stroke-scale", 0, "F", OPTION_INSIDE, GROUP_STROKES, PICTURE, AT(stroke_scale), 0, 0, 1000,
+     "How many times longer than natural textures are. Default: 1."},
+    {"taper", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(taper), AT(has_taper), 0, 10000,
+     "Strokes thin out over this length at both ends. Default: what suits --stroke."},
+    {"jitter", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(jitter), AT(has_jitter), 0, 64,
+     "How far the hand is off the line, about. Default: what suits --stroke."},
+    {"overshoot", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(overshoot), AT(has_overshoot), 0, 1000,
+     "How far strokes run on beyond their ends. Default: what suits --stroke."},
+    {"repeats", 0, "N", OPTION_COUNT, GROUP_STROKES, PICTURE, AT(repeats), 0, 1, 8,
+     "Draw each line so often, each time with other small errors. Default: 1."},
+    {"width-by-depth", 0, "F", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(width_by_depth), 0, 0, 1,
+     "How much thinner the farthest lines are than the nearest, from 0 to 1. Default: 0."},
+    {"width-by-light", 0, "F", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(width_by_light), 0, 0, 1,
+     "How much thinner lines on the lit side are, from 0 to 1. Default: 0."},
+    {"seed", 0, "N", OPTION_COUNT, GROUP_STROKES, PICTURE, AT(seed), 0, 0, 4294967295.0,
+     "Another number makes other errors of the hand, and another texture of the same kind. Default: 0."},
+
+    {"edges", 0, "emergent|adjacency", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edges), 0, 0, 0,
+     "Where lines come from: found in each tile as they emerge, with nothing known about neighbours, or by adjacency "
+     "that is built once per model (Hermosilla and Vazquez 2010). Default: emergent."},
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
      "With --ink quads: build added polygons on the screen, exact in pixels, or by the formulas of "
      "Raskar 2001 as printed. Default: exact."},

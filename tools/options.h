@@ -25,6 +25,7 @@ typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 /* Words of an option: their index in the table's argument text, from 1; 0 is "not said". */
 enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 enum { SWITCH_ON = 1, SWITCH_OFF };
+enum { STROKE_ARC = 1, STROKE_POLAR };
 
 /* Everything the command line can say; zero is "not said". */
 typedef struct tool_settings {
@@ -47,8 +48,14 @@ typedef struct tool_settings {
 
     dp_style style; /* lines, widths and colours; the rest is below */
     double ridge_angle, valley_angle;
-    int method, between, ink, edge_table; /* words */
+    int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
+
+    const char *stroke; /* a name, or a PNG file */
+    int stroke_u;       /* word */
+    double stroke_k, stroke_scale, taper, jitter, overshoot, width_by_depth, width_by_light;
+    bool has_stroke_k, has_taper, has_jitter, has_overshoot;
+    uint32_t repeats;
 
     stats_kind stats;
     bool json, quiet;
@@ -80,6 +87,7 @@ typedef enum option_group {
     GROUP_PICTURE = 0,
     GROUP_CAMERA,
     GROUP_LINES,
+    GROUP_STROKES,
     GROUP_METHOD,
     GROUP_MODEL,
     GROUP_PROGRAM,

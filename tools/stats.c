@@ -27,6 +27,7 @@ static const count counts[] = {
     {"added_polygons", "polygons added", AT(added_polygons)},
     {"segments", "visible segments", AT(segments)},
     {"bytes", "bytes of scratch memory", AT(bytes)},
+    {"adjacency_bytes", "  adjacency", AT(adjacency_bytes)},
 };
 
 static unsigned long long value_of(const dp_stats *stats, const count *c) {

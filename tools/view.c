@@ -151,8 +151,11 @@ dp_style make_style(const tool_settings *s) {
     dp_style style = s->style;
     style.ridge_angle = (float)s->ridge_angle;
     style.valley_angle = (float)s->valley_angle;
+    if (s->edges) style.edges = (dp_edges)(s->edges - 1);
     if (s->method) style.method = (dp_method)(s->method - 1);
     if (s->between) style.between = (dp_between)(s->between - 1);
+    /* extruded geometry is what adjacency is for */
+    if (style.edges == DP_EDGES_ADJACENCY) style.ink = DP_INK_QUADS;
     if (s->ink) style.ink = (dp_ink)(s->ink - 1);
     style.passes = s->passes;
     style.cull_back_faces = s->cull_back_faces;

@@ -110,6 +110,8 @@ typedef struct dp_stats {
     uint64_t added_polygons;   /* by the primitive shaders; counted per tile */
     uint64_t segments;
     uint64_t bytes;            /* scratch memory held by the context */
+    uint64_t adjacency_bytes;  /* of it, adjacency (DP_EDGES_ADJACENCY) */
+    double adjacency_ms;       /* building that took, in the frame that built it; otherwise 0 */
     double stage_ms[DP_STAGE_COUNT];
     double frame_ms;
 } dp_stats;

@@ -2,12 +2,14 @@
 #ifndef DRYPOINT_DRYPOINT_H
 #define DRYPOINT_DRYPOINT_H
 
+#include <drypoint/adjacency.h>
 #include <drypoint/base.h>
 #include <drypoint/camera.h>
 #include <drypoint/draw.h>
 #include <drypoint/immediate.h>
 #include <drypoint/shapes.h>
 #include <drypoint/source.h>
+#include <drypoint/strokes.h>
 #include <drypoint/style.h>
 
 #endif

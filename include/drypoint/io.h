@@ -6,6 +6,7 @@
 #define DRYPOINT_IO_H
 
 #include <drypoint/source.h>
+#include <drypoint/strokes.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,6 +35,10 @@ typedef struct dp_io_picture {
 } dp_io_picture;
 
 DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag);
+
+/* A stroke texture from a PNG of any kind, at most 8192 px wide and high; what of it is ink: dp_texture_create.
+ * DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */
+DP_API dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator, dp_texture **out, dp_diag *diag);
 
 typedef enum dp_mesh_file {
     DP_MESH_FILE_AUTO = 0, /* by the name's ending */

@@ -19,6 +19,15 @@ extern "C" {
 
 typedef struct dp_source dp_source;
 
+/* What corners carry besides a position. A corner's value is that of number `indices[corner]`, or of its
+ * vertex's number where there are no indices; a number out of range (UINT32_MAX, say) is none. */
+typedef struct dp_attribute {
+    const float *values;     /* NULL: there is none */
+    size_t stride;           /* bytes from one to the next; 0: tight */
+    size_t count;            /* how many values */
+    const uint32_t *indices; /* corner_count value numbers, or NULL */
+} dp_attribute;
+
 /* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
  * `stable` is set, until the source is destroyed. */
 typedef struct dp_batch {
@@ -31,6 +40,9 @@ typedef struct dp_batch {
     size_t polygon_count;      /* 0: the source is at its end */
     const uint8_t *edge_flags; /* per corner: 0 = the edge to the next corner never draws; or NULL */
     const uint16_t *groups;    /* per polygon: its group (object, material, …), or NULL: group 0 */
+    dp_attribute normals;      /* x, y, z each, of any length; length 0 is none. For shading: what is a
+                                  front and what a line follows from the positions alone */
+    dp_attribute texcoords;    /* u, v each */
     bool stable;               /* the memory stays as it is while the source lives */
 } dp_batch;
 
@@ -63,7 +75,7 @@ typedef enum dp_file_format {
     DP_FORMAT_AUTO = 0, /* by content first, then by the name's ending */
     DP_FORMAT_STL,      /* ASCII or binary */
     DP_FORMAT_PLY,      /* ASCII, binary little or big endian; faces or tristrips */
-    DP_FORMAT_OBJ,      /* v, f, g, o, usemtl; relative indices */
+    DP_FORMAT_OBJ,      /* v, vn, vt, f, g, o, usemtl; relative indices */
     DP_FORMAT_OFF       /* OFF and COFF, NOFF, … without their extras; ASCII */
 } dp_file_format;
 

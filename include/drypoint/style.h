@@ -8,6 +8,7 @@
 #define DRYPOINT_STYLE_H
 
 #include <drypoint/base.h>
+#include <drypoint/strokes.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,6 +52,12 @@ typedef enum dp_between {
     DP_BETWEEN_STENCIL    /* the appendix: one depth and one stencil buffer, three passes */
 } dp_between;
 
+/* Where lines come from. */
+typedef enum dp_edges {
+    DP_EDGES_EMERGENT = 0, /* from the tiles: nothing is known about neighbours beforehand */
+    DP_EDGES_ADJACENCY     /* from adjacency, built once per topology (Hermosilla and Vázquez 2010, 2.3) */
+} dp_edges;
+
 typedef enum dp_ink {
     DP_INK_STROKES = 0, /* visible feature segments, drawn as round strokes */
     DP_INK_QUADS        /* the added polygons are the line, as in the paper; nothing tells a border
@@ -68,6 +75,8 @@ typedef struct dp_style {
     dp_line_style line[DP_LINE_COUNT]; /* indexed by dp_line */
     float ridge_angle;                 /* theta, degrees in (0, 360); 0 means 150 */
     float valley_angle;                /* phi, degrees in (0, 360); 0 means 210 */
+    dp_edges edges;
+    dp_stroke_style stroke;            /* textures, taper, jitter: strokes.h */
     dp_method method;
     dp_between between;
     dp_ink ink;

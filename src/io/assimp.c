@@ -3,7 +3,8 @@
  * The scene's nodes are walked with their transforms, so that every instance of a mesh becomes
  * vertices and polygons of its own in world space; where a transform mirrors, corners are turned
  * round so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or
- * triangulated, and everything but positions and faces is left out early.
+ * triangulated, and everything but positions, normals, texture coordinates and faces is left out
+ * early.
  *
  * Does not handle: animation, bones and morph targets (models come in their bind pose), points,
  * lines, reading from a pipe; progress is reported before and after, as Assimp cannot be stopped
@@ -53,6 +54,35 @@ static bool mirrors(const transform *t) {
     return determinant < 0;
 }
 
+/* Normals turn with the matrix of cofactors; a mirroring transform changes its sign. */
+static void turn_normal(const transform *t, struct aiVector3D n, float to[3]) {
+    const double(*const m)[4] = t->row;
+    const double sign = mirrors(t) ? -1 : 1, v[3] = {n.x, n.y, n.z};
+    for (int r = 0; r < 3; r++) {
+        const int i = (r + 1) % 3, j = (r + 2) % 3;
+        double sum = 0;
+        for (int c = 0; c < 3; c++) {
+            const int k = (c + 1) % 3, l = (c + 2) % 3;
+            sum += v[c] * (m[i][k] * m[j][l] - m[i][l] * m[j][k]);
+        }
+        to[r] = (float)(sign * sum);
+    }
+}
+
+static bool add_attributes(dp_builder *builder, const struct aiMesh *mesh, unsigned i, const transform *t) {
+    if (mesh->mNormals) {
+        float *const to = dp_builder_vertex_value(builder, &builder->normals, 3);
+        if (!to) return false;
+        turn_normal(t, mesh->mNormals[i], to);
+    }
+    if (mesh->mTextureCoords[0]) {
+        float *const to = dp_builder_vertex_value(builder, &builder->texcoords, 2);
+        if (!to) return false;
+        to[0] = mesh->mTextureCoords[0][i].x, to[1] = mesh->mTextureCoords[0][i].y;
+    }
+    return true;
+}
+
 static bool add_vertices(dp_builder *builder, const struct aiMesh *mesh, const transform *t) {
     for (unsigned i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D p = mesh->mVertices[i];
@@ -61,6 +91,7 @@ static bool add_vertices(dp_builder *builder, const struct aiMesh *mesh, const t
         for (int r = 0; r < 3; r++)
             to[r] = (float)(t->row[r][0] * p.x + t->row[r][1] * p.y + t->row[r][2] * p.z +
                             t->row[r][3]);
+        if (!add_attributes(builder, mesh, i, t)) return false;
     }
     return true;
 }
@@ -123,12 +154,11 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
     return DP_OK;
 }
 
-/* Positions and faces only; FBX without the helper nodes that its pivots would become. */
+/* Positions, normals, texture coordinates and faces only; FBX without the helper nodes that its pivots would become. */
 static const struct aiScene *import(const char *path) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     if (!properties) return NULL;
-    const int dropped = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                        aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
+    const int dropped = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_BONEWEIGHTS |
                         aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
                         aiComponent_CAMERAS;
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, dropped);

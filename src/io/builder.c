@@ -20,6 +20,10 @@ void dp_builder_destroy(dp_builder *builder) {
     dp_free(&builder->allocator, builder->indices);
     dp_free(&builder->allocator, builder->firsts);
     dp_free(&builder->allocator, builder->groups);
+    dp_free(&builder->allocator, builder->normals.values);
+    dp_free(&builder->allocator, builder->normals.indices);
+    dp_free(&builder->allocator, builder->texcoords.values);
+    dp_free(&builder->allocator, builder->texcoords.indices);
     dp_groups_destroy(&builder->names);
 }
 
@@ -82,6 +86,39 @@ bool dp_builder_close_unusual(dp_builder *builder, uint16_t group) {
     return true;
 }
 
+float *dp_builder_value(dp_builder *builder, dp_builder_attribute *a, size_t width) {
+    if (a->count + 1 >= UINT32_MAX ||
+        !dp_reserve(&builder->allocator, &a->values, &a->capacity, a->count + 1,
+                    width * sizeof(float)))
+        return NULL;
+    return a->values + width * a->count++;
+}
+
+float *dp_builder_vertex_value(dp_builder *builder, dp_builder_attribute *a, size_t width) {
+    if (!dp_reserve(&builder->allocator, &a->values, &a->capacity, builder->vertex_count,
+                    width * sizeof(float)))
+        return NULL;
+    const size_t last = builder->vertex_count - 1;
+    memset(a->values + width * a->count, 0, (last - a->count) * width * sizeof(float));
+    a->count = builder->vertex_count;
+    return a->values + width * last;
+}
+
+/* Indices for all corners up to `count`. */
+static bool fill_indices(dp_builder *builder, dp_builder_attribute *a, size_t count) {
+    if (!dp_reserve(&builder->allocator, &a->indices, &a->index_capacity, count,
+                    sizeof *a->indices))
+        return false;
+    for (; a->indexed < count; a->indexed++) a->indices[a->indexed] = UINT32_MAX;
+    return true;
+}
+
+bool dp_builder_corner_value(dp_builder *builder, dp_builder_attribute *a, uint32_t number) {
+    if (!fill_indices(builder, a, builder->corner_count)) return false;
+    a->indices[builder->corner_count - 1] = number;
+    return true;
+}
+
 dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag) {
     if (builder->vertex_count >= UINT32_MAX || builder->corner_count >= UINT32_MAX)
         return dp_fail(
@@ -89,6 +126,12 @@ dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag) {
             "more than 4294967295 vertices or corners: split the model into several files");
     return dp_fail(diag, DP_ERR_MEMORY, "out of memory after %zu vertices and %zu polygons",
                    builder->vertex_count, builder->polygon_count);
+}
+
+static dp_attribute attribute_of(const dp_builder_attribute *a) {
+    return (dp_attribute){.values = a->count ? a->values : NULL,
+                          .count = a->count,
+                          .indices = a->indices};
 }
 
 /* The source. */
@@ -110,6 +153,8 @@ static dp_result mesh_next(void *user, dp_batch *batch, dp_diag *diag) {
                         .firsts = built->firsts,
                         .polygon_count = built->polygon_count,
                         .groups = built->groups,
+                        .normals = attribute_of(&built->normals),
+                        .texcoords = attribute_of(&built->texcoords),
                         .stable = true};
     return DP_OK;
 }
@@ -158,6 +203,11 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
                        builder->vertex_count ? "points but no polygons" : "no polygons");
     /* Polygons without any vertex are for the engine to drop, but a batch needs an array. */
     if (!builder->positions && !dp_builder_expect_vertices(builder, 1))
+        return dp_builder_fail(builder, diag);
+    if ((builder->normals.indices &&
+         !fill_indices(builder, &builder->normals, builder->corner_count)) ||
+        (builder->texcoords.indices &&
+         !fill_indices(builder, &builder->texcoords, builder->corner_count)))
         return dp_builder_fail(builder, diag);
     mesh *const self = dp_alloc(&builder->allocator, sizeof *self);
     if (!self) return dp_builder_fail(builder, diag);

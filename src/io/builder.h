@@ -5,6 +5,14 @@
 #include "io/groups.h"
 #include <drypoint/source.h>
 
+/* What corners carry besides a position. */
+typedef struct dp_builder_attribute {
+    float *values;     /* [count][3 or 2] */
+    uint32_t *indices; /* per corner; NULL while values are numbered as vertices are */
+    size_t count, capacity, index_capacity;
+    size_t indexed;    /* corners that have an index */
+} dp_builder_attribute;
+
 typedef struct dp_builder {
     dp_allocator allocator;
     float *positions; /* [vertex_count][3] */
@@ -18,6 +26,7 @@ typedef struct dp_builder {
     size_t polygon_count;
     size_t closed; /* corners of the polygons that are closed */
     dp_groups names;
+    dp_builder_attribute normals, texcoords; /* 3 and 2 floats each */
 } dp_builder;
 
 void dp_builder_init(dp_builder *builder, const dp_allocator *allocator);
@@ -57,6 +66,13 @@ static inline bool dp_builder_close(dp_builder *builder, uint16_t group) {
     builder->closed += 3;
     return true;
 }
+
+/* Room for one more value of `width` floats; NULL when memory is out. */
+float *dp_builder_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);
+/* The same, in step with the vertices: zeros for those before the last vertex that got none. */
+float *dp_builder_vertex_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);
+/* The value of the last corner; corners before it that got none have none. False: dp_builder_fail. */
+bool dp_builder_corner_value(dp_builder *builder, dp_builder_attribute *attribute, uint32_t number);
 
 /* Says why the last call returned NULL or false: DP_ERR_LIMIT or DP_ERR_MEMORY. */
 dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag);

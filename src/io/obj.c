@@ -1,12 +1,13 @@
-/* Wavefront OBJ: vertices and faces, read whole.
+/* Wavefront OBJ: vertices, faces, normals and texture coordinates, read whole.
  *
  * Polygons stay polygons. A face's group is named by what holds at its line,
  * "object/group/material" without the parts that were not given; groups are numbered as their first
  * face comes. An index that names no vertex (0, before the first vertex, beyond 32 bits) becomes
- * UINT32_MAX: the engine drops the face and counts it.
+ * UINT32_MAX: the engine drops the face and counts it. One that names no normal or texture
+ * coordinate is none.
  *
- * Does not handle: free-form curves and surfaces, points, lines, texture coordinates, normals,
- * smoothing groups, material files; their lines are passed over. */
+ * Does not handle: free-form curves and surfaces, points, lines, smoothing groups, material files;
+ * their lines are passed over. */
 #include "io/readers.h"
 
 #include "io/number.h"
@@ -40,6 +41,17 @@ static dp_result read_vertex(obj *self) {
     return DP_OK;
 }
 
+/* vn x y z, or vt u [v [w]]: what is missing or no number is 0, as nothing but shading asks. */
+static dp_result read_value(obj *self, dp_builder_attribute *attribute, size_t width) {
+    float value[3] = {0};
+    for (size_t k = 0; k < width && dp_text_blank(self->stream); k++)
+        if (!dp_text_float(self->stream, &value[k])) break;
+    float *const to = dp_builder_value(self->builder, attribute, width);
+    if (!to) return dp_builder_fail(self->builder, self->diag);
+    memcpy(to, value, width * sizeof *to);
+    return DP_OK;
+}
+
 /* The names that hold, joined, as a group number. */
 static dp_result find_group(obj *self) {
     char joined[NAME_KINDS * NAME] = "";
@@ -56,18 +68,38 @@ static dp_result find_group(obj *self) {
     return dp_builder_fail(self->builder, self->diag);
 }
 
-/* v, v/vt, v//vn or v/vt/vn at the cursor: only v counts. */
-static inline bool read_corner(dp_stream *stream, int64_t *index) {
+/* A number behind a slash; 0 where there is none. Only digits and a sign come here. */
+static inline const uint8_t *read_more(const uint8_t *p, int64_t *number) {
+    const bool negative = *p == '-';
+    int64_t value = 0;
+    p += negative;
+    for (; *p >= '0' && *p <= '9'; p++)
+        if (value < INT64_C(1) << 40) value = 10 * value + (*p - '0');
+    *number = negative ? -value : value;
+    return p;
+}
+
+/* v, v/vt, v//vn or v/vt/vn at the cursor; more[0] is vt's number, more[1] vn's, 0: none. */
+static inline bool read_corner(dp_stream *stream, int64_t *index, int64_t more[2]) {
     const uint8_t *p = stream->cursor;
     uint32_t number = 0;
     for (uint32_t digit; (digit = (uint32_t)*p - '0') <= 9; p++) number = number * 10 + digit;
     *index = number;
     if ((size_t)(p - stream->cursor) - 1 > 8) p = dp_number_int(stream->cursor, index);
     if (!p) return false;
+    more[0] = more[1] = 0;
+    for (int k = 0; k < 2 && *p == '/'; k++) p = read_more(p + 1, &more[k]);
     while (*p == '/' || *p == '-' || (*p >= '0' && *p <= '9')) p++;
     const bool ended = p == stream->end ? stream->at_end : *p <= ' ' || *p == '\\';
     if (ended) stream->cursor = p;
     return ended;
+}
+
+/* The last corner's normal or texture coordinate, numbered from 1 or back from the end. */
+static bool set_value(dp_builder *builder, dp_builder_attribute *attribute, int64_t number) {
+    number += number < 0 ? (int64_t)attribute->count : -1;
+    const bool fits = number >= 0 && number < UINT32_MAX;
+    return dp_builder_corner_value(builder, attribute, fits ? (uint32_t)number : UINT32_MAX);
 }
 
 static dp_result read_face(obj *self) {
@@ -76,12 +108,15 @@ static dp_result read_face(obj *self) {
         if (result) return result;
     }
     while (dp_text_blank(self->stream)) {
-        int64_t index;
+        int64_t index, more[2];
         if (*self->stream->cursor == '#') break;
-        if (!read_corner(self->stream, &index))
+        if (!read_corner(self->stream, &index, more))
             return dp_text_expected(self->stream, self->diag, "a face's vertex number");
         index += index < 0 ? (int64_t)self->builder->vertex_count : -1;
         if (!dp_builder_corner(self->builder, index))
+            return dp_builder_fail(self->builder, self->diag);
+        if ((more[0] && !set_value(self->builder, &self->builder->texcoords, more[0])) ||
+            (more[1] && !set_value(self->builder, &self->builder->normals, more[1])))
             return dp_builder_fail(self->builder, self->diag);
     }
     if (!dp_builder_close(self->builder, self->group))
@@ -111,6 +146,8 @@ static dp_result read_line(obj *self) {
     dp_stream *const stream = self->stream;
     if (keyword(stream, "v")) return read_vertex(self);
     if (keyword(stream, "f")) return read_face(self);
+    if (keyword(stream, "vn")) return read_value(self, &self->builder->normals, 3);
+    if (keyword(stream, "vt")) return read_value(self, &self->builder->texcoords, 2);
     if (keyword(stream, "o")) return read_name(self, OBJECT);
     if (dp_text_match(stream, "g")) return read_name(self, GROUP); /* may stand alone */
     if (keyword(stream, "usemtl")) return read_name(self, MATERIAL);

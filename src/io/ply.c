@@ -227,7 +227,8 @@ static dp_result read_list(ply *self, const dp_ply_property *property) {
     return DP_OK;
 }
 
-static dp_result read_item(ply *self, float *position) {
+/* `more`: the normal, then the texture coordinates, of a vertex. */
+static dp_result read_item(ply *self, float *position, float more[5]) {
     const dp_ply_property *property = self->header.properties + self->element->first;
     const dp_ply_property *const end = property + self->element->properties;
     for (; property < end; property++) {
@@ -236,7 +237,9 @@ static dp_result read_item(ply *self, float *position) {
             if (result) return result;
         } else if (property->role == DP_PLY_SKIP) {
             if (!skip_scalars(self, property->type, 1)) return expected(self, "a value");
-        } else if (!next_float(self, property->type, &position[property->role - DP_PLY_X])) {
+        } else if (!next_float(self, property->type,
+                               property->role <= DP_PLY_Z ? &position[property->role - DP_PLY_X]
+                                                          : &more[property->role - DP_PLY_NX])) {
             return expected(self, "a coordinate");
         }
     }
@@ -267,16 +270,36 @@ static bool expect_items(ply *self) {
     return true;
 }
 
+/* Normals and texture coordinates that are there whole, in step with the vertices. */
+static bool keep_more(ply *self, const float more[5]) {
+    dp_builder *const builder = self->builder;
+    const unsigned normal = 7u << DP_PLY_NX, texcoord = 3u << DP_PLY_S;
+    if ((self->element->roles & normal) == normal) {
+        float *const to = dp_builder_vertex_value(builder, &builder->normals, 3);
+        if (!to) return false;
+        memcpy(to, more, 3 * sizeof *to);
+    }
+    if ((self->element->roles & texcoord) == texcoord) {
+        float *const to = dp_builder_vertex_value(builder, &builder->texcoords, 2);
+        if (!to) return false;
+        memcpy(to, more + 3, 2 * sizeof *to);
+    }
+    return true;
+}
+
 static dp_result read_element(ply *self, const dp_ply_element *element) {
     self->element = element;
     if (!element->properties) return DP_OK; /* takes no byte, however many are announced */
     if (!expect_items(self)) return dp_builder_fail(self->builder, self->diag);
     dp_result result = DP_OK;
-    float none[3];
+    float none[3], more[5];
+    const bool has_more = element->kind == DP_PLY_VERTEX && element->roles >> DP_PLY_NX & 31;
     for (self->item = 0; self->item < element->count && !result; self->item++) {
         float *const to = element->kind == DP_PLY_VERTEX ? dp_builder_vertex(self->builder) : none;
         if (!to) return dp_builder_fail(self->builder, self->diag);
-        result = read_item(self, to);
+        result = read_item(self, to, more);
+        if (!result && has_more && !keep_more(self, more))
+            result = dp_builder_fail(self->builder, self->diag);
     }
     return result;
 }

@@ -23,6 +23,11 @@ typedef enum dp_ply_role {
     DP_PLY_X,
     DP_PLY_Y,
     DP_PLY_Z,
+    DP_PLY_NX,
+    DP_PLY_NY,
+    DP_PLY_NZ,
+    DP_PLY_S, /* texture coordinates: s, t; u, v; texture_u, texture_v */
+    DP_PLY_T,
     DP_PLY_POLYGON, /* a list of vertex numbers */
     DP_PLY_STRIP    /* a list of vertex numbers, strips with -1 between them */
 } dp_ply_role;

@@ -60,11 +60,15 @@ static dp_result read_type(header_reader *self, dp_ply_type *type) {
 }
 
 static dp_ply_role role_of(dp_ply_kind kind, bool list, const char *name) {
-    if (kind == DP_PLY_VERTEX && !list && name[0] && !name[1]) {
-        if (name[0] == 'x') return DP_PLY_X;
-        if (name[0] == 'y') return DP_PLY_Y;
-        if (name[0] == 'z') return DP_PLY_Z;
-    }
+    static const struct {
+        const char *name;
+        dp_ply_role role;
+    } roles[] = {{"x", DP_PLY_X},        {"y", DP_PLY_Y},        {"z", DP_PLY_Z},
+                 {"nx", DP_PLY_NX},      {"ny", DP_PLY_NY},      {"nz", DP_PLY_NZ},
+                 {"s", DP_PLY_S},        {"t", DP_PLY_T},        {"u", DP_PLY_S},
+                 {"v", DP_PLY_T},        {"texture_u", DP_PLY_S}, {"texture_v", DP_PLY_T}};
+    for (size_t i = 0; kind == DP_PLY_VERTEX && !list && i < sizeof roles / sizeof *roles; i++)
+        if (strcmp(roles[i].name, name) == 0) return roles[i].role;
     if (!list || (strcmp(name, "vertex_indices") != 0 && strcmp(name, "vertex_index") != 0))
         return DP_PLY_SKIP;
     return kind == DP_PLY_FACE        ? DP_PLY_POLYGON

@@ -26,6 +26,8 @@ void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocato
     dp_free(allocator, store->source_polygon);
     dp_free(allocator, store->edge_flags);
     dp_free(allocator, store->groups);
+    dp_attribute_store_free(&store->normals, allocator);
+    dp_attribute_store_free(&store->texcoords, allocator);
     dp_free(allocator, store->scratch.at);
     dp_free(allocator, store->scratch.links);
     dp_free(allocator, store->scratch.triangles);
@@ -92,6 +94,8 @@ static void use_as_is(const dp_batch *batch, dp_polygons *out, dp_stats *stats) 
                          .firsts = batch->firsts,
                          .edge_flags = batch->edge_flags,
                          .groups = batch->groups,
+                         .normals = batch->normals,
+                         .texcoords = batch->texcoords,
                          .count = (uint32_t)batch->polygon_count};
     stats->polygons = batch->polygon_count;
     const uint64_t corners = batch->firsts ? batch->firsts[batch->polygon_count] - batch->firsts[0]
@@ -108,7 +112,9 @@ static bool reserve_polygon(gatherer *g, size_t corners) {
            dp_reserve(g->memory, &s->edge_flags, &s->flags_cap, c, 1) &&
            dp_reserve(g->memory, &s->firsts, &s->firsts_cap, n + 1, sizeof *s->firsts) &&
            dp_reserve(g->memory, &s->source_polygon, &s->source_cap, n, sizeof *s->source_polygon) &&
-           dp_reserve(g->memory, &s->groups, &s->groups_cap, n, sizeof *s->groups);
+           dp_reserve(g->memory, &s->groups, &s->groups_cap, n, sizeof *s->groups) &&
+           dp_attribute_reserve_corners(&s->normals, c, g->memory) &&
+           dp_attribute_reserve_corners(&s->texcoords, c, g->memory);
 }
 
 static void begin_polygon(gatherer *g, const dp_batch *batch, size_t i) {
@@ -126,6 +132,8 @@ static void add_corner(gatherer *g, uint32_t base, const dp_batch *batch, size_t
     s->corners[s->corner_count] = vertex < batch->vertex_count ? base + vertex : UINT32_MAX;
     s->edge_flags[s->corner_count] = flag;
     if (!flag) g->has_flags = true;
+    dp_attribute_add_corner(&s->normals, &batch->normals, corner, vertex, s->corner_count);
+    dp_attribute_add_corner(&s->texcoords, &batch->texcoords, corner, vertex, s->corner_count);
     s->corner_count++;
 }
 
@@ -184,7 +192,9 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
         return dp_fail(g->diag, DP_ERR_LIMIT, "more than %u vertices, corners or polygons",
                        UINT32_MAX / 4);
     if (!dp_reserve(g->memory, &s->positions, &s->positions_cap, 3 * (base + batch->vertex_count),
-                    sizeof *s->positions))
+                    sizeof *s->positions) ||
+        !dp_attribute_add_values(&s->normals, &batch->normals, 3, s->corner_count, g->memory) ||
+        !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory))
         return out_of_memory(g);
     for (size_t v = 0; v < batch->vertex_count; v++)
         memcpy(s->positions + 3 * (base + v), batch_position(batch, (uint32_t)v), 3 * sizeof(float));
@@ -210,6 +220,8 @@ static void use_store(const gatherer *g, dp_polygons *out) {
                          .edge_flags = g->has_flags ? s->edge_flags : NULL,
                          .source_polygon = g->has_source ? s->source_polygon : NULL,
                          .groups = g->has_groups ? s->groups : NULL,
+                         .normals = dp_attribute_of_store(&s->normals, 3),
+                         .texcoords = dp_attribute_of_store(&s->texcoords, 2),
                          .count = (uint32_t)s->polygons};
 }
 
@@ -243,6 +255,8 @@ dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocat
         if (result) return result;
     }
     store->vertices = store->corner_count = store->polygons = 0;
+    store->normals.count = store->texcoords.count = 0;
+    store->normals.used = store->texcoords.used = false;
     gatherer g = {.store = store, .memory = allocator, .stats = stats, .diag = diag};
     return gather(&g, source, out);
 }

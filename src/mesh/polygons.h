@@ -2,7 +2,7 @@
 #ifndef DP_MESH_POLYGONS_H
 #define DP_MESH_POLYGONS_H
 
-#include "base/memory.h"
+#include "mesh/attributes.h"
 #include <drypoint/draw.h>
 #include <drypoint/source.h>
 
@@ -18,6 +18,7 @@ typedef struct dp_polygons {
     const uint8_t *edge_flags;
     const uint32_t *source_polygon; /* NULL: the same number */
     const uint16_t *groups;
+    dp_attribute normals, texcoords;
     uint32_t count;
 } dp_polygons;
 
@@ -38,6 +39,7 @@ typedef struct dp_polygon_store {
     uint16_t *groups;
     size_t positions_cap, corners_cap, firsts_cap, source_cap, flags_cap, groups_cap;
     size_t vertices, corner_count, polygons;
+    dp_attribute_store normals, texcoords;
 } dp_polygon_store;
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator);

@@ -94,6 +94,8 @@ dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag) {
         return result;
     }
     if (!batch->position_stride) batch->position_stride = 3 * sizeof(float);
+    if (!batch->normals.stride) batch->normals.stride = 3 * sizeof(float);
+    if (!batch->texcoords.stride) batch->texcoords.stride = 2 * sizeof(float);
     return check_table(batch, diag);
 }
 

@@ -2,6 +2,7 @@
 #ifndef DP_PIPE_CONTEXT_H
 #define DP_PIPE_CONTEXT_H
 
+#include "mesh/adjacency.h"
 #include "pipe/stages.h"
 #include "pipe/tile.h"
 #include "strokes/stroke.h"
@@ -21,7 +22,8 @@ struct dp_context {
     dp_tile_worker *tile_workers; /* [workers] */
     dp_ink_worker *ink_workers;   /* [workers] */
     dp_frame frame;
-    size_t vertices_cap, depth_cap, pieces_cap;
+    dp_adjacency adjacency; /* of the last source that asked for it */
+    size_t vertices_cap, depth_cap, pieces_cap, facing_cap, outlined_cap;
 
     dp_stats stats;
     dp_recording *recording; /* made when first used */

@@ -9,6 +9,9 @@
 #include "base/diag.h"
 #include "features/features.h"
 #include "kernel/kernels.h"
+#include "pipe/adjacent.h"
+#include "pipe/fringe.h"
+#include "pipe/normals.h"
 #include "pipe/outline.h"
 
 #include <string.h>
@@ -77,6 +80,9 @@ void dp_context_destroy(dp_context *c) {
     dp_free(&memory, c->frame.vertices);
     dp_free(&memory, c->frame.depth);
     dp_free(&memory, c->frame.tile_pieces);
+    dp_free(&memory, c->frame.facing);
+    dp_free(&memory, c->frame.outlined);
+    dp_adjacency_free(&c->adjacency, &memory);
     dp_recording_free(c);
     dp_free(&memory, c);
 }
@@ -209,7 +215,8 @@ static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
 static uint64_t scratch_bytes(const dp_context *c) {
     const dp_polygon_store *const p = &c->polygons;
     uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
-                   c->pieces_cap * sizeof(dp_tile_pieces) + dp_bins_bytes(&c->frame.polygon_bins) +
+                   c->pieces_cap * sizeof(dp_tile_pieces) + c->facing_cap + c->outlined_cap +
+                   dp_adjacency_bytes(&c->adjacency) + dp_bins_bytes(&c->frame.polygon_bins) +
                    dp_bins_bytes(&c->frame.stroke_bins);
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
@@ -224,6 +231,29 @@ static void lap(dp_stats *stats, dp_stage stage, double *since) {
     *since = now;
 }
 
+/* Does any stroke texture need the centre of the picture? */
+static bool is_polar(const dp_frame *f) {
+    for (uint32_t i = 0; i < f->style_count; i++)
+        if (f->styles[i].stroke.texture && f->styles[i].stroke.u == DP_STROKE_POLAR) return true;
+    return dp_is_fringed(f);
+}
+
+/* Adjacency, kept from the last frame where the topology is the same, and what faces the eye. */
+static bool find_adjacency(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    bool built;
+    if (!dp_adjacency_update(&c->adjacency, &f->polygons, c->threads, &c->memory, &built) ||
+        !dp_reserve(&c->memory, &f->facing, &c->facing_cap, f->polygons.count, sizeof *f->facing) ||
+        !dp_reserve(&c->memory, &f->outlined, &c->outlined_cap, f->polygons.count, sizeof *f->outlined))
+        return false;
+    f->adjacency = &c->adjacency;
+    c->stats.adjacency_ms = built ? c->adjacency.ms : 0;
+    c->stats.adjacency_bytes = dp_adjacency_bytes(&c->adjacency);
+    dp_find_facing(f);
+    f->fringe = dp_is_fringed(f) ? dp_fringe_reach(f) : 0;
+    return true;
+}
+
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     dp_result result = dp_gather(source, &c->polygons, &c->memory, &f->polygons, &c->stats, diag);
@@ -232,6 +262,8 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
+    if (f->styles[0].edges == DP_EDGES_ADJACENCY && !find_adjacency(c)) return out_of_memory(diag);
+    if (is_polar(f)) dp_find_centre(f);
     lap(&c->stats, DP_STAGE_VERTICES, since);
     if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
@@ -271,6 +303,8 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     dp_frame *const f = &c->frame;
     c->stats = (dp_stats){0};
     f->segment_count = 0;
+    f->adjacency = NULL;
+    f->fringe = 0;
     f->memory = &c->memory;
     f->threads = c->threads;
     f->styles = styles;

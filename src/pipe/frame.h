@@ -63,6 +63,12 @@ typedef struct dp_frame {
     uint32_t tiles_x, tiles_y;
     dp_bins polygon_bins;
 
+    const struct dp_adjacency *adjacency; /* mesh/adjacency.h; NULL: lines emerge without it */
+    float fringe;      /* px that textured silhouettes reach beyond outlined polygons; 0: none */
+    uint8_t *facing;   /* with adjacency, by polygon: pipe/adjacent.h */
+    double centre[2], radius; /* px, polar stroke textures: pipe/normals.h */
+    uint8_t *outlined; /* the same: has it an edge that dp_outline_of_edge says it draws? */
+
     float *depth;  /* [tile][cell sample], nearest surface; layout: samples.h */
     size_t tile_samples;
     dp_tile_pieces *tile_pieces; /* by tile */

@@ -77,7 +77,7 @@ dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
 static const double EDGE_ON = 1.0 / 4096;
 
 /* The sine of the angle at which a plane is seen; within rounding of zero it is seen edge-on. */
-static bool faces_eye(const dp_frame *frame, uint32_t polygon) {
+bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
     const dp_vec3 at = corner_position(polygons, dp_first_corner(polygons, polygon));
     return dp_dot(dp_polygon_normal(frame, polygon), dp_view_vector(&frame->view, at)) < -1e-12;
@@ -95,7 +95,7 @@ dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_ou
         area += ax * by - ay * bx;
     }
     if (fabs(area) > (double)frame->nearly_edge_on * reach) return (dp_facing){area < 0, false};
-    return (dp_facing){faces_eye(frame, polygon), fabs(area) <= EDGE_ON * reach};
+    return (dp_facing){dp_polygon_faces_eye(frame, polygon), fabs(area) <= EDGE_ON * reach};
 }
 
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {

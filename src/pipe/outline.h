@@ -46,6 +46,9 @@ dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_ou
 /* Unit normal by Newell's method, world space; zero for a polygon without area. */
 dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon);
 
+/* Facing by the angle at which the plane is seen, in space. */
+bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon);
+
 /* No area in space: all corners on one line. */
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon);
 

@@ -33,12 +33,31 @@ static dp_result resolve_angle(float *angle, float other, const char *name, dp_d
 
 /* Only the paper's own test works with one pass; the plane test needs the finished depth. */
 static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
+    if (style->edges == DP_EDGES_ADJACENCY) { /* there is no between-test */
+        if (style->passes == 0) style->passes = 1;
+        if (style->passes == 1 || style->passes == 2) return DP_OK;
+        return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
+    }
     const int needed = style->between == DP_BETWEEN_PLANE ? 2 : style->between == DP_BETWEEN_STENCIL ? 3 : 1;
     if (style->passes == 0) style->passes = needed;
     if (style->passes == 1 && style->ink == DP_INK_QUADS && style->between != DP_BETWEEN_INTERVAL)
         return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs the interval test (--between interval)");
     if (style->passes < 1 || style->passes > 3)
         return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
+    return DP_OK;
+}
+
+static bool within(float value, float least, float most) { return value >= least && value <= most; }
+
+static dp_result resolve_stroke(dp_stroke_style *s, dp_diag *diag) {
+    if (s->k == 0) s->k = 0.5f;
+    if (s->scale == 0) s->scale = 1;
+    if (!s->repeats) s->repeats = 1;
+    if ((unsigned)s->u > DP_STROKE_POLAR || s->repeats > 8 || !within(s->k, -100, 100) || !within(s->scale, 1e-3f, 1e3f) ||
+        !within(s->taper, 0, 1e4f) || !within(s->jitter, 0, 64) || !within(s->overshoot, 0, 1e3f) ||
+        !within(s->depth, 0, 1) || !within(s->light, 0, 1))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the stroke's u, k, scale, taper, jitter, overshoot, depth, light or "
+                                              "repeats is out of range");
     return DP_OK;
 }
 
@@ -56,11 +75,12 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
     }
     dp_result result = resolve_angle(&full.ridge_angle, 150, "ridge", diag);
     if (!result) result = resolve_angle(&full.valley_angle, 210, "valley", diag);
+    if (!result) result = resolve_stroke(&full.stroke, diag);
     if (!result) result = resolve_passes(&full, diag);
     if (result) return result;
     if ((unsigned)full.method > DP_METHOD_PAPER || (unsigned)full.between > DP_BETWEEN_STENCIL ||
-        (unsigned)full.ink > DP_INK_QUADS)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "method, between or ink is not one of its values");
+        (unsigned)full.ink > DP_INK_QUADS || (unsigned)full.edges > DP_EDGES_ADJACENCY)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "edges, method, between or ink is not one of its values");
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");

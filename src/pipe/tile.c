@@ -1,5 +1,7 @@
 /* Finding a tile's surface and lines: faces, edges, visibility, in that order. */
 #include "kernel/kernels.h"
+#include "pipe/adjacent.h"
+#include "pipe/fringe.h"
 #include "pipe/tile.h"
 
 #include <string.h>
@@ -80,12 +82,18 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     }
     clear(w);
     dp_tile_assemble(w);
+    if (w->frame->lines && dp_is_fringed(w->frame)) {
+        if (w->frame->styles[0].passes == 1) dp_tile_fringe_one_pass(w);
+        else dp_tile_fringe_two_passes(w);
+        return;
+    }
     dp_tile_faces(w);
     dp_tile_surface(w);
     if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS) {
         dp_tile_quads(w);
     } else if (w->frame->lines) {
-        dp_tile_edges(w);
+        if (w->frame->adjacency) dp_tile_adjacent_edges(w);
+        else dp_tile_edges(w);
         dp_tile_emerge(w);
         dp_tile_intersections(w);
         dp_tile_probe(w);

@@ -12,6 +12,7 @@
  * end round. */
 #include "strokes/stroke.h"
 
+#include "pipe/blend.h"
 #include "pipe/samples.h"
 
 #include <string.h>
@@ -148,19 +149,6 @@ static void cover(const tile_ink *ink, const dp_stroke *s) {
     }
 }
 
-/* Over (Porter and Duff), not premultiplied, 8 bits. */
-static void blend(uint8_t *pixel, dp_color color, float coverage) {
-    const float source = coverage * (float)(color & 0xff) / 255, under = (float)pixel[3] / 255;
-    const float alpha = source + under * (1 - source);
-    if (!(alpha > 0)) return;
-    for (int i = 0; i < 3; i++) {
-        const float c = (float)(color >> (24 - 8 * i) & 0xff);
-        const float mixed = (c * source + (float)pixel[i] * under * (1 - source)) / alpha;
-        pixel[i] = (uint8_t)(mixed + 0.5f);
-    }
-    pixel[3] = (uint8_t)(alpha * 255 + 0.5f);
-}
-
 /* Lays what is covered over the picture and forgets it. */
 static void flush(const tile_ink *ink, dp_line line, dp_color color) {
     const dp_target *const target = &ink->frame->target;
@@ -169,7 +157,7 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);
             const uint32_t x = ink->x0 + px, y = ink->y0 + py;
             const float c = ink->worker->coverage[py * DP_TILE + px];
-            if (target->rgba) blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, color, c);
+            if (target->rgba) dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, color, c);
             if (target->line_class && c >= 0.5f)
                 target->line_class[(size_t)y * target->width + x] = (uint8_t)(1 + line);
         }

@@ -1,0 +1,423 @@
+/* Adjacency: for every edge of every polygon, the edge of the other polygon that it is.
+ *
+ * Vertices are named by position (the first vertex there stands for all), so that index buffers, split vertices
+ * and bare soups give the same adjacency. Edges are then sorted by the lower of their two vertices, with one
+ * counting sort, and matched within each vertex's bucket: linear in the number of edges, and in parallel, since
+ * both sides of an edge lie in one bucket.
+ *
+ * Invariant: across[across[c]] == c, flipped or not. Two polygons at an edge are each other's neighbours,
+ * however wound. Of more than two, those are neighbours that bound one wedge of the outside, found by going
+ * round the edge: fronts that look at each other. What is left over is paired as it comes, or stays open.
+ * Not handled: neighbours that share no corner (T-junctions); their edges are open. */
+#include "mesh/adjacency.h"
+
+#include "base/hostile.h"
+#include "base/vec.h"
+#include <drypoint/adjacency.h>
+
+#include "base/diag.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { BLOCK = DP_TUNED(16384, 5), HASHED = DP_TUNED(65536, 11), LARGEST_FAN = 64 };
+
+typedef struct builder {
+    dp_adjacency *out;
+    const dp_polygons *polygons;
+    uint32_t *stands_for; /* [vertices] the first vertex at its position */
+    uint32_t *first;      /* [vertices + 1] bucket of a lower vertex */
+    uint32_t *bucket;     /* corners, sorted by lower vertex, then as they come */
+} builder;
+
+void dp_adjacency_free(dp_adjacency *a, const dp_allocator *memory) {
+    dp_free(memory, a->across);
+    dp_free(memory, a->polygon_of);
+    dp_free(memory, a->twins);
+    *a = (dp_adjacency){0};
+}
+
+uint64_t dp_adjacency_bytes(const dp_adjacency *a) {
+    return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of + a->twins_cap * sizeof *a->twins;
+}
+
+/* ------- topology's key ------- */
+
+typedef struct hashing {
+    const uint32_t *words;
+    size_t count;
+    uint64_t *blocks;
+} hashing;
+
+static uint64_t mix(uint64_t h) {
+    h ^= h >> 32;
+    h *= 0xd6e8feb86659fd93u;
+    h ^= h >> 32;
+    h *= 0xd6e8feb86659fd93u;
+    return h ^ h >> 32;
+}
+
+/* Four sums side by side, so that they overlap in the processor. */
+static void hash_block(void *arg, uint32_t index, uint32_t worker) {
+    const hashing *const h = arg;
+    (void)worker;
+    const size_t first = (size_t)index * HASHED, end = h->count - first < HASHED ? h->count : first + HASHED;
+    uint64_t sums[4] = {1, 2, 3, 4};
+    size_t i = first;
+    for (; i + 4 <= end; i += 4)
+        for (int k = 0; k < 4; k++) sums[k] = (sums[k] ^ h->words[i + (size_t)k]) * 0x9e3779b97f4a7c15u;
+    for (; i < end; i++) sums[0] = (sums[0] ^ h->words[i]) * 0x9e3779b97f4a7c15u;
+    h->blocks[index] = mix(sums[0] ^ mix(sums[1] ^ mix(sums[2] ^ mix(sums[3]))));
+}
+
+/* False when memory is out. */
+static bool hash_words(const uint32_t *words, size_t count, dp_threads *threads, const dp_allocator *memory,
+                       uint64_t *key) {
+    const size_t blocks = count / HASHED + 1;
+    hashing h = {words, count, dp_alloc_array(memory, blocks, sizeof *h.blocks)};
+    if (!h.blocks) return false;
+    dp_parallel(threads, (uint32_t)blocks, hash_block, &h);
+    for (size_t i = 0; i < blocks; i++) *key = mix(*key * 31 + h.blocks[i]);
+    dp_free(memory, h.blocks);
+    return true;
+}
+
+static uint32_t corner_total(const dp_polygons *p) { return p->firsts ? p->firsts[p->count] : 3 * p->count; }
+
+static bool topology_key(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, uint64_t *key) {
+    *key = mix(p->count + mix(p->vertex_count + mix((p->corners != NULL) + 2u * (p->firsts != NULL))));
+    if (p->corners && !hash_words(p->corners, corner_total(p), threads, memory, key)) return false;
+    if (p->firsts && !hash_words(p->firsts, (size_t)p->count + 1, threads, memory, key)) return false;
+    if (!*key) *key = 1;
+    return true;
+}
+
+static bool same_place(const float *p, const float *q) { return p[0] == q[0] && p[1] == q[1] && p[2] == q[2]; }
+
+static bool twins_hold(const dp_adjacency *a, const dp_polygons *p) {
+    for (size_t i = 0; i < a->twin_count; i++)
+        if (!same_place(dp_vertex_position(p, a->twins[i][0]), dp_vertex_position(p, a->twins[i][1]))) return false;
+    return true;
+}
+
+/* ------- vertices by position ------- */
+
+static uint32_t place_hash(const float *p) {
+    const float q[3] = {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f}; /* -0 and 0 are one */
+    uint32_t bits[3];
+    memcpy(bits, q, sizeof bits);
+    return (uint32_t)(mix(bits[0] + mix(bits[1] + mix(bits[2]))) >> 20);
+}
+
+static bool add_twin(builder *b, const dp_allocator *memory, uint32_t vertex, uint32_t first) {
+    dp_adjacency *const a = b->out;
+    if (!dp_reserve(memory, &a->twins, &a->twins_cap, a->twin_count + 1, sizeof *a->twins)) return false;
+    a->twins[a->twin_count][0] = vertex, a->twins[a->twin_count++][1] = first;
+    return true;
+}
+
+/* Open addressing, at most half full; slots hold 1 + vertex. */
+static bool weld(builder *b, const dp_allocator *memory) {
+    const uint32_t n = b->polygons->vertex_count;
+    size_t slots = 64;
+    while (slots < 2 * (size_t)n) slots *= 2;
+    uint32_t *const table = dp_alloc_zeroed(memory, slots * sizeof *table);
+    if (!table) return false;
+    bool enough = true;
+    b->out->twin_count = 0;
+    for (uint32_t v = 0; v < n && enough; v++) {
+        const float *const p = dp_vertex_position(b->polygons, v);
+        size_t s = place_hash(p) & (slots - 1);
+        while (table[s] && !same_place(p, dp_vertex_position(b->polygons, table[s] - 1))) s = (s + 1) & (slots - 1);
+        if (!table[s]) table[s] = v + 1;
+        else enough = add_twin(b, memory, v, table[s] - 1);
+        b->stands_for[v] = table[s] - 1;
+        if (!(p[0] == p[0] && p[1] == p[1] && p[2] == p[2])) b->stands_for[v] = v; /* a NaN equals nothing */
+    }
+    dp_free(memory, table);
+    return enough;
+}
+
+/* ------- edges into buckets ------- */
+
+typedef struct edge {
+    uint32_t from, to; /* vertices that stand for their position */
+} edge;
+
+static uint32_t vertex_at(const builder *b, uint32_t corner) {
+    const uint32_t v = dp_corner_vertex(b->polygons, corner);
+    return v < b->polygons->vertex_count ? b->stands_for[v] : UINT32_MAX;
+}
+
+static uint32_t next_corner(const builder *b, uint32_t corner) {
+    const uint32_t polygon = dp_polygon_of_corner(b->out, corner);
+    const uint32_t first = dp_first_corner(b->polygons, polygon), n = dp_corner_count(b->polygons, polygon);
+    return corner + 1 - first == n ? first : corner + 1;
+}
+
+static edge edge_at(const builder *b, uint32_t corner) {
+    return (edge){vertex_at(b, corner), vertex_at(b, next_corner(b, corner))};
+}
+
+static uint32_t lower(edge e) { return e.from < e.to ? e.from : e.to; }
+static uint32_t higher(edge e) { return e.from < e.to ? e.to : e.from; }
+
+/* Every index in range; and a triangle needs three places. */
+static bool is_useful(const builder *b, uint32_t first, uint32_t n) {
+    for (uint32_t i = 0; i < n; i++)
+        if (vertex_at(b, first + i) == UINT32_MAX) return false;
+    if (n != 3) return n > 3;
+    const uint32_t p = vertex_at(b, first), q = vertex_at(b, first + 1), r = vertex_at(b, first + 2);
+    return p != q && q != r && r != p;
+}
+
+static void name_polygons(builder *b) {
+    const dp_polygons *const p = b->polygons;
+    for (uint32_t i = 0; b->out->polygon_of && i < p->count; i++)
+        for (uint32_t c = p->firsts[i]; c < p->firsts[i + 1]; c++) b->out->polygon_of[c] = i;
+}
+
+/* Counts per lower vertex, then places: a counting sort. Corners without an edge are set to DP_ACROSS_NONE. */
+static void fill_buckets(builder *b) {
+    const dp_polygons *const p = b->polygons;
+    memset(b->first, 0, ((size_t)p->vertex_count + 1) * sizeof *b->first);
+    for (int placing = 0; placing < 2; placing++) {
+        for (uint32_t i = 0; i < p->count; i++) {
+            const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
+            const bool useful = is_useful(b, first, n);
+            for (uint32_t c = first; c < first + n; c++) {
+                const edge e = useful ? edge_at(b, c) : (edge){0, 0};
+                if (e.from == e.to) b->out->across[c] = DP_ACROSS_NONE;
+                else if (placing) b->bucket[b->first[lower(e)]++] = c;
+                else b->first[lower(e)]++, b->out->across[c] = DP_ACROSS_OPEN;
+            }
+        }
+        uint32_t sum = 0, last = 0;
+        for (uint32_t v = 0; v <= p->vertex_count; v++) {
+            const uint32_t count = b->first[v];
+            b->first[v] = placing ? last : sum; /* placing moved each start to its end, the next one's start */
+            sum += count, last = count;
+        }
+    }
+}
+
+/* ------- matching ------- */
+
+static void pair(const builder *b, uint32_t c, uint32_t d) {
+    const bool flipped = edge_at(b, c).from == edge_at(b, d).from;
+    b->out->across[c] = d | (flipped ? DP_ACROSS_FLIPPED : 0);
+    b->out->across[d] = c | (flipped ? DP_ACROSS_FLIPPED : 0);
+}
+
+/* A polygon at an edge with more than two. */
+typedef struct flap {
+    double angle;   /* about the edge, from lower to higher vertex */
+    uint32_t corner;
+    bool forward;   /* it runs the edge from lower to higher: its front looks towards growing angles */
+} flap;
+
+static int by_angle(const void *left, const void *right) {
+    const flap *const l = left, *const r = right;
+    if (l->angle != r->angle) return l->angle < r->angle ? -1 : 1;
+    return (l->corner > r->corner) - (l->corner < r->corner);
+}
+
+static dp_vec3 position(const builder *b, uint32_t vertex) { return dp_v3f(dp_vertex_position(b->polygons, vertex)); }
+
+static flap make_flap(const builder *b, uint32_t corner, dp_vec3 from, dp_vec3 x, dp_vec3 y) {
+    const uint32_t polygon = dp_polygon_of_corner(b->out, corner);
+    const uint32_t first = dp_first_corner(b->polygons, polygon), n = dp_corner_count(b->polygons, polygon);
+    const uint32_t far = first + (corner - first + 1 + n / 2) % n;
+    const dp_vec3 w = dp_sub(position(b, vertex_at(b, far)), from);
+    const edge e = edge_at(b, corner);
+    return (flap){atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
+}
+
+/* Takes pairs of neighbours in the circle that look at each other out of it, until there are none. */
+static uint32_t pair_wedges(const builder *b, flap *flaps, uint32_t n) {
+    for (bool found = true; found && n > 1;) {
+        found = false;
+        for (uint32_t i = 0; i < n && n > 1; i++) {
+            const uint32_t next = i + 1 == n ? 0 : i + 1;
+            if (!flaps[i].forward || flaps[next].forward) continue;
+            pair(b, flaps[i].corner, flaps[next].corner);
+            const uint32_t high = i > next ? i : next, low = i > next ? next : i;
+            memmove(flaps + high, flaps + high + 1, (n - high - 1) * sizeof *flaps);
+            memmove(flaps + low, flaps + low + 1, (n - low - 2) * sizeof *flaps);
+            n -= 2;
+            found = true;
+        }
+    }
+    return n;
+}
+
+static void match_fan(const builder *b, const uint32_t *corners, uint32_t n) {
+    flap flaps[LARGEST_FAN];
+    if (n > LARGEST_FAN) n = LARGEST_FAN; /* the rest stays open */
+    const edge e = edge_at(b, corners[0]);
+    const dp_vec3 from = position(b, lower(e)), d = dp_unit(dp_sub(position(b, higher(e)), from));
+    const dp_vec3 axis = fabs(d.x) < 0.6 ? dp_v3(1, 0, 0) : dp_v3(0, 1, 0);
+    const dp_vec3 x = dp_unit(dp_cross(axis, d)), y = dp_cross(d, x);
+    for (uint32_t i = 0; i < n; i++) flaps[i] = make_flap(b, corners[i], from, x, y);
+    qsort(flaps, n, sizeof *flaps, by_angle);
+    const uint32_t left = pair_wedges(b, flaps, n);
+    for (uint32_t i = 0; i + 1 < left; i += 2) pair(b, flaps[i].corner, flaps[i + 1].corner);
+}
+
+/* An entry of a bucket with what it is sorted by. */
+typedef struct entry {
+    uint32_t higher, corner;
+} entry;
+
+static int by_higher(const void *left, const void *right) {
+    const entry *const l = left, *const r = right;
+    if (l->higher != r->higher) return l->higher < r->higher ? -1 : 1;
+    return (l->corner > r->corner) - (l->corner < r->corner);
+}
+
+static void match_run(const builder *b, const uint32_t *corners, uint32_t n) {
+    if (n == 2) pair(b, corners[0], corners[1]);
+    else if (n > 2) match_fan(b, corners, n);
+}
+
+/* Sorts a bucket in place: by insertion, which suits a vertex's few edges. */
+static void sort_small(const builder *b, uint32_t *corners, uint32_t n) {
+    for (uint32_t i = 1; i < n; i++) {
+        const uint32_t corner = corners[i], key = higher(edge_at(b, corner));
+        uint32_t k = i;
+        for (; k && higher(edge_at(b, corners[k - 1])) > key; k--) corners[k] = corners[k - 1];
+        corners[k] = corner;
+    }
+}
+
+/* The same for a vertex of very many edges; `entries` is as large as the bucket. */
+static void sort_large(const builder *b, uint32_t *corners, uint32_t n, entry *entries) {
+    for (uint32_t i = 0; i < n; i++) entries[i] = (entry){higher(edge_at(b, corners[i])), corners[i]};
+    qsort(entries, n, sizeof *entries, by_higher);
+    for (uint32_t i = 0; i < n; i++) corners[i] = entries[i].corner;
+}
+
+typedef struct matching {
+    const builder *builder;
+    const dp_allocator *memory;
+    bool *failed; /* [blocks] */
+} matching;
+
+enum { SMALL = DP_TUNED(48, 3) };
+
+static bool match_vertex(const matching *m, uint32_t v) {
+    const builder *const b = m->builder;
+    uint32_t *const corners = b->bucket + b->first[v];
+    const uint32_t n = b->first[v + 1] - b->first[v];
+    if (n <= SMALL) sort_small(b, corners, n);
+    else {
+        entry *const entries = dp_alloc_array(m->memory, n, sizeof *entries);
+        if (!entries) return false;
+        sort_large(b, corners, n, entries);
+        dp_free(m->memory, entries);
+    }
+    uint32_t start = 0;
+    for (uint32_t i = 1; i <= n; i++) {
+        if (i < n && higher(edge_at(b, corners[i])) == higher(edge_at(b, corners[start]))) continue;
+        match_run(b, corners + start, i - start);
+        start = i;
+    }
+    return true;
+}
+
+static void match_block(void *arg, uint32_t index, uint32_t worker) {
+    const matching *const m = arg;
+    const uint32_t first = index * BLOCK, count = m->builder->polygons->vertex_count;
+    const uint32_t last = count - first < BLOCK ? count : first + BLOCK;
+    (void)worker;
+    for (uint32_t v = first; v < last; v++)
+        if (!match_vertex(m, v)) m->failed[index] = true;
+}
+
+static bool match(const builder *b, dp_threads *threads, const dp_allocator *memory) {
+    const uint32_t blocks = b->polygons->vertex_count / BLOCK + 1;
+    matching m = {b, memory, dp_alloc_zeroed(memory, blocks)};
+    if (!m.failed) return false;
+    dp_parallel(threads, b->polygons->vertex_count % BLOCK ? blocks : blocks - 1, match_block, &m);
+    bool sound = true;
+    for (uint32_t i = 0; i < blocks; i++) sound = sound && !m.failed[i];
+    dp_free(memory, m.failed);
+    return sound;
+}
+
+/* ------- the whole ------- */
+
+static bool build(builder *b, dp_threads *threads, const dp_allocator *memory) {
+    dp_adjacency *const a = b->out;
+    const dp_polygons *const p = b->polygons;
+    a->corners = corner_total(p), a->polygons = p->count, a->vertices = p->vertex_count;
+    if (!p->firsts) {
+        dp_free(memory, a->polygon_of);
+        a->polygon_of = NULL, a->polygon_cap = 0;
+    } else if (!dp_reserve(memory, &a->polygon_of, &a->polygon_cap, (size_t)a->corners + 1, sizeof *a->polygon_of))
+        return false;
+    if (!dp_reserve(memory, &a->across, &a->across_cap, (size_t)a->corners + 1, sizeof *a->across)) return false;
+    name_polygons(b);
+    if (!weld(b, memory)) return false;
+    fill_buckets(b);
+    return match(b, threads, memory);
+}
+
+static double now_ms(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+bool dp_adjacency_update(dp_adjacency *a, const dp_polygons *p, dp_threads *threads, const dp_allocator *memory,
+                         bool *built) {
+    uint64_t key;
+    const double start = now_ms();
+    if (built) *built = false;
+    if (!topology_key(p, threads, memory, &key)) return false;
+    if (a->key == key && twins_hold(a, p)) return true;
+    builder b = {.out = a, .polygons = p};
+    a->key = 0;
+    b.stands_for = dp_alloc_array(memory, (size_t)p->vertex_count + 1, sizeof *b.stands_for);
+    b.first = dp_alloc_array(memory, (size_t)p->vertex_count + 1, sizeof *b.first);
+    b.bucket = dp_alloc_array(memory, (size_t)corner_total(p) + 1, sizeof *b.bucket);
+    const bool sound = b.stands_for && b.first && b.bucket && build(&b, threads, memory);
+    dp_free(memory, b.stands_for);
+    dp_free(memory, b.first);
+    dp_free(memory, b.bucket);
+    if (sound) a->key = key;
+    a->ms = now_ms() - start;
+    if (built) *built = sound;
+    return sound;
+}
+
+void dp_adjacency_six(const dp_adjacency *a, const dp_polygons *p, uint32_t triangle, uint32_t six[6]) {
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t corner = 3 * triangle + i, across = a->across[corner];
+        six[2 * i] = dp_corner_vertex(p, corner);
+        const uint32_t other = dp_is_across(across) ? dp_across_corner(across) : corner;
+        six[2 * i + 1] = dp_corner_vertex(p, other / 3 * 3 + (other + 2 - other / 3 * 3) % 3);
+    }
+}
+
+dp_result dp_adjacency_indices(const dp_batch *triangles, const dp_allocator *allocator, uint32_t *six,
+                               dp_diag *diag) {
+    if (!triangles || !six || !triangles->positions || triangles->firsts)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_adjacency_indices: it takes triangles with positions, and a place for six indices each");
+    if (triangles->polygon_count > UINT32_MAX / 4 || triangles->vertex_count >= UINT32_MAX)
+        return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles or vertices", UINT32_MAX / 4);
+    const dp_allocator memory = dp_allocator_resolve(allocator);
+    const dp_polygons polygons = {.positions = triangles->positions,
+                                  .stride = triangles->position_stride ? triangles->position_stride : 12,
+                                  .vertex_count = (uint32_t)triangles->vertex_count,
+                                  .corners = triangles->indices,
+                                  .count = (uint32_t)triangles->polygon_count};
+    dp_adjacency adjacency = {0};
+    dp_threads *const threads = dp_threads_create(1, NULL, NULL, &memory);
+    const bool sound = threads && dp_adjacency_update(&adjacency, &polygons, threads, &memory, NULL);
+    for (uint32_t t = 0; sound && t < polygons.count; t++) dp_adjacency_six(&adjacency, &polygons, t, six + 6 * (size_t)t);
+    dp_adjacency_free(&adjacency, &memory);
+    dp_threads_destroy(threads);
+    return sound ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for adjacency");
+}

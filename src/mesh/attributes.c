@@ -1,0 +1,40 @@
+/* Attributes of several batches: values one behind the other, and an index for every corner. */
+#include "mesh/attributes.h"
+
+#include <string.h>
+
+void dp_attribute_store_free(dp_attribute_store *store, const dp_allocator *memory) {
+    dp_free(memory, store->values);
+    dp_free(memory, store->indices);
+    *store = (dp_attribute_store){0};
+}
+
+bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners, const dp_allocator *memory) {
+    return !store->used ||
+           dp_reserve(memory, &store->indices, &store->indices_cap, corners, sizeof *store->indices);
+}
+
+bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from, size_t width, size_t corners,
+                             const dp_allocator *memory) {
+    if (!from->values || !from->count) return true;
+    const size_t count = store->count + from->count;
+    if (count >= UINT32_MAX ||
+        !dp_reserve(memory, &store->values, &store->values_cap, count, width * sizeof(float)))
+        return false;
+    if (!store->used) {
+        store->used = true;
+        if (!dp_attribute_reserve_corners(store, corners, memory)) return false;
+        if (corners) memset(store->indices, 0xff, corners * sizeof *store->indices);
+    }
+    for (size_t i = 0; i < from->count; i++)
+        memcpy(store->values + (store->count + i) * width, dp_attribute_value(from, (uint32_t)i),
+               width * sizeof(float));
+    store->count = count;
+    return true;
+}
+
+dp_attribute dp_attribute_of_store(const dp_attribute_store *store, size_t width) {
+    if (!store->used) return (dp_attribute){0};
+    return (dp_attribute){.values = store->values, .stride = width * sizeof(float), .count = store->count,
+                          .indices = store->indices};
+}

@@ -1,0 +1,112 @@
+/* Which way every polygon faces, and which have an outline to draw: the first half of the geometry stage of
+ * Hermosilla and Vázquez 2010 (2.3.2, Listing 2.1).
+ *
+ * Listing 2.1 computes the facing of a triangle and its three neighbours again for every triangle: four times
+ * in all. Here each is computed once, and the silhouette test is three look-ups in a table of bytes. Facing is that of
+ * the rest of the pipe (outline.c): the sign of the area on the screen, and in space where the area is too small to tell.
+ *
+ * Polygons without area have no facing. They go with a front-facing neighbour where they have one, so that
+ * a sliver between two fronts makes no line. */
+#include "pipe/adjacent.h"
+
+#include "mesh/adjacency.h"
+#include "pipe/outline.h"
+
+enum { BLOCK = DP_TUNED(16384, 5) };
+
+static bool any_bad(const dp_frame *frame, uint32_t first, uint32_t n) {
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t v = dp_corner_vertex(&frame->polygons, first + i);
+        if (v >= frame->polygons.vertex_count) return true;
+        const float *const p = dp_vertex_position(&frame->polygons, v);
+        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) return true;
+    }
+    return false;
+}
+
+/* In space, whatever is clipped. */
+static uint8_t facing_in_space(const dp_frame *frame, uint32_t polygon) {
+    const uint32_t first = dp_first_corner(&frame->polygons, polygon), n = dp_corner_count(&frame->polygons, polygon);
+    if (n < 3 || any_bad(frame, first, n) || dp_polygon_has_no_area(frame, polygon)) return DP_FACING_NO_AREA;
+    return dp_polygon_faces_eye(frame, polygon) ? DP_FACING_FRONT : 0;
+}
+
+/* On the screen, where that is clear; 0xff where it is not. */
+static uint8_t facing_of_triangle(const dp_frame *frame, uint32_t polygon) {
+    dp_vertex v[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t vertex = dp_corner_vertex(&frame->polygons, 3 * polygon + i);
+        if (vertex >= frame->polygons.vertex_count) return DP_FACING_NO_AREA;
+        v[i] = frame->vertices[vertex];
+    }
+    if (dp_needs_clipping(v[0], v[1], v[2])) return 0xff;
+    const float bx = v[1].x - v[0].x, by = v[1].y - v[0].y, cx = v[2].x - v[0].x, cy = v[2].y - v[0].y;
+    const float area = bx * cy - by * cx;
+    const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
+    if (!(fabsf(area) > frame->nearly_edge_on * reach)) return 0xff;
+    return area < 0 ? DP_FACING_FRONT : 0;
+}
+
+static uint8_t facing_of(const dp_frame *frame, uint32_t polygon) {
+    const uint8_t quick = frame->polygons.firsts ? 0xff : facing_of_triangle(frame, polygon);
+    return quick == 0xff ? facing_in_space(frame, polygon) : quick;
+}
+
+static void block_range(const dp_frame *frame, uint32_t index, uint32_t *first, uint32_t *last) {
+    *first = index * BLOCK;
+    *last = frame->polygons.count - *first < BLOCK ? frame->polygons.count : *first + BLOCK;
+}
+
+static void face_block(void *arg, uint32_t index, uint32_t worker) {
+    dp_frame *const frame = arg;
+    uint32_t first, last;
+    (void)worker;
+    block_range(frame, index, &first, &last);
+    for (uint32_t i = first; i < last; i++) frame->facing[i] = facing_of(frame, i);
+}
+
+/* Only reads neighbours that have an area, which this does not change. */
+static void see_through(dp_frame *frame, uint32_t polygon) {
+    const dp_adjacency *const a = frame->adjacency;
+    const uint32_t first = dp_first_corner(&frame->polygons, polygon), n = dp_corner_count(&frame->polygons, polygon);
+    for (uint32_t c = first; c < first + n; c++) {
+        if (!dp_is_across(a->across[c])) continue;
+        const uint8_t other = frame->facing[dp_polygon_of_corner(a, dp_across_corner(a->across[c]))];
+        if ((other & (DP_FACING_NO_AREA | DP_FACING_FRONT)) == DP_FACING_FRONT) frame->facing[polygon] |= DP_FACING_FRONT;
+    }
+}
+
+int dp_outline_of_edge(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
+    const dp_adjacency *const a = frame->adjacency;
+    const uint32_t across = a->across[corner];
+    if (across == DP_ACROSS_NONE || frame->facing[polygon] & DP_FACING_NO_AREA) return -1;
+    if (across == DP_ACROSS_OPEN) return DP_LINE_BORDER;
+    const uint32_t other = dp_polygon_of_corner(a, dp_across_corner(across));
+    const bool front = dp_faces_front(frame, polygon), flipped = across & DP_ACROSS_FLIPPED;
+    if (front == (dp_faces_front(frame, other) != flipped)) return -1;
+    if (frame->facing[other] & DP_FACING_NO_AREA) return DP_LINE_SILHOUETTE;
+    return (flipped ? polygon < other : front) ? DP_LINE_SILHOUETTE : -1;
+}
+
+static bool is_outlined(const dp_frame *frame, uint32_t polygon) {
+    const uint32_t first = dp_first_corner(&frame->polygons, polygon), n = dp_corner_count(&frame->polygons, polygon);
+    for (uint32_t c = first; c < first + n; c++)
+        if (dp_outline_of_edge(frame, polygon, c) >= 0) return true;
+    return false;
+}
+
+static void outline_block(void *arg, uint32_t index, uint32_t worker) {
+    dp_frame *const frame = arg;
+    uint32_t first, last;
+    (void)worker;
+    block_range(frame, index, &first, &last);
+    for (uint32_t i = first; i < last; i++) frame->outlined[i] = is_outlined(frame, i);
+}
+
+void dp_find_facing(dp_frame *frame) {
+    const uint32_t count = frame->polygons.count, blocks = count / BLOCK + (count % BLOCK != 0);
+    dp_parallel(frame->threads, blocks, face_block, frame);
+    for (uint32_t i = 0; i < count; i++)
+        if (frame->facing[i] & DP_FACING_NO_AREA) see_through(frame, i);
+    dp_parallel(frame->threads, blocks, outline_block, frame);
+}
