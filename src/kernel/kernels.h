@@ -28,6 +28,8 @@ typedef struct dp_kernels {
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* The unit normals of the tile's seen triangles (normals.inc). */
     void (*normals)(struct dp_tile_worker *worker);
+    /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
+    void (*hide)(struct dp_tile_worker *worker);
 } dp_kernels;
 
 extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;

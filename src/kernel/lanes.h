@@ -66,6 +66,7 @@ DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a || b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a != b; }
 DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return !a; }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
+DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return a == b; }
 DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return m; }
 DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) { return m ? a : b; }
 DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return m ? a : b; }
@@ -86,6 +87,7 @@ DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li){v, v, v, v}; }
 DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
 DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
+DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return a == b; }
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
@@ -117,6 +119,7 @@ DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li)_mm256_set1_epi32(v); 
 DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
 DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
+DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return a == b; }
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
@@ -140,6 +143,7 @@ DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li)_mm512_set1_epi32(v); 
 DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
 DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ); }
+DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return (dp_lm)(a & b); }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return (dp_lm)(a | b); }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return (dp_lm)(a ^ b); }

@@ -5,10 +5,13 @@
  * that matter (an irregular depth buffer). The answer is exact for edges far below a pixel and owes
  * nothing to the number of samples.
  *
- * Data structure: probes in lists by pixel, and one 64-bit mask per row of pixels that hold any, so that
- * a polygon over no probe costs a few masks. A spine's points belong to the tile whose pixel they
+ * Data structure: probes sorted by pixel, and one 64-bit mask per row of pixels that hold any, so that a
+ * polygon over no probe costs a few masks, and one over some looks at a pixel's all at once. A spine's points belong to the tile whose pixel they
  * lie in. Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
+#include "kernel/kernels.h"
 #include "pipe/tile.h"
+
+#include <string.h>
 
 /* The tile that owns a point, by the pixel it lies in: the same answer in every tile. */
 static bool owned(const dp_tile_worker *w, dp_pointd p) {
@@ -46,16 +49,15 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     return *k0 < *k1;
 }
 
+static uint32_t pixel_of(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v; }
+
 static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *s, uint32_t k) {
     const dp_pointd p = probe_point(s, k);
-    dp_probe *const probe = &w->probes[w->probe_count];
-    *probe = (dp_probe){.x = (float)(p.x - w->tile_x),
-                        .y = (float)(p.y - w->tile_y),
-                        .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
-                        .own_a = c->a,
-                        .own_b = c->b,
-                        .k = k};
-    probe->next = dp_pixel_push(&w->probe_pixels, probe->x, probe->y, w->probe_count++);
+    const float x = (float)(p.x - w->tile_x), y = (float)(p.y - w->tile_y);
+    w->probes[w->probe_count++] = (dp_probe){.x = x, .y = y,
+                                             .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
+                                             .own_a = c->a, .own_b = c->b,
+                                             .cell = pixel_of(y) * DP_TILE + pixel_of(x)};
 }
 
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
@@ -87,23 +89,43 @@ bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, flo
     return true;
 }
 
-static void hide_in_pixel(dp_tile_worker *w, const dp_tile_polygon *p, uint32_t cell) {
-    for (uint32_t i = cell; i != UINT32_MAX; i = w->probes[i].next) {
-        dp_probe *const probe = &w->probes[i];
-        if (probe->hidden || p->nearest <= probe->limit) continue;
-        if (p->id == probe->own_a || p->id == probe->own_b) continue;
-        const float d = dp_minf(dp_plane_at(p, probe->x, probe->y), p->nearest);
-        if (d <= probe->limit) continue;
-        probe->hidden = dp_tile_covers(w, p, probe->x, probe->y);
-    }
+static bool reserve_sorted(dp_tile_worker *w, size_t need) {
+    return DP_WORKER_RESERVE(w, sorted.x, sorted.x_cap, need) && DP_WORKER_RESERVE(w, sorted.y, sorted.y_cap, need) &&
+           DP_WORKER_RESERVE(w, sorted.limit, sorted.limit_cap, need) &&
+           DP_WORKER_RESERVE(w, sorted.own_a, sorted.own_a_cap, need) &&
+           DP_WORKER_RESERVE(w, sorted.own_b, sorted.own_b_cap, need);
 }
 
-static void hide_under(dp_tile_worker *w, const dp_tile_polygon *p) {
-    const uint64_t span = dp_box_span(p);
-    for (uint32_t y = p->y0; y <= p->y1; y++)
-        for (uint64_t bits = w->probe_pixels.row[y] & span; bits; bits &= bits - 1)
-            hide_in_pixel(w, p, w->probe_pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
+/* Counting sort by pixel. */
+static bool sort_probes(dp_tile_worker *w) {
+    dp_sorted_probes *const out = &w->sorted;
+    if (!reserve_sorted(w, (size_t)w->probe_count + 16)) return false;
+    uint32_t *const first = out->first;
+    memset(out->row, 0, sizeof out->row);
+    memset(first, 0, sizeof out->first);
+    for (uint32_t i = 0; i < w->probe_count; i++) {
+        const uint32_t cell = w->probes[i].cell;
+        out->row[cell / DP_TILE] |= (uint64_t)1 << cell % DP_TILE;
+        first[cell + 1]++;
+    }
+    for (uint32_t c = 0; c < DP_TILE * DP_TILE; c++) first[c + 1] += first[c];
+    for (uint32_t i = w->probe_count; i-- > 0;) {
+        dp_probe *const p = &w->probes[i];
+        const uint32_t at = --first[p->cell + 1];
+        out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = p->limit, out->own_a[at] = p->own_a, out->own_b[at] = p->own_b;
+        p->cell = at;
+    }
+    /* the ends of pixels went down to their starts */
+    memmove(first, first + 1, DP_TILE * DP_TILE * sizeof *first);
+    first[DP_TILE * DP_TILE] = w->probe_count;
+    for (int k = 0; k < 16; k++) {
+        const size_t at = (size_t)w->probe_count + (size_t)k;
+        out->x[at] = out->y[at] = 0, out->limit[at] = INFINITY, out->own_a[at] = out->own_b[at] = 0;
+    }
+    return true;
 }
+
+static bool is_hidden(const dp_tile_worker *w, uint32_t probe) { return w->sorted.limit[w->probes[probe].cell] == INFINITY; }
 
 static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
     if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
@@ -117,7 +139,7 @@ static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uin
 static void collect(dp_tile_worker *w, const dp_candidate *c) {
     uint32_t start = c->k0;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
-        const bool visible = k < c->k1 && !w->probes[c->probe + (k - c->k0)].hidden;
+        const bool visible = k < c->k1 && !is_hidden(w, c->probe + (k - c->k0));
         if (visible) continue;
         if (k > start) add_piece(w, c, start, k);
         start = k + 1;
@@ -125,9 +147,7 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 }
 
 void dp_tile_probe(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (dp_is_surface(w, p) && !(p->flags & DP_POLYGON_HIDDEN)) hide_under(w, p);
-    }
+    if (!w->probe_count || !sort_probes(w)) return;
+    w->frame->kernels->hide(w);
     for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
 }

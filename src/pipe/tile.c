@@ -38,6 +38,11 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->pairs);
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);
+    dp_free(&memory, worker->sorted.x);
+    dp_free(&memory, worker->sorted.y);
+    dp_free(&memory, worker->sorted.limit);
+    dp_free(&memory, worker->sorted.own_a);
+    dp_free(&memory, worker->sorted.own_b);
     dp_free(&memory, worker->pieces);
     dp_free(&memory, worker->ink);
     dp_free(&memory, worker->ink_depth);
@@ -54,14 +59,14 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
            w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
            w->seen_cap * sizeof *w->seen + w->candidates_cap * sizeof *w->candidates +
-           w->probes_cap * sizeof *w->probes + w->pieces_cap * sizeof *w->pieces +
+           w->probes_cap * sizeof *w->probes +
+           (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap + w->sorted.own_b_cap) * 4 + w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 
 static void clear(dp_tile_worker *w) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
-    memset(w->probe_pixels.row, 0, sizeof w->probe_pixels.row);
     memset(w->suspects, 0, sizeof w->suspects);
     w->candidate_count = w->probe_count = w->loose_count = 0;
 }

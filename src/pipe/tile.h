@@ -85,10 +85,17 @@ typedef struct dp_probe {
     float x, y;
     float limit;            /* d */
     uint32_t own_a, own_b;  /* frame polygons */
-    uint32_t next;          /* in the same pixel, or UINT32_MAX */
-    uint32_t k;             /* number along its spine */
-    bool hidden;
+    uint32_t cell;          /* pixel of the tile that holds it, row by row; then its place among the sorted */
 } dp_probe;
+
+/* The same sorted by pixel, each member for itself, with room for one vector beyond the last. */
+typedef struct dp_sorted_probes {
+    float *x, *y, *limit;     /* limit is infinite once it is hidden */
+    uint32_t *own_a, *own_b;
+    size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
+    uint64_t row[DP_TILE];                   /* pixels that hold any */
+    uint32_t first[DP_TILE * DP_TILE + 1];   /* by pixel */
+} dp_sorted_probes;
 
 /* Points in lists by the tile's pixels. */
 typedef struct dp_pixel_lists {
@@ -139,7 +146,8 @@ struct dp_tile_worker {
     size_t crowd_cap;
     uint32_t pair_slots, pair_count;
 
-    dp_pixel_lists probe_pixels, lookup_pixels;
+    dp_sorted_probes sorted;
+    dp_pixel_lists lookup_pixels;
     dp_loose_edge *loose;
     struct dp_lookup *lookups; /* emerge.c */
     size_t loose_cap, lookups_cap;
