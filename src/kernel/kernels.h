@@ -10,6 +10,7 @@
 
 struct dp_tile_worker;
 struct dp_tile_polygon;
+struct dp_vertex;
 struct dp_frame;
 struct dp_tile_rect;
 
@@ -19,6 +20,8 @@ struct dp_tile_rect;
 typedef struct dp_kernels {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;
+    /* `count` positions, `stride` bytes apart, to the screen (transform.inc, pipe/vertices.c). */
+    void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count, struct dp_vertex *out);
     /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px (place.inc). */
     void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count, struct dp_tile_rect *rects);
     /* Appends triangles to the tile's polygons, planes and boxes made, and draws its front faces

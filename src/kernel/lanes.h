@@ -28,10 +28,12 @@
 #if DP_LANES == 1
 typedef float dp_lf;
 typedef int32_t dp_li;
+typedef uint32_t dp_lu;
 typedef bool dp_lm;
 #else
 typedef float dp_lf __attribute__((vector_size(4 * DP_LANES)));
 typedef int32_t dp_li __attribute__((vector_size(4 * DP_LANES)));
+typedef uint32_t dp_lu __attribute__((vector_size(4 * DP_LANES)));
 #if DP_LANES == 16
 typedef __mmask16 dp_lm;
 #else
@@ -164,6 +166,36 @@ DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm512_cvttps_epi32((_
 
 DP_LANES_INLINE dp_lm l_gt(dp_lf a, dp_lf b) { return l_lt(b, a); }
 DP_LANES_INLINE dp_lm l_ge(dp_lf a, dp_lf b) { return l_le(b, a); }
+
+/* ------- doubles: half as many lanes ------- */
+
+#if DP_LANES == 1
+enum { DP_HALF = 1 };
+typedef double dp_ld;
+typedef bool dp_lb;
+DP_LANES_INLINE dp_ld ld_splat(double v) { return v; }
+DP_LANES_INLINE dp_ld ld_load(const float *p) { return *p; }
+DP_LANES_INLINE void ld_store(float *p, dp_ld v) { *p = (float)v; }
+DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return m ? a : b; }
+DP_LANES_INLINE dp_lb ld_not(dp_lb m) { return !m; }
+#else
+enum { DP_HALF = DP_LANES / 2 };
+typedef double dp_ld __attribute__((vector_size(4 * DP_LANES)));
+typedef int64_t dp_lb __attribute__((vector_size(4 * DP_LANES)));
+typedef float dp_half __attribute__((vector_size(2 * DP_LANES)));
+DP_LANES_INLINE dp_ld ld_splat(double v) { return v - (dp_ld){0}; }
+DP_LANES_INLINE dp_ld ld_load(const float *p) {
+    dp_half v;
+    memcpy(&v, p, sizeof v);
+    return __builtin_convertvector(v, dp_ld);
+}
+DP_LANES_INLINE void ld_store(float *p, dp_ld v) {
+    const dp_half h = __builtin_convertvector(v, dp_half);
+    memcpy(p, &h, sizeof h);
+}
+DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return (dp_ld)((m & (dp_lb)a) | (~m & (dp_lb)b)); }
+DP_LANES_INLINE dp_lb ld_not(dp_lb m) { return ~m; }
+#endif
 
 /* ------- records of four words, one per lane -------
  *
