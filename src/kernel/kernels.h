@@ -27,6 +27,8 @@ typedef struct dp_kernels {
     /* Appends triangles to the tile's polygons, planes and boxes made, and draws its front faces
      * (assemble.inc). Needs room for count + 16 polygons. */
     void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count);
+    /* Keeps those triangles that the tile's front faces do not hide; returns how many (cull.inc). */
+    uint32_t (*cull)(struct dp_tile_worker *worker, uint32_t *ids, uint32_t count);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* The unit normals of the tile's seen triangles (normals.inc). */

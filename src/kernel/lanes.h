@@ -69,6 +69,7 @@ DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a != b; }
 DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return !a; }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
 DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return a == b; }
+DP_LANES_INLINE dp_lm li_lt(dp_li a, dp_li b) { return a < b; }
 DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return m; }
 DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) { return m ? a : b; }
 DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return m ? a : b; }
@@ -90,6 +91,7 @@ DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
 DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
 DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return a == b; }
+DP_LANES_INLINE dp_lm li_lt(dp_li a, dp_li b) { return a < b; }
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
@@ -122,6 +124,7 @@ DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
 DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return a <= b; }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return a == b; }
 DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return a == b; }
+DP_LANES_INLINE dp_lm li_lt(dp_li a, dp_li b) { return a < b; }
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
@@ -145,6 +148,7 @@ DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li)_mm512_set1_epi32(v); 
 DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
 DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
 DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ); }
+DP_LANES_INLINE dp_lm li_lt(dp_li a, dp_li b) { return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b); }
 DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return (dp_lm)(a & b); }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return (dp_lm)(a | b); }
@@ -163,6 +167,19 @@ DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return (dp_lf)_mm512_min_ps((__m
 DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm512_max_ps((__m512)a, (__m512)b); }
 DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm512_cvttps_epi32((__m512)v); }
 #endif
+
+/* table[at], lane by lane. */
+DP_LANES_INLINE dp_lf l_lookup(const float *table, dp_li at) {
+#if DP_LANES == 1
+    return table[at];
+#elif DP_LANES == 4
+    return (dp_lf){table[at[0]], table[at[1]], table[at[2]], table[at[3]]};
+#elif DP_LANES == 8
+    return (dp_lf)_mm256_i32gather_ps(table, (__m256i)at, 4);
+#else
+    return (dp_lf)_mm512_i32gather_ps((__m512i)at, table, 4);
+#endif
+}
 
 DP_LANES_INLINE dp_lm l_gt(dp_lf a, dp_lf b) { return l_lt(b, a); }
 DP_LANES_INLINE dp_lm l_ge(dp_lf a, dp_lf b) { return l_le(b, a); }

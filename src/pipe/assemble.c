@@ -3,8 +3,6 @@
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
-#include <string.h>
-
 /* Plane through the points by Newell's method, which takes any number of them. */
 static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     double nx = 0, ny = 0, nz = 0;
@@ -104,26 +102,36 @@ void dp_tile_reassemble(dp_tile_worker *w, uint32_t index) {
     set_polygon(w, index, id, point, &outline);
 }
 
-static bool collect_ids(dp_tile_worker *w, uint32_t *count) {
+/* The tile's polygons in submission order, back faces apart. */
+static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count) {
     const dp_bins *const bins = &w->frame->polygon_bins;
-    if (!DP_WORKER_RESERVE(w, ids, ids_cap, dp_bins_tile_count(bins, w->tile))) return false;
-    *count = 0;
+    const size_t all = dp_bins_tile_count(bins, w->tile);
+    if (!DP_WORKER_RESERVE(w, ids, ids_cap, all + 1) || !DP_WORKER_RESERVE(w, backs, backs_cap, all + 1)) return false;
+    uint32_t *const ids = w->ids, *const backs = w->backs, n = 0, m = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
-        const uint32_t first = chunk->offsets[w->tile], n = chunk->offsets[w->tile + 1] - first;
-        memcpy(w->ids + *count, chunk->entries + first, n * sizeof *w->ids);
-        *count += n;
+        for (uint32_t i = chunk->offsets[w->tile]; i < chunk->offsets[w->tile + 1]; i++) {
+            const uint32_t entry = chunk->entries[i], back = entry / DP_BIN_TAG;
+            ids[n] = backs[m] = entry & ~DP_BIN_TAG;
+            n += !back, m += back;
+        }
     }
+    *count = n, *back_count = m;
     return true;
 }
 
 void dp_tile_assemble(dp_tile_worker *w) {
-    uint32_t count;
+    const dp_kernels *const kernels = w->frame->kernels;
+    uint32_t count, back_count;
     w->polygon_count = w->point_count = 0;
-    if (!collect_ids(w, &count)) return;
-    if (!w->frame->polygons.firsts) {
-        w->frame->kernels->assemble(w, w->ids, count);
+    if (!collect_ids(w, &count, &back_count)) return;
+    if (w->frame->polygons.firsts) {
+        for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);
+        dp_tile_find_farthest(w);
         return;
     }
-    for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);
+    kernels->assemble(w, w->ids, count);
+    dp_tile_find_farthest(w);
+    if (w->frame->culls_backs) back_count = kernels->cull(w, w->backs, back_count);
+    kernels->assemble(w, w->backs, back_count);
 }

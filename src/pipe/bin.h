@@ -8,9 +8,12 @@
 /* Tiles [x0, x1) x [y0, y1), not yet clipped to the picture; empty when x0 >= x1. */
 typedef struct dp_tile_rect {
     int16_t x0, y0, x1, y1;
+    uint32_t tag; /* 0 or DP_BIN_TAG: joins the item's number in the entries */
 } dp_tile_rect;
 
-/* One chunk of items: `entries` of tile t are [offsets[t], offsets[t + 1]), ascending. */
+#define DP_BIN_TAG (1u << 31)
+
+/* One chunk of items: `entries` of tile t are [offsets[t], offsets[t + 1]), ascending but for their tags. */
 typedef struct dp_bin_chunk {
     uint32_t *entries, *offsets;
     size_t entries_cap, offsets_cap;
@@ -36,7 +39,7 @@ typedef struct dp_bins {
 typedef void dp_bin_place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker);
 typedef bool dp_bin_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker);
 
-/* Bins items [0, count) into tiles_x * tiles_y tiles. False when memory is out. */
+/* Bins items [0, count), fewer than DP_BIN_TAG, into tiles_x * tiles_y tiles. False when memory is out. */
 bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tiles_y,
                   dp_bin_place *place, dp_bin_touches *touches, void *arg, dp_threads *threads,
                   const dp_allocator *memory);

@@ -1,18 +1,15 @@
 /* Which polygons of a tile lie hidden behind its front faces, and the back faces that do not.
  *
- * Front faces are drawn first (assemble.c). Then each block of pixels knows its furthest sample; a polygon whose
+ * Front faces are drawn first. Then each block of pixels knows its furthest sample; a polygon whose
  * nearest point lies well behind that in all blocks around it can be seen nowhere, and neither can its
  * edges. In a closed model that is true of nearly all back faces: they are not rasterized at all, add no
  * edges of their own to the table and hide no lines that something nearer does not hide already.
  *
  * The depths compared are those of samples, so "well behind" must cover what the surface does between
- * two of them: SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. */
+ * two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
-static const float SLACK = 6; /* pixel sizes */
-
-enum { BLOCKS = DP_TILE / DP_BLOCK, SMALL = 8 /* px */ };
 
 static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     const float *const d = w->depth + dp_pixel_lane(&w->sampling, x, y);
@@ -25,43 +22,57 @@ static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
 }
 
 /* Pixels beyond the picture's border count as seen: nothing is culled by what lies next to it. */
-static void find_farthest(dp_tile_worker *w) {
-    for (uint32_t by = 0; by < BLOCKS; by++)
-        for (uint32_t bx = 0; bx < BLOCKS; bx++) {
+static void find_blocks(const dp_tile_worker *w, float out[DP_BLOCKS][DP_BLOCKS]) {
+    for (uint32_t by = 0; by < DP_BLOCKS; by++)
+        for (uint32_t bx = 0; bx < DP_BLOCKS; bx++) {
             float least = furthest_in_row(w, bx * DP_BLOCK, by * DP_BLOCK);
             for (uint32_t y = 1; y < DP_BLOCK; y++)
                 least = dp_minf(least, furthest_in_row(w, bx * DP_BLOCK, by * DP_BLOCK + y));
-            w->farthest[by][bx] = least;
+            out[by][bx] = least;
+        }
+}
+
+void dp_tile_find_farthest(dp_tile_worker *w) {
+    float(*const one)[DP_BLOCKS] = w->farthest[0][0], (*const wide)[DP_BLOCKS] = w->farthest[0][1];
+    find_blocks(w, one);
+    for (uint32_t by = 0; by < DP_BLOCKS; by++)
+        for (uint32_t bx = 0; bx < DP_BLOCKS; bx++)
+            wide[by][bx] = dp_minf(one[by][bx], one[by][bx + 1 < DP_BLOCKS ? bx + 1 : bx]);
+    for (uint32_t by = 0; by < DP_BLOCKS; by++)
+        for (uint32_t bx = 0; bx < DP_BLOCKS; bx++) {
+            const uint32_t next = by + 1 < DP_BLOCKS ? by + 1 : by;
+            w->farthest[1][0][by][bx] = dp_minf(one[by][bx], one[next][bx]);
+            w->farthest[1][1][by][bx] = dp_minf(wide[by][bx], wide[next][bx]);
         }
 }
 
 /* Pixels beyond the tile are not known: what is large and reaches its border is taken for seen, lest a line be
  * lost that runs along the border between its last samples and those of the next tile. */
-static bool is_hidden_box(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
+bool dp_tile_hides_box(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
     const uint32_t last = DP_TILE - 1;
     const bool border = x0 < 1 || y0 < 1 || x1 > last - 1 || y1 > last - 1;
-    if (border && (x1 - x0 > SMALL || y1 - y0 > SMALL)) return false;
-    const float limit = nearest + dp_depth_steps(w->frame, nearest, SLACK);
+    if (border && (x1 - x0 > DP_CULL_SMALL || y1 - y0 > DP_CULL_SMALL)) return false;
+    const float limit = nearest + dp_depth_steps(w->frame, nearest, DP_CULL_SLACK);
     const uint32_t bx0 = (x0 ? x0 - 1 : 0) / DP_BLOCK, bx1 = (x1 < last ? x1 + 1 : last) / DP_BLOCK;
     const uint32_t by0 = (y0 ? y0 - 1 : 0) / DP_BLOCK, by1 = (y1 < last ? y1 + 1 : last) / DP_BLOCK;
+    if (bx1 - bx0 <= 1 && by1 - by0 <= 1) return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++)
-            if (!(limit < w->farthest[by][bx])) return false;
+            if (!(limit < w->farthest[0][0][by][bx])) return false;
     return true;
 }
 
 static uint32_t clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v; }
 
 bool dp_tile_hides(const dp_tile_worker *w, float x0, float y0, float x1, float y1, float nearest) {
-    return is_hidden_box(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
+    return dp_tile_hides_box(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
 }
 
 static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
-    return is_hidden_box(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
+    return dp_tile_hides_box(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
 }
 
 void dp_tile_faces(dp_tile_worker *w) {
-    find_farthest(w);
     w->seen_count = 0;
     if (!DP_WORKER_RESERVE(w, seen, seen_cap, (size_t)w->polygon_count)) return;
     for (uint32_t i = 0; i < w->polygon_count; i++) {

@@ -278,7 +278,7 @@ static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p, float r
     const uint32_t y0 = block_of(p->y0 - reach), y1 = block_of(p->y1 + 1 + reach);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t x = x0; x <= x1; x++)
-            if (w->farthest[y][x] <= limit) return false;
+            if (w->farthest[0][0][y][x] <= limit) return false;
     return true;
 }
 

@@ -24,6 +24,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     if (!memory.free) return; /* never used */
     dp_free(&memory, worker->winner);
     dp_free(&memory, worker->ids);
+    dp_free(&memory, worker->backs);
     dp_free(&memory, worker->polygons);
     dp_free(&memory, worker->normals);
     dp_free(&memory, worker->points);
@@ -54,7 +55,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
 }
 
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
-    return sizeof *w + w->winner_cap * sizeof *w->winner + w->ids_cap * sizeof *w->ids +
+    return sizeof *w + w->winner_cap * sizeof *w->winner + (w->ids_cap + w->backs_cap) * sizeof *w->ids +
            w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
            w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +

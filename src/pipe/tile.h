@@ -108,6 +108,10 @@ typedef struct dp_loose_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
 } dp_loose_edge;
 
+/* Depth of the furthest sample of 1 + sx times 1 + sy blocks of pixels, the first of which is bx, by (cull.c). */
+enum { DP_BLOCKS = DP_TILE / DP_BLOCK };
+typedef float dp_farthest[2][2][DP_BLOCKS][DP_BLOCKS]; /* [sy][sx][by][bx] */
+
 struct dp_tile_worker {
     const dp_frame *frame;
     dp_sampling sampling;
@@ -118,11 +122,11 @@ struct dp_tile_worker {
     dp_block block; /* of samples that the kernels draw at once */
 
     uint32_t tile, tile_x, tile_y;
-    float farthest[DP_TILE / DP_BLOCK][DP_TILE / DP_BLOCK]; /* depth of a block's furthest sample (cull.c) */
+    dp_farthest farthest;
     float *depth;     /* the tile's samples */
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
-    uint32_t *ids; /* of the tile's polygons, in the frame */
+    uint32_t *ids, *backs; /* of the tile's polygons, in the frame; those of triangles that face away */
     dp_tile_polygon *polygons;
     float (*normals)[3]; /* by polygon: world space, unit; of those that are seen, made by edges.c */
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
@@ -134,7 +138,7 @@ struct dp_tile_worker {
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t winner_cap, ids_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
     uint32_t polygon_count, point_count, seen_count, edge_count, meeting_count, slot_count;
     uint32_t candidate_count, probe_count;
@@ -181,6 +185,7 @@ void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
 /* The stages of dp_tile_find, each in its own file. */
 void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c; draws front faces */
+void dp_tile_find_farthest(dp_tile_worker *worker);                        /* cull.c */
 void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
 void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
@@ -193,7 +198,13 @@ void dp_tile_bare_surface(dp_tile_worker *worker);
 /* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
 void dp_tile_quads(dp_tile_worker *worker);
 
-/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
+/* Culling: how far behind the surface is well behind it, pixel sizes; what is small, px. */
+#define DP_CULL_SLACK 6
+enum { DP_CULL_SMALL = 8 };
+
+/* Does the surface hide all that lies in these pixels, or in this box of tile space, `nearest` at the nearest
+ * (cull.c)? */
+bool dp_tile_hides_box(const dp_tile_worker *worker, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest);
 bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);
 
 /* Sets the normal of a polygon that is too thin for float32 (edges.c). */
