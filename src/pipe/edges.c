@@ -58,6 +58,8 @@ static uint32_t edge_hash(uint32_t ka, uint32_t kb) {
     return (ka + kb) * 0x9e3779b1u ^ (ka ^ kb);
 }
 
+static uint32_t place_of(uint32_t hash, uint32_t slots) { return (uint32_t)((uint64_t)hash * slots >> 32); }
+
 typedef struct ends {
     uint32_t va, vb; /* vertices */
 } ends;
@@ -96,10 +98,10 @@ static void meet(dp_tile_worker *w, uint32_t slot, uint32_t polygon, uint32_t ed
 }
 
 /* Enters an edge of a polygon, or meets the one that is there. */
-static inline void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, ends e, uint32_t hash) {
+static void insert(dp_tile_worker *w, uint32_t polygon, uint32_t edge, ends e, uint32_t hash) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const uint32_t count = w->slot_count;
-    for (uint32_t s = (uint32_t)((uint64_t)hash * count >> 32);; s = s + 1 == count ? 0 : s + 1) {
+    for (uint32_t s = place_of(hash, count);; s = s + 1 == count ? 0 : s + 1) {
         dp_edge_slot *const slot = &w->edge_slots[s];
         if (!slot->a) {
             *slot = (dp_edge_slot){hash, polygon + 1, 0, (uint16_t)edge, 0};
@@ -131,22 +133,6 @@ static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32
     return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
 }
 
-/* A triangle without flags, all of whose edges belong into the table; false where it is not like that. */
-static bool insert_triangle(dp_tile_worker *w, uint32_t index) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_tile_polygon *const p = &w->polygons[index];
-    if ((p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) != DP_POLYGON_WITHIN) return false;
-    const dp_vertex *const at = w->points + p->point;
-    const uint32_t k0 = at[0].key, k1 = at[1].key, k2 = at[2].key;
-    if (k0 == k1 || k1 == k2 || k2 == k0) return false;
-    const uint32_t v0 = dp_corner_vertex(polygons, 3 * p->id), v1 = dp_corner_vertex(polygons, 3 * p->id + 1);
-    const uint32_t v2 = dp_corner_vertex(polygons, 3 * p->id + 2);
-    insert(w, index, 0, (ends){v0, v1}, edge_hash(k0, k1));
-    insert(w, index, 1, (ends){v1, v2}, edge_hash(k1, k2));
-    insert(w, index, 2, (ends){v2, v0}, edge_hash(k2, k0));
-    return true;
-}
-
 static void insert_polygon(dp_tile_worker *w, uint32_t index) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
@@ -162,6 +148,72 @@ static void insert_polygon(dp_tile_worker *w, uint32_t index) {
         if (!real || !is_flagged(polygons, first + i) || !near_tile(w, p, i)) continue;
         if (i > EDGE_MAX) leave(w, index, i);
         else insert(w, index, i, e, hash);
+    }
+}
+
+/* A triangle without flags, all of whose edges belong into the table; false where it is not like that. */
+static bool is_simple(const dp_tile_polygon *p, const dp_vertex *at) {
+    return (p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) == DP_POLYGON_WITHIN && at[0].key != at[1].key &&
+           at[1].key != at[2].key && at[2].key != at[0].key;
+}
+
+/* `insert` for an edge of a triangle from corner number `edge` of its corners `c`: most edges meet the other
+ * triangle that has the same two vertices, or nobody yet. */
+static inline void insert_quick(dp_tile_worker *w, const dp_polygons *polygons, uint32_t polygon, uint32_t edge,
+                                const uint32_t c[3], uint32_t hash) {
+    static const uint8_t NEXT[3] = {1, 2, 0};
+    const uint32_t s = place_of(hash, w->slot_count);
+    dp_edge_slot *const slot = &w->edge_slots[s];
+    if (!slot->a) {
+        *slot = (dp_edge_slot){hash, polygon + 1, 0, (uint16_t)edge, 0};
+        w->edges[w->edge_count++] = s;
+        return;
+    }
+    if (slot->hash == hash && !slot->b) {
+        const uint32_t first = 3 * w->polygons[slot->a - 1].id;
+        if (dp_corner_vertex(polygons, first + slot->edge_a) == c[NEXT[edge]] &&
+            dp_corner_vertex(polygons, first + NEXT[slot->edge_a]) == c[edge]) {
+            slot->b = (polygon + 1) | (is_flat(w, slot->a - 1, polygon) ? DP_SLOT_FLAT : 0);
+            slot->edge_b = (uint16_t)edge;
+            return;
+        }
+    }
+    insert(w, polygon, edge, (ends){c[edge], c[NEXT[edge]]}, hash);
+}
+
+/* Some triangles ahead of where they are entered, their slots are asked for from memory. */
+enum { AHEAD = 8 };
+
+typedef struct pending {
+    uint32_t hash[3];
+    bool simple;
+} pending;
+
+static pending look_ahead(const dp_tile_worker *w, uint32_t index) {
+    const dp_tile_polygon *const p = &w->polygons[index];
+    const dp_vertex *const at = w->points + p->point;
+    pending out = {{edge_hash(at[0].key, at[1].key), edge_hash(at[1].key, at[2].key), edge_hash(at[2].key, at[0].key)},
+                   is_simple(p, at)};
+    for (int k = 0; k < 3; k++) __builtin_prefetch(&w->edge_slots[place_of(out.hash[k], w->slot_count)], 1);
+    return out;
+}
+
+/* The edges of all seen polygons of a frame of triangles without edge flags. */
+static void insert_triangles(dp_tile_worker *w) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    pending ring[AHEAD];
+    for (uint32_t i = 0; i < AHEAD && i < w->seen_count; i++) ring[i] = look_ahead(w, w->seen[i]);
+    for (uint32_t i = 0; i < w->seen_count; i++) {
+        const uint32_t index = w->seen[i], first = 3 * w->polygons[index].id;
+        const pending p = ring[i % AHEAD];
+        if (i + AHEAD < w->seen_count) ring[i % AHEAD] = look_ahead(w, w->seen[i + AHEAD]);
+        if (!p.simple) {
+            insert_polygon(w, index);
+            continue;
+        }
+        const uint32_t c[3] = {dp_corner_vertex(polygons, first), dp_corner_vertex(polygons, first + 1),
+                               dp_corner_vertex(polygons, first + 2)};
+        for (uint32_t k = 0; k < 3; k++) insert_quick(w, polygons, index, k, c, p.hash[k]);
     }
 }
 
@@ -313,9 +365,9 @@ void dp_tile_edges(dp_tile_worker *w) {
         return;
     }
     if (!clear_table(w) || !set_normals(w)) return;
-    const bool plain = !w->frame->polygons.firsts && !w->frame->polygons.edge_flags;
-    for (uint32_t i = 0; i < w->seen_count; i++)
-        if (!plain || !insert_triangle(w, w->seen[i])) insert_polygon(w, w->seen[i]);
+    if (!w->frame->polygons.firsts && !w->frame->polygons.edge_flags) insert_triangles(w);
+    else
+        for (uint32_t i = 0; i < w->seen_count; i++) insert_polygon(w, w->seen[i]);
     for (uint32_t i = 0; i < w->edge_count && !w->failed; i++) {
         const dp_edge_slot *const s = &w->edge_slots[w->edges[i]];
         w->stats.edges_resolved += s->b != 0;
