@@ -49,7 +49,8 @@ static float distance_to(const dp_stroke *s, float x, float y, float *t) {
     const float length2 = ex * ex + ey * ey;
     const float along = length2 > 0 ? ((x - s->a.x) * ex + (y - s->a.y) * ey) / length2 : 0;
     *t = dp_minf(dp_maxf(along, 0), 1);
-    return hypotf(x - s->a.x - *t * ex, y - s->a.y - *t * ey);
+    const float dx = x - s->a.x - *t * ex, dy = y - s->a.y - *t * ey;
+    return sqrtf(dx * dx + dy * dy);
 }
 
 static bool touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker) {

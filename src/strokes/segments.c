@@ -13,7 +13,7 @@
 
 #include <stdlib.h>
 
-enum { BLOCK = DP_TUNED(4096, 7) };
+enum { BLOCK = DP_TUNED(512, 7) };
 
 void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory) {
     dp_free(memory, store->pieces);
