@@ -99,6 +99,28 @@ static bool store_point(const option *o, const char *value, double to[3]) {
     return true;
 }
 
+static bool store_angles(const option *o, const char *value, double to[2]) {
+    const char *const comma = value + strcspn(value, ",");
+    if (!*comma || !read_number(value, comma, &to[0]) || !read_number(comma + 1, end_of(value), &to[1]))
+        return wrong_usage("--%s: \"%s\" is not two angles; give degrees like -40,42", o->name, value);
+    if (fabs(to[1]) > 90) return wrong_usage("--%s: the elevation %g is out of range; give -90 to 90", o->name, to[1]);
+    return true;
+}
+
+/* NAME=FILE for a plane, else a file. */
+static bool store_output(const char *value, tool_settings *settings) {
+    const size_t length = strcspn(value, "=");
+    for (int k = 0; value[length] && k < PLANE_COUNT; k++) {
+        if (strlen(plane_names[k]) != length || strncmp(plane_names[k], value, length)) continue;
+        if (!value[length + 1]) return wrong_usage("--output %s: a file is missing; give %sFILE.png", value, value);
+        settings->planes[k] = value + length + 1;
+        settings->wants_edge_map |= k == PLANE_EDGE_MAP;
+        return true;
+    }
+    settings->output = value;
+    return true;
+}
+
 static bool store_size(const option *o, const char *value, uint32_t to[2]) {
     const char *const cross = value + strcspn(value, "xX");
     uint64_t side[2];
@@ -262,6 +284,10 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_number(o, value, to);
     case OPTION_POINT:
         return store_point(o, value, to);
+    case OPTION_ANGLES:
+        return store_angles(o, value, to);
+    case OPTION_OUTPUT:
+        return store_output(value, settings);
     case OPTION_WORD:
         return store_word(o, value, to);
     case OPTION_SIZE:

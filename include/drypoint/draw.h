@@ -15,7 +15,7 @@
  *     const dp_target target = {.width = 1600, .height = 1200, .rgba = rgba};
  *     dp_draw(context, source, &camera, NULL, &target, &diag);
  *
- * Not here: windows, image files (drypoint/io.h), shading other than one flat surface colour. */
+ * Not here: windows, image files (drypoint/io.h). */
 #ifndef DRYPOINT_DRAW_H
 #define DRYPOINT_DRAW_H
 
@@ -57,6 +57,12 @@ typedef struct dp_target {
     float *depth;           /* [height][width], world units along the line of sight; INFINITY: none */
     uint8_t *line_class;    /* [height][width], 1 + dp_line of the ink that covers the pixel, or 0 */
     float *normal;          /* [height][width][3], world space, unit, towards the eye; 0: none */
+    /* The G-buffer that shading and edge map work on, one surface per pixel (its greatest part): */
+    float *eye_normal;      /* [height][width][3], camera space, unit, as shaded; 0: none */
+    float *distance;        /* [height][width], as depth, at the pixel's centre; INFINITY: none */
+    uint16_t *id;           /* [height][width], 1 + group, at most 65535; 0: none */
+    uint8_t *edge_map;      /* [height][width][4]: inner edges in RGB, profile edges in A; 255: no edge
+                               (Nienhaus 2003, 4.1.2). Needs style.edge_map.detector; 255 without */
 } dp_target;
 
 /* Draws the source, from its start when it can be rewound, from where it is when not.
@@ -89,6 +95,7 @@ typedef enum dp_stage {
     DP_STAGE_BIN,        /* polygons to tiles */
     DP_STAGE_TILES,      /* faces, edges, visibility */
     DP_STAGE_SEGMENTS,   /* merge the tiles' pieces */
+    DP_STAGE_SHADE,      /* shading and edge map, from the G-buffer */
     DP_STAGE_INK,        /* strokes, resolve to the target */
     DP_STAGE_COUNT
 } dp_stage;

@@ -4,7 +4,9 @@
 
 #include "mesh/adjacency.h"
 #include "pipe/stages.h"
+#include "mesh/normals.h"
 #include "pipe/tile.h"
+#include "shade/shade.h"
 #include "strokes/stroke.h"
 
 typedef struct dp_recording dp_recording; /* immediate.c */
@@ -18,6 +20,9 @@ struct dp_context {
 
     dp_polygon_store polygons;
     dp_stroke_store strokes;
+    dp_normal_store normals; /* made for models without */
+    dp_shade_store shade;    /* G-buffer and what is made of it */
+    int shade_pass;          /* the one that runs */
     dp_bin_worker *bin_workers;   /* [workers] */
     dp_tile_worker *tile_workers; /* [workers] */
     dp_ink_worker *ink_workers;   /* [workers] */

@@ -32,7 +32,7 @@ static float margin_of(const dp_frame *f) {
 }
 
 const char *dp_stage_name(dp_stage stage) {
-    static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "ink"};
+    static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "shade", "ink"};
     return (unsigned)stage < DP_STAGE_COUNT ? names[stage] : "unknown";
 }
 
@@ -75,6 +75,8 @@ void dp_context_destroy(dp_context *c) {
     dp_free(&memory, c->ink_workers);
     dp_polygon_store_free(&c->polygons, &memory);
     dp_stroke_store_free(&c->strokes, &memory);
+    dp_normal_store_free(&c->normals, &memory);
+    dp_shade_store_free(&c->shade, &memory);
     dp_bins_free(&c->frame.polygon_bins, &memory);
     dp_bins_free(&c->frame.stroke_bins, &memory);
     dp_free(&memory, c->frame.vertices);
@@ -155,6 +157,13 @@ static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
     dp_tile_find(&c->tile_workers[worker], index);
+    if (c->shade.active) dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+}
+
+static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    (void)worker;
+    dp_shade_pass(&c->shade, c->shade_pass, index);
 }
 
 static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
@@ -258,6 +267,10 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     dp_frame *const f = &c->frame;
     dp_result result = dp_gather(source, &c->polygons, &c->memory, &f->polygons, &c->stats, diag);
     if (result) return result;
+    if (dp_shade_needs_normals(f) &&
+        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, c->threads, &c->memory,
+                         &f->polygons.normals))
+        return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_GATHER, since);
     if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
         return out_of_memory(diag);
@@ -278,17 +291,33 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     return DP_OK;
 }
 
+/* Shading and edge map: passes over the picture, each over before the next begins. */
+static dp_result shade(dp_context *c, dp_diag *diag) {
+    if (!c->shade.active) return DP_OK;
+    dp_shade_prepare(&c->shade);
+    for (int pass = 0; pass < DP_SHADE_PASSES; pass++) {
+        if (!dp_shade_pass_runs(&c->shade, pass)) continue;
+        c->shade_pass = pass;
+        const dp_result result = for_tiles(c, shade_tile, 0.8, 0.85, diag);
+        if (result) return result;
+        dp_shade_pass_ends(&c->shade, pass);
+    }
+    return DP_OK;
+}
+
 static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
     double since = now_ms();
     const double start = since;
-    if (!begin_frame(c)) return out_of_memory(diag);
+    if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
     if (result) return result;
     if (!dp_make_segments(&c->frame, c->tile_workers, &c->strokes) || !dp_bin_strokes(&c->frame))
         return out_of_memory(diag);
     c->stats.segments = c->frame.segment_count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
-    if ((result = for_tiles(c, ink_tile, 0.8, 1, diag))) return result;
+    if ((result = shade(c, diag))) return result;
+    lap(&c->stats, DP_STAGE_SHADE, &since);
+    if ((result = for_tiles(c, ink_tile, 0.85, 1, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++)
         if (c->ink_workers[i].failed) return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_INK, &since);
