@@ -7,6 +7,7 @@
 #include "mesh/normals.h"
 #include "pipe/tile.h"
 #include "shade/shade.h"
+#include "strokes/mark.h"
 #include "strokes/stroke.h"
 
 typedef struct dp_recording dp_recording; /* immediate.c */
@@ -23,6 +24,7 @@ struct dp_context {
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
+    dp_mark_store marks;
     dp_bin_worker *bin_workers;   /* [workers] */
     dp_tile_worker *tile_workers; /* [workers] */
     dp_ink_worker *ink_workers;   /* [workers] */

@@ -25,7 +25,7 @@ static const float MARGIN = 0.75f;
 /* Quads as ink: a polygon's added polygons may reach a tile that it does not. */
 static float margin_of(const dp_frame *f) {
     float widest = 0;
-    if (f->styles[0].ink != DP_INK_QUADS) return MARGIN;
+    if (f->styles[0].ink != DP_INK_QUADS || f->styles[0].edges == DP_EDGES_ADJACENCY) return MARGIN;
     for (uint32_t i = 0; i < f->style_count; i++)
         for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmaxf(widest, f->styles[i].line[k].width);
     return 1 + widest * (f->styles[0].method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1);
@@ -77,6 +77,7 @@ void dp_context_destroy(dp_context *c) {
     dp_stroke_store_free(&c->strokes, &memory);
     dp_normal_store_free(&c->normals, &memory);
     dp_shade_store_free(&c->shade, &memory);
+    dp_mark_store_free(&c->marks, &memory);
     dp_bins_free(&c->frame.polygon_bins, &memory);
     dp_bins_free(&c->frame.stroke_bins, &memory);
     dp_free(&memory, c->frame.vertices);
@@ -168,7 +169,7 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
 
 static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
-    dp_ink_tile(&c->frame, &c->ink_workers[worker], index);
+    (dp_is_by_hand(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker], index);
 }
 
 /* A part of a long loop, so that progress can be told between the parts. */
@@ -229,7 +230,7 @@ static uint64_t scratch_bytes(const dp_context *c) {
                    dp_bins_bytes(&c->frame.stroke_bins);
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
-           c->strokes.strokes_cap * sizeof(dp_stroke);
+           c->strokes.strokes_cap * sizeof(dp_stroke) + c->marks.marks_cap * sizeof(dp_mark);
     for (uint32_t i = 0; i < c->workers; i++) sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
     return sum;
 }
@@ -305,13 +306,21 @@ static dp_result shade(dp_context *c, dp_diag *diag) {
     return DP_OK;
 }
 
+/* Segments; then strokes, or what the hand makes of them. */
+static bool make_strokes(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    if (!dp_make_segments(f, c->tile_workers, &c->strokes)) return false;
+    if (!dp_is_by_hand(f)) return dp_bin_strokes(f);
+    return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
+}
+
 static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
     double since = now_ms();
     const double start = since;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
     if (result) return result;
-    if (!dp_make_segments(&c->frame, c->tile_workers, &c->strokes) || !dp_bin_strokes(&c->frame))
+    if (!make_strokes(c))
         return out_of_memory(diag);
     c->stats.segments = c->frame.segment_count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);

@@ -89,7 +89,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     }
     dp_tile_faces(w);
     dp_tile_surface(w);
-    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS) {
+    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS && !w->frame->adjacency) {
         dp_tile_quads(w);
     } else if (w->frame->lines) {
         if (w->frame->adjacency) dp_tile_adjacent_edges(w);
