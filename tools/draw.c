@@ -32,7 +32,8 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     dp_camera camera;
     const int wrong = make_camera(s, extent, &camera);
     if (wrong) return wrong;
-    const dp_context_desc desc = {.threads = s->threads, .progress = progress_report};
+    const dp_context_desc desc = {.threads = s->threads, .progress = progress_report,
+                                  .memory = (size_t)s->memory};
     dp_style style = make_style(s);
     const int wrong_stroke = make_stroke(s, &style, &d->texture);
     if (wrong_stroke) return wrong_stroke;
@@ -73,6 +74,7 @@ static int write_picture(const tool_settings *s, const drawing *d) {
 
 static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_dropped(&d->stats);
+    if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
     if (s->stats == STATS_JSON)
         print_stats_json(strcmp(s->output, "-") ? stdout : stderr, &d->stats, &d->target);

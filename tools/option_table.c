@@ -170,7 +170,9 @@ const option option_table[] = {
      "paper. Default: strokes."},
     {"passes", 0, "1|2", OPTION_WORD, GROUP_METHOD, PICTURE, AT(passes), 0, 0, 0,
      "With --ink quads: passes over the polygons of a tile; 1 needs --between interval. Default: what "
-     "--between needs."},
+     "--between needs. With --ink strokes: how often a model that does not fit into --memory is read; "
+     "1 is faster, works in a pipe with --eye and --target, and judges what is hidden by the picture's "
+     "samples. Default: 2."},
     {"edge-table", 0, "on|off", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edge_table), 0, 0, 0,
      "With --ink strokes: resolve edges by a small table per tile where that is possible, or look for "
      "what lies across every edge on the screen. Default: on."},
@@ -188,6 +190,9 @@ const option option_table[] = {
      "Frames to time, after one that is not counted. Default: 10."},
     {"threads", 0, "N", OPTION_COUNT, GROUP_PROGRAM, PICTURE, AT(threads), 0, 1, 1024,
      "Threads that draw. The picture is the same for any number. Default: one per processor."},
+    {"memory", 0, "SIZE", OPTION_BYTES, GROUP_PROGRAM, PICTURE, AT(memory), 0, 48.0 * (1 << 20), 1e15,
+     "Memory beyond the picture's own: bytes, or a number with K, M or G. A model that does not fit is "
+     "not held in memory but read twice, in parts. Default: 256M; the least is 48M."},
     {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
      "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
      "(on stderr with -o -)."},
@@ -213,6 +218,7 @@ const command_text command_table[COMMAND_COUNT] = {
                        "technical drawing, bold outline",
                        "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
                        "a generated model, in colour",
+                       "drypoint scan.stl -o scan.png --memory 100M", "a file larger than memory",
                        "drypoint - -o - < model.ply > model.png", "in a pipe", NULL}},
     [COMMAND_INFO] = {"info",
                       "MODEL [--json]",

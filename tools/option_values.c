@@ -87,6 +87,22 @@ static bool store_count(const option *o, const char *value, uint64_t *to) {
     return true;
 }
 
+/* A whole number of bytes, or of K, M or G (powers of 1024). */
+static bool store_bytes(const option *o, const char *value, double *to) {
+    static const char units[] = "KMG";
+    const char *end = end_of(value);
+    const char *const unit = end > value ? strchr(units, end[-1] & ~32) : NULL;
+    uint64_t count;
+    if (unit && *unit) end--;
+    if (!read_count(value, end, &count))
+        return wrong_usage("--%s: \"%s\" is not a size; give one like 256M", o->name, value);
+    *to = (double)count;
+    if (unit && *unit) *to *= (double)((uint64_t)1024 << 10 * (unit - units));
+    if (*to >= o->least && *to <= o->most) return true;
+    return wrong_usage("--%s: %s is out of range; the least is %.0fM", o->name, value,
+                       o->least / (1 << 20));
+}
+
 static bool store_point(const option *o, const char *value, double to[3]) {
     const char *at = value;
     for (int k = 0; k < 3; k++) {
@@ -282,6 +298,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
     case OPTION_NUMBER:
     case OPTION_INSIDE:
         return store_number(o, value, to);
+    case OPTION_BYTES:
+        return store_bytes(o, value, to);
     case OPTION_POINT:
         return store_point(o, value, to);
     case OPTION_ANGLES:

@@ -42,6 +42,7 @@ typedef struct tool_settings {
     uint32_t width, height; /* px */
     int samples;            /* word */
     uint32_t threads;
+    double memory; /* bytes */
     int passes; /* word */
 
     double eye[3], target[3], up[3];
@@ -100,6 +101,7 @@ typedef enum option_kind {
     OPTION_OUTPUT,   /* const char *, or one of tool_settings.planes */
     OPTION_WORD,     /* int: which of the argument's words */
     OPTION_SIZE,     /* uint32_t[2] */
+    OPTION_BYTES,    /* double: a number and K, M or G */
     OPTION_LINES,    /* dp_style.lines */
     OPTION_WIDTHS,   /* dp_style.line[].width */
     OPTION_COLORS,   /* dp_style.line[].color */
@@ -141,7 +143,7 @@ extern const size_t option_count;
 /* A command's name ("" for drawing), what follows it on the command line, one line about it. */
 typedef struct command_text {
     const char *name, *arguments, *about;
-    const char *examples[10]; /* command line, then what it does, … NULL */
+    const char *examples[12]; /* command line, then what it does, … NULL */
 } command_text;
 extern const command_text command_table[COMMAND_COUNT];
 extern const char *const group_names[GROUP_COUNT];

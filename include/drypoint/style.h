@@ -79,7 +79,8 @@ typedef struct dp_style {
     dp_between between;
     dp_ink ink;
     int passes;              /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
-                                interval one, as printed; with 2 it does not depend on their order) */
+                                interval one, as printed; with 2 it does not depend on their order).
+                                strokes: 1 means that a source which is streamed is read once (dp_draw) */
     float between_offset;    /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
     dp_color paper;          /* 0 means white */
     dp_color surface;        /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */

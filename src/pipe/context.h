@@ -19,6 +19,7 @@ struct dp_context {
     dp_threads *threads;
     uint32_t workers;
 
+    size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
     dp_polygon_store polygons;
     dp_stroke_store strokes;
     dp_normal_store normals; /* made for models without */

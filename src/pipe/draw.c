@@ -9,10 +9,12 @@
 #include "base/diag.h"
 #include "features/features.h"
 #include "kernel/kernels.h"
+#include "mesh/source.h"
 #include "pipe/adjacent.h"
 #include "pipe/fringe.h"
 #include "pipe/normals.h"
 #include "pipe/outline.h"
+#include "stream/stream.h"
 
 #include <string.h>
 #include <time.h>
@@ -40,10 +42,13 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_context_create: out is NULL");
     *out = NULL;
     const dp_context_desc d = desc ? *desc : (dp_context_desc){0};
+    if (d.memory && d.memory < DP_MEMORY_LEAST)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%zu bytes of memory are too few; the least is %zu MB", d.memory, DP_MEMORY_LEAST >> 20);
     const dp_allocator memory = dp_allocator_resolve(d.allocator);
     dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
     if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
     c->memory = memory;
+    c->limit = d.memory ? d.memory : DP_MEMORY_DEFAULT;
     c->progress = d.progress;
     c->user = d.user;
     c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
@@ -264,15 +269,50 @@ static bool find_adjacency(dp_context *c) {
     return true;
 }
 
-static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
+/* Everything but plain lines over one colour looks at all polygons at once. */
+static bool may_stream(const dp_context *c) {
+    const dp_style *const style = &c->frame.styles[0];
+    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && style->edges != DP_EDGES_ADJACENCY &&
+           !c->shade.active && !is_polar(&c->frame);
+}
+
+/* Whether to stream is decided by the source's size where it tells, else while it is gathered. */
+static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag *diag) {
+    const dp_style *const style = &c->frame.styles[0];
+    const bool may = may_stream(c), rewindable = dp_source_rewindable(source);
+    *streams = may && (dp_stream_is_large(source, c->limit) || (!rewindable && style->passes == 1));
+    if (*streams) return DP_OK;
+    c->polygons.limit = may ? c->limit : 0;
+    const dp_result result = dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
+    if (!result || !c->polygons.is_beyond) return result;
+    if (!rewindable)
+        return dp_fail(diag, DP_ERR_LIMIT, "the model takes more than %zu MB and can be read only once: allow more memory, draw "
+                       "it with one pass, or from a file", c->limit >> 20);
+    dp_polygon_store_free(&c->polygons, &c->memory);
+    c->stats = (dp_stats){0};
+    *streams = true;
+    return DP_OK;
+}
+
+static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
+    const dp_result result = dp_stream_find(c, source, stream, diag);
+    if (result) return result;
+    lap(&c->stats, DP_STAGE_TILES, since);
+    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->tile_workers[i].stats);
+    return check_dropped(&c->stats, c->stats.polygons, diag);
+}
+
+static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
-    dp_result result = dp_gather(source, &c->polygons, &c->memory, &f->polygons, &c->stats, diag);
+    bool streams;
+    dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (dp_shade_needs_normals(f) &&
         !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, c->threads, &c->memory,
                          &f->polygons.normals))
         return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_GATHER, since);
+    if (streams) return stream_lines(c, source, stream, since, diag);
     if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
@@ -314,11 +354,11 @@ static bool make_strokes(dp_context *c) {
     return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
 }
 
-static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
     double since = now_ms();
     const double start = since;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
-    dp_result result = find_lines(c, source, &since, diag);
+    dp_result result = find_lines(c, source, stream, &since, diag);
     if (result) return result;
     if (!make_strokes(c))
         return out_of_memory(diag);
@@ -333,6 +373,13 @@ static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
     c->stats.frame_ms = now_ms() - start;
     c->stats.bytes = scratch_bytes(c);
     return DP_OK;
+}
+
+static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+    dp_stream_draw *stream = NULL;
+    const dp_result result = draw_stages(c, source, &stream, diag);
+    dp_stream_free(stream);
+    return result;
 }
 
 dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *camera,

@@ -124,10 +124,18 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
     }
 }
 
-void dp_tile_probe(dp_tile_worker *w) {
+void dp_tile_hide(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         if (dp_is_surface(w, p) && !(p->flags & DP_POLYGON_HIDDEN)) hide_under(w, p);
     }
+}
+
+void dp_tile_collect(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
+}
+
+void dp_tile_probe(dp_tile_worker *w) {
+    dp_tile_hide(w);
+    dp_tile_collect(w);
 }

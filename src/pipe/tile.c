@@ -58,8 +58,11 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 
-static void clear(dp_tile_worker *w) {
-    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
+void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
+    w->tile = tile;
+    w->tile_x = tile % w->frame->tiles_x * DP_TILE;
+    w->tile_y = tile / w->frame->tiles_x * DP_TILE;
+    w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
     memset(w->probe_pixels.row, 0, sizeof w->probe_pixels.row);
     memset(w->suspects, 0, sizeof w->suspects);
@@ -68,10 +71,7 @@ static void clear(dp_tile_worker *w) {
 
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     const size_t first = w->piece_count;
-    w->tile = tile;
-    w->tile_x = tile % w->frame->tiles_x * DP_TILE;
-    w->tile_y = tile / w->frame->tiles_x * DP_TILE;
-    w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
+    dp_tile_open(w, tile);
     dp_tile_pieces *const out = &w->frame->tile_pieces[tile];
     out->first = first;
     out->count = 0;
@@ -80,7 +80,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
         dp_tile_bare_surface(w);
         return;
     }
-    clear(w);
+    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(w);
     if (w->frame->lines && dp_is_fringed(w->frame)) {
         if (w->frame->styles[0].passes == 1) dp_tile_fringe_one_pass(w);
