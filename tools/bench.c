@@ -1,6 +1,7 @@
 /* drypoint bench MODEL --frames N: draws the same frame again and again. Loading and the first
  * frame, in which the context's memory grows, are not counted; of each time the median is told. */
 #include "commands.h"
+#include "look.h"
 #include "report.h"
 
 #include <stdlib.h>
@@ -11,6 +12,7 @@ typedef struct bench {
     dp_context *context;
     dp_texture *texture;
     dp_target target;
+    look_data look;
     dp_stats *frames; /* [count] */
     uint32_t count;
 } bench;
@@ -57,7 +59,8 @@ static int draw_frames(bench *b, const dp_camera *camera, const dp_style *style,
 }
 
 static int measure(const tool_settings *s, bench *b) {
-    const dp_context_desc desc = {.threads = s->threads};
+    /* frames are timed from memory, unless streaming is asked for */
+    const dp_context_desc desc = {.threads = s->threads, .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
     dp_style style = make_style(s);
     dp_extent extent;
     dp_camera camera;
@@ -65,6 +68,7 @@ static int measure(const tool_settings *s, bench *b) {
     int code = measure_model(s, b->source, &extent);
     if (!code) code = make_camera(s, &extent, &camera);
     if (!code) code = make_stroke(s, &style, &b->texture);
+    if (!code) code = look_make(s, b->source, &b->look, &style);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
     return draw_frames(b, &camera, &style, s->model);
@@ -93,6 +97,7 @@ int command_bench(const tool_settings *s) {
     dp_context_destroy(b.context);
     dp_texture_destroy(b.texture);
     dp_source_destroy(b.source);
+    look_free(&b.look);
     free(b.frames);
     free(b.target.rgba);
     return code;

@@ -29,5 +29,7 @@ void print_stats_table(FILE *out, const dp_stats *stats);
 void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target);
 /* One warning that counts dropped polygons by cause; nothing when there are none. */
 void warn_dropped(const dp_stats *stats);
+/* One that lines may be missing; nothing when all edges were followed. */
+void warn_lost(const dp_stats *stats);
 
 #endif

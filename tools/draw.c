@@ -1,6 +1,8 @@
 /* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before all is drawn. */
 #include "commands.h"
+#include "look.h"
 #include "output.h"
+#include "planes.h"
 #include "progress.h"
 #include "report.h"
 
@@ -22,6 +24,7 @@ typedef struct drawing {
     dp_texture *texture;
     dp_target target;
     dp_stats stats;
+    look_data look;
 } drawing;
 
 /* Draws into a picture of its own, which the caller frees. */
@@ -29,12 +32,16 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     dp_camera camera;
     const int wrong = make_camera(s, extent, &camera);
     if (wrong) return wrong;
-    const dp_context_desc desc = {.threads = s->threads, .progress = progress_report};
+    const dp_context_desc desc = {.threads = s->threads, .progress = progress_report,
+                                  .memory = (size_t)s->memory};
     dp_style style = make_style(s);
     const int wrong_stroke = make_stroke(s, &style, &d->texture);
     if (wrong_stroke) return wrong_stroke;
     dp_diag diag = {0};
     d->target = make_target(s);
+    int code = look_make(s, d->source, &d->look, &style);
+    if (!code) code = planes_prepare(s, &d->target);
+    if (code) return code;
     d->target.rgba = malloc((size_t)4 * d->target.width * d->target.height);
     if (!d->target.rgba) {
         wrong_usage("out of memory for %u x %u pixels; give a smaller --size", d->target.width,
@@ -67,6 +74,7 @@ static int write_picture(const tool_settings *s, const drawing *d) {
 
 static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_dropped(&d->stats);
+    if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
     if (s->stats == STATS_JSON)
         print_stats_json(strcmp(s->output, "-") ? stdout : stderr, &d->stats, &d->target);
@@ -77,6 +85,7 @@ static int run(const tool_settings *s, drawing *d) {
     int code = open_model(s, &d->source);
     if (!code) code = measure_model(s, d->source, &extent);
     if (!code) code = draw(s, d, &extent);
+    if (!code) code = planes_write(s, &d->target);
     if (!code) code = write_picture(s, d);
     if (!code) print_stats(s, d);
     return code;
@@ -91,5 +100,7 @@ int command_draw(const tool_settings *s) {
     dp_texture_destroy(d.texture);
     dp_source_destroy(d.source);
     free(d.target.rgba);
+    planes_free(&d.target);
+    look_free(&d.look);
     return code;
 }

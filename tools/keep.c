@@ -101,7 +101,11 @@ static dp_result refuse(dp_diag *diag, dp_result result, const char *message) {
     return result;
 }
 
-static dp_result read_all(kept *k, dp_source *source, dp_diag *diag) {
+static double bytes_of(const kept *k) {
+    return (double)(k->vertices * sizeof *k->positions + k->corners * (sizeof *k->indices + 1) + k->polygons * sizeof *k->firsts);
+}
+
+static dp_result read_all(kept *k, dp_source *source, double most, dp_diag *diag) {
     for (;;) {
         dp_batch batch;
         const dp_result result = dp_source_next(source, &batch, diag);
@@ -110,18 +114,22 @@ static dp_result read_all(kept *k, dp_source *source, dp_diag *diag) {
             k->vertices + batch.vertex_count >= UINT32_MAX)
             return refuse(diag, DP_ERR_LIMIT,
                           "too large to be kept; give a file instead of a pipe");
+        if (bytes_of(k) > most)
+            return refuse(diag, DP_ERR_LIMIT,
+                          "takes more memory than --memory says; give a file instead of a pipe, or read it once, "
+                          "with --passes 1, --eye and --target");
         if (!add(k, &batch))
             return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");
     }
 }
 
-dp_result keep_source(dp_source **source, dp_diag *diag) {
+dp_result keep_source(dp_source **source, double most, dp_diag *diag) {
     kept *const k = calloc(1, sizeof *k);
     if (!k) return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");
     const dp_source_callbacks callbacks = {
         .user = k, .next = kept_next, .rewind = kept_rewind, .destroy = kept_destroy};
     dp_source *made = NULL;
-    dp_result result = read_all(k, *source, diag);
+    dp_result result = read_all(k, *source, most, diag);
     if (!result) result = dp_source_from_callbacks(&callbacks, NULL, &made, diag);
     if (result) {
         kept_destroy(k);

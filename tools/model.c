@@ -6,11 +6,13 @@
 
 #include <drypoint/io.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 static const char scheme[] = "shape:";
+static const double default_memory = 256.0 * (1 << 20); /* bytes, as dp_context_desc.memory */
 
 static bool is_shape(const char *name) {
     for (uint32_t k = 0; k < dp_shape_count(); k++)
@@ -39,6 +41,11 @@ static int open_shape(const char *text, dp_source **out) {
     return report_failure(NULL, &diag);
 }
 
+/* Nothing has to be known of the model before it is drawn, and it is read once. */
+static bool is_drawn_unseen(const tool_settings *s) {
+    return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target && s->ink != 2;
+}
+
 int open_model(const tool_settings *s, dp_source **out) {
     *out = NULL;
     if (!strncmp(s->model, scheme, sizeof scheme - 1))
@@ -55,17 +62,36 @@ int open_model(const tool_settings *s, dp_source **out) {
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
     dp_result result = dp_io_open(s->model, &options, out, &diag);
-    if (!result && !dp_source_rewindable(*out)) result = keep_source(out, &diag);
+    if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
+        result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();
     if (!result) return 0;
     report_failure(standard ? "standard input" : s->model, &diag);
     return EXIT_FAILED;
 }
 
+/* A hundred times as far to either side as the eye is away: near and far follow from it. */
+static void unseen_extent(const tool_settings *s, dp_extent *extent) {
+    double square = 0;
+    *extent = (dp_extent){.polygons = 1};
+    for (int k = 0; k < 3; k++) square += (s->eye[k] - s->target[k]) * (s->eye[k] - s->target[k]);
+    for (int k = 0; k < 3; k++) {
+        extent->min[k] = (float)(s->target[k] - 100 * sqrt(square));
+        extent->max[k] = (float)(s->target[k] + 100 * sqrt(square));
+    }
+}
+
 int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) {
     const char *const name = strcmp(s->model, "-") ? s->model : "standard input";
     dp_diag diag = {0};
-    if (dp_source_extent(source, extent, &diag)) {
+    if (!dp_source_rewindable(source)) { /* drawn unseen: it is taken to lie around the target */
+        unseen_extent(s, extent);
+        return 0;
+    }
+    progress_begin("reading", s->quiet);
+    const dp_result result = dp_source_extent(source, extent, &diag);
+    progress_end();
+    if (result) {
         report_failure(name, &diag);
         return EXIT_FAILED;
     }

@@ -11,14 +11,21 @@
 #define EVERY      (DRAW | INFO | MAKE | BENCH)
 #define AT(member) offsetof(tool_settings, member)
 
-const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "Strokes", "How lines are found",
+const char *const plane_names[PLANE_COUNT] = {"edge-map", "normals", "depth", "id"};
+
+const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "Strokes", "Surface", "Edge map", "How lines are found",
                                               "Model",   "Program", NULL};
 
 /* clang-format off */
 const option option_table[] = {
-    {"output", 'o', "FILE", OPTION_TEXT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
+    {"output", 'o', "FILE or NAME=FILE", OPTION_OUTPUT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
      "Where the result goes: FILE.png for a drawing; FILE.ply, .stl or .obj for a model. An old file "
-     "stays until the new one is whole. - is standard output (a PNG, or a PLY)."},
+     "stays until the new one is whole. - is standard output (a PNG, or a PLY). NAME=FILE.png, once for each "
+     "NAME, writes what shading and edges are made from beside the drawing: edge-map (inner edges in RGB, "
+     "profile edges in A), normals, depth, id."},
+    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|patent",
+     OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
+     "A look: options that go together; those on the command line change it."},
     {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,
      "Width and height of the picture in pixels. Default: 1600x1200."},
     {"samples", 0, "1|4|8|16", OPTION_WORD, GROUP_PICTURE, PICTURE, AT(samples), 0, 0, 0,
@@ -89,9 +96,68 @@ const option option_table[] = {
     {"seed", 0, "N", OPTION_COUNT, GROUP_STROKES, PICTURE, AT(seed), 0, 0, 4294967295.0,
      "Another number makes other errors of the hand, and another texture of the same kind. Default: 0."},
 
-    {"edges", 0, "emergent|adjacency", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edges), 0, 0, 0,
-     "Where lines come from: found in each tile as they emerge, with nothing known about neighbours, or by adjacency "
-     "that is built once per model (Hermosilla and Vazquez 2010). Default: emergent."},
+    {"style", 0, "paper|flat|lambert|gooch|toon|hatch|halftone",
+     OPTION_WORD, GROUP_SURFACE, PICTURE, AT(shading), 0, 0, 0,
+     "How surfaces look: the paper's colour, one colour, in light, cool to warm, cartoon, strokes, dots. "
+     "Default: flat."},
+    {"light", 0, "AZ,EL", OPTION_ANGLES, GROUP_SURFACE, PICTURE, AT(light), AT(has_light), -1e6, 1e6,
+     "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
+     "above. Default: -40,42."},
+    {"normals", 0, "model|smooth|facet", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(normals), 0, 0, 0,
+     "What is shaded: the model's normals (made where it has none), made ones, or those of its polygons. "
+     "Default: model."},
+    {"crease-angle", 0, "DEG", OPTION_INSIDE, GROUP_SURFACE, PICTURE, AT(crease_angle), 0, 0, 180,
+     "Where normals are made: folds up to this are smoothed. Default: 40."},
+    {"highlight", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(highlight), 0, 0, 1,
+     "Strength of a highlight. Default: 0."},
+    {"gooch-plain", 0, NULL, OPTION_FLAG, GROUP_SURFACE, PICTURE, AT(gooch_plain), 0, 0, 0,
+     "With --style gooch: leave the surface's colour out."},
+    {"shade-texture", 0, "FILE", OPTION_TEXT, GROUP_SURFACE, PICTURE, AT(shade_texture), 0, 0, 0,
+     "With --style toon: a PNG whose middle row holds the shades, from dark to light."},
+    {"cartoon-map", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(cartoon_map), 0, 0, 0,
+     "With --style toon: smooth the jaggies between shades. Default: on."},
+    {"strokes", 0, "FILE", OPTION_TEXT, GROUP_SURFACE, PICTURE, AT(strokes), 0, 0, 0,
+     "With --style hatch or halftone: a PNG of strokes, repeated; darker ones are drawn first."},
+    {"hatch-space", 0, "screen|object", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(hatch_space), 0, 0, 0,
+     "Strokes lie on the picture, or stick to the surface. Default: screen."},
+    {"hatch-scale", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(hatch_scale), 0, 0.05, 50,
+     "2: strokes twice as wide and as far apart. Default: 1."},
+    {"hatch-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(hatch_color), 0, 0, 0,
+     "Colour of strokes and dots. Default: black."},
+
+    {"edges", 0, "emergent|adjacency|map|both|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(edges), 0, 0, 0,
+     "Where lines come from: found in each tile as they emerge, with nothing known about neighbours; by adjacency "
+     "that is built once per model (Hermosilla and Vazquez 2010); the edge map (Nienhaus and Doellner 2003); emergent "
+     "lines and the map; nowhere. Default: emergent; both with --edge-map."},
+    {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
+     "How steps in the G-buffer are found: four diagonal samples, or the C1-discontinuity operator in three "
+     "passes. Default: diagonal."},
+    {"edge-measure", 0, "scaled|paper", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_measure), 0, 0, 0,
+     "Measure steps in pixel sizes beyond what the slope explains, or as printed, between near and far and "
+     "without thresholds. Default: scaled."},
+    {"precision", 0, "float|8", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(precision), 0, 0, 0,
+     "Keep normals and distances as floats or, as the paper does, in 8 bits. Default: float."},
+    {"edge-radius", 0, "PX", OPTION_COUNT, GROUP_EDGE_MAP, PICTURE, AT(edge_radius), 0, 1, 4,
+     "How far the samples lie from the pixel: about the width of edges. Default: 1."},
+    {"edge-sides", 0, "near|both", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_sides), 0, 0, 0,
+     "Profile edges on the nearer side of a step, or on both. Default: near."},
+    {"edge-groups", 0, "on|off", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(group_edges), 0, 0, 0,
+     "Profile edges where objects or materials meet. Default: on."},
+    {"inner-angle", 0, "DEG", OPTION_INSIDE, GROUP_EDGE_MAP, PICTURE, AT(inner_angle), 0, 0, 180,
+     "Angle between neighbouring normals at which an inner edge begins. Default: 24."},
+    {"inner-softness", 0, "F", OPTION_NUMBER, GROUP_EDGE_MAP, PICTURE, AT(inner_softness), 0, 0.001, 2,
+     "How slowly inner edges become strong. Default: 0.25."},
+    {"profile-depth", 0, "PX", OPTION_NUMBER, GROUP_EDGE_MAP, PICTURE, AT(profile_depth), 0, 0.01, 1e6,
+     "Step in distance, in pixel sizes, that makes a whole profile edge. Default: 6."},
+    {"profile-softness", 0, "F", OPTION_NUMBER, GROUP_EDGE_MAP, PICTURE, AT(profile_softness), 0, 0.001, 1,
+     "How slowly profile edges become strong. Default: 0.5."},
+    {"inner-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(inner_color), 0, 0, 0,
+     "Colour of inner edges. Default: black."},
+    {"profile-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
+     "Colour of profile edges. Default: black."},
+    {"enhance", 0, "NAME,...", OPTION_TEXT, GROUP_EDGE_MAP, PICTURE, AT(enhance), 0, 0, 0,
+     "Only these objects, groups or materials have edges from the map. Default: all."},
+
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
      "With --ink quads: build added polygons on the screen, exact in pixels, or by the formulas of "
      "Raskar 2001 as printed. Default: exact."},
@@ -104,7 +170,9 @@ const option option_table[] = {
      "paper. Default: strokes."},
     {"passes", 0, "1|2", OPTION_WORD, GROUP_METHOD, PICTURE, AT(passes), 0, 0, 0,
      "With --ink quads: passes over the polygons of a tile; 1 needs --between interval. Default: what "
-     "--between needs."},
+     "--between needs. With --ink strokes: how often a model that does not fit into --memory is read; "
+     "1 is faster, works in a pipe with --eye and --target, and judges what is hidden by the picture's "
+     "samples. Default: 2."},
     {"edge-table", 0, "on|off", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edge_table), 0, 0, 0,
      "With --ink strokes: resolve edges by a small table per tile where that is possible, or look for "
      "what lies across every edge on the screen. Default: on."},
@@ -122,6 +190,9 @@ const option option_table[] = {
      "Frames to time, after one that is not counted. Default: 10."},
     {"threads", 0, "N", OPTION_COUNT, GROUP_PROGRAM, PICTURE, AT(threads), 0, 1, 1024,
      "Threads that draw. The picture is the same for any number. Default: one per processor."},
+    {"memory", 0, "SIZE", OPTION_BYTES, GROUP_PROGRAM, PICTURE, AT(memory), 0, 48.0 * (1 << 20), 1e15,
+     "Memory beyond the picture's own: bytes, or a number with K, M or G. A model that does not fit is "
+     "not held in memory but read twice, in parts. Default: 256M; the least is 48M."},
     {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
      "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
      "(on stderr with -o -)."},
@@ -147,6 +218,7 @@ const command_text command_table[COMMAND_COUNT] = {
                        "technical drawing, bold outline",
                        "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
                        "a generated model, in colour",
+                       "drypoint scan.stl -o scan.png --memory 100M", "a file larger than memory",
                        "drypoint - -o - < model.ply > model.png", "in a pipe", NULL}},
     [COMMAND_INFO] = {"info",
                       "MODEL [--json]",

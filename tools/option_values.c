@@ -87,6 +87,22 @@ static bool store_count(const option *o, const char *value, uint64_t *to) {
     return true;
 }
 
+/* A whole number of bytes, or of K, M or G (powers of 1024). */
+static bool store_bytes(const option *o, const char *value, double *to) {
+    static const char units[] = "KMG";
+    const char *end = end_of(value);
+    const char *const unit = end > value ? strchr(units, end[-1] & ~32) : NULL;
+    uint64_t count;
+    if (unit && *unit) end--;
+    if (!read_count(value, end, &count))
+        return wrong_usage("--%s: \"%s\" is not a size; give one like 256M", o->name, value);
+    *to = (double)count;
+    if (unit && *unit) *to *= (double)((uint64_t)1024 << 10 * (unit - units));
+    if (*to >= o->least && *to <= o->most) return true;
+    return wrong_usage("--%s: %s is out of range; the least is %.0fM", o->name, value,
+                       o->least / (1 << 20));
+}
+
 static bool store_point(const option *o, const char *value, double to[3]) {
     const char *at = value;
     for (int k = 0; k < 3; k++) {
@@ -96,6 +112,28 @@ static bool store_point(const option *o, const char *value, double to[3]) {
                                o->name, value);
         at = end + 1;
     }
+    return true;
+}
+
+static bool store_angles(const option *o, const char *value, double to[2]) {
+    const char *const comma = value + strcspn(value, ",");
+    if (!*comma || !read_number(value, comma, &to[0]) || !read_number(comma + 1, end_of(value), &to[1]))
+        return wrong_usage("--%s: \"%s\" is not two angles; give degrees like -40,42", o->name, value);
+    if (fabs(to[1]) > 90) return wrong_usage("--%s: the elevation %g is out of range; give -90 to 90", o->name, to[1]);
+    return true;
+}
+
+/* NAME=FILE for a plane, else a file. */
+static bool store_output(const char *value, tool_settings *settings) {
+    const size_t length = strcspn(value, "=");
+    for (int k = 0; value[length] && k < PLANE_COUNT; k++) {
+        if (strlen(plane_names[k]) != length || strncmp(plane_names[k], value, length)) continue;
+        if (!value[length + 1]) return wrong_usage("--output %s: a file is missing; give %sFILE.png", value, value);
+        settings->planes[k] = value + length + 1;
+        settings->wants_edge_map |= k == PLANE_EDGE_MAP;
+        return true;
+    }
+    settings->output = value;
     return true;
 }
 
@@ -260,8 +298,14 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
     case OPTION_NUMBER:
     case OPTION_INSIDE:
         return store_number(o, value, to);
+    case OPTION_BYTES:
+        return store_bytes(o, value, to);
     case OPTION_POINT:
         return store_point(o, value, to);
+    case OPTION_ANGLES:
+        return store_angles(o, value, to);
+    case OPTION_OUTPUT:
+        return store_output(value, settings);
     case OPTION_WORD:
         return store_word(o, value, to);
     case OPTION_SIZE:

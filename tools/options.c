@@ -3,6 +3,7 @@
  * The first word may be a command; without one the program draws. Options may stand anywhere, as
  * --name value, --name=value or -o value; -- ends them; - is a model or output like any other. */
 #include "options.h"
+#include "presets.h"
 #include "report.h"
 
 #include <stdlib.h>
@@ -158,10 +159,37 @@ static void begin(walk *w) {
     }
 }
 
+/* A preset's options, before all others. Their values lie in memory that stays: settings point to them. */
+static bool apply_preset(tool_settings *settings, const char *name) {
+    static char words[1024];
+    char *argv[64] = {NULL};
+    walk w = {.argc = 1, .at = 1, .argv = argv, .settings = settings};
+    const preset *const p = preset_find(name);
+    if (!p) return true; /* the option's own check tells */
+    snprintf(words, sizeof words, "%s", p->options);
+    for (char *word = strtok(words, " "); word && w.argc < 63; word = strtok(NULL, " ")) argv[w.argc++] = word;
+    while (w.at < w.argc)
+        if (!take(&w)) return false;
+    return true;
+}
+
+static bool apply_presets(walk *w) {
+    for (int k = w->at; k < w->argc && strcmp(w->argv[k], "--"); k++) {
+        const char *const value = !strcmp(w->argv[k], "--preset") && k + 1 < w->argc ? w->argv[k + 1]
+                                  : !strncmp(w->argv[k], "--preset=", 9)             ? w->argv[k] + 9
+                                                                                     : NULL;
+        if (value && w->settings->command != COMMAND_INFO && w->settings->command != COMMAND_MAKE &&
+            !apply_preset(w->settings, value))
+            return false;
+    }
+    return true;
+}
+
 bool options_parse(int argc, char **argv, tool_settings *settings) {
     walk w = {.argc = argc, .argv = argv, .settings = settings};
     memset(settings, 0, sizeof *settings);
     begin(&w);
+    if (!apply_presets(&w)) return false;
     while (w.at < w.argc && !settings->question)
         if (!take(&w)) return false;
     if (settings->question && w.at < w.argc) { /* drypoint --help make */

@@ -26,6 +26,11 @@ typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
+enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
+
+/* What --output NAME=FILE can name. */
+typedef enum output_plane { PLANE_EDGE_MAP = 0, PLANE_NORMALS, PLANE_DEPTH, PLANE_ID, PLANE_COUNT } output_plane;
+extern const char *const plane_names[PLANE_COUNT];
 
 /* Everything the command line can say; zero is "not said". */
 typedef struct tool_settings {
@@ -37,6 +42,7 @@ typedef struct tool_settings {
     uint32_t width, height; /* px */
     int samples;            /* word */
     uint32_t threads;
+    double memory; /* bytes */
     int passes; /* word */
 
     double eye[3], target[3], up[3];
@@ -56,6 +62,24 @@ typedef struct tool_settings {
     double stroke_k, stroke_scale, taper, jitter, overshoot, width_by_depth, width_by_light;
     bool has_stroke_k, has_taper, has_jitter, has_overshoot;
     uint32_t repeats;
+    int preset;  /* word; its options come first */
+    int shading; /* word */
+    double light[2];
+    bool has_light;
+    int normals; /* word */
+    double crease_angle, highlight, hatch_scale;
+    bool gooch_plain;
+    int cartoon_map, hatch_space; /* words */
+    const char *shade_texture, *strokes;
+    dp_color hatch_color;
+
+    int edge_map, edge_measure, precision, edge_sides, group_edges; /* words */
+    uint32_t edge_radius;
+    double inner_angle, inner_softness, profile_depth, profile_softness;
+    dp_color inner_color, profile_color;
+    const char *enhance;
+    const char *planes[PLANE_COUNT]; /* files */
+    bool wants_edge_map;
 
     stats_kind stats;
     bool json, quiet;
@@ -73,8 +97,11 @@ typedef enum option_kind {
     OPTION_NUMBER,   /* double, limits included */
     OPTION_INSIDE,   /* double, limits excluded */
     OPTION_POINT,    /* double[3] */
+    OPTION_ANGLES,   /* double[2] */
+    OPTION_OUTPUT,   /* const char *, or one of tool_settings.planes */
     OPTION_WORD,     /* int: which of the argument's words */
     OPTION_SIZE,     /* uint32_t[2] */
+    OPTION_BYTES,    /* double: a number and K, M or G */
     OPTION_LINES,    /* dp_style.lines */
     OPTION_WIDTHS,   /* dp_style.line[].width */
     OPTION_COLORS,   /* dp_style.line[].color */
@@ -88,6 +115,8 @@ typedef enum option_group {
     GROUP_CAMERA,
     GROUP_LINES,
     GROUP_STROKES,
+    GROUP_SURFACE,
+    GROUP_EDGE_MAP,
     GROUP_METHOD,
     GROUP_MODEL,
     GROUP_PROGRAM,
@@ -114,7 +143,7 @@ extern const size_t option_count;
 /* A command's name ("" for drawing), what follows it on the command line, one line about it. */
 typedef struct command_text {
     const char *name, *arguments, *about;
-    const char *examples[10]; /* command line, then what it does, … NULL */
+    const char *examples[12]; /* command line, then what it does, … NULL */
 } command_text;
 extern const command_text command_table[COMMAND_COUNT];
 extern const char *const group_names[GROUP_COUNT];

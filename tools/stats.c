@@ -25,6 +25,7 @@ static const count counts[] = {
     {"edges_emergent", "edges left to emerge", AT(edges_emergent)},
     {"open_edges", "open edges met", AT(open_edges)},
     {"added_polygons", "polygons added", AT(added_polygons)},
+    {"edges_lost", "edges lost for want of memory", AT(edges_lost)},
     {"segments", "visible segments", AT(segments)},
     {"bytes", "bytes of scratch memory", AT(bytes)},
     {"adjacency_bytes", "  adjacency", AT(adjacency_bytes)},
@@ -54,6 +55,12 @@ void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target)
         fprintf(out, "%s\"%s\": %.3f", k ? ", " : "", dp_stage_name((dp_stage)k),
                 stats->stage_ms[k]);
     fprintf(out, "}, \"frame_ms\": %.3f}\n", stats->frame_ms);
+}
+
+void warn_lost(const dp_stats *stats) {
+    if (stats->edges_lost)
+        warn("the file names its triangles in no order: %llu edges or more could not be followed, and lines may be missing; "
+             "give more --memory", (unsigned long long)stats->edges_lost);
 }
 
 void warn_dropped(const dp_stats *stats) {

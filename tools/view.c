@@ -151,7 +151,7 @@ dp_style make_style(const tool_settings *s) {
     dp_style style = s->style;
     style.ridge_angle = (float)s->ridge_angle;
     style.valley_angle = (float)s->valley_angle;
-    if (s->edges) style.edges = (dp_edges)(s->edges - 1);
+    if (s->edges == EDGES_ADJACENCY) style.edges = DP_EDGES_ADJACENCY;
     if (s->method) style.method = (dp_method)(s->method - 1);
     if (s->between) style.between = (dp_between)(s->between - 1);
     /* extruded geometry is what adjacency is for */

@@ -15,7 +15,7 @@
  *     const dp_target target = {.width = 1600, .height = 1200, .rgba = rgba};
  *     dp_draw(context, source, &camera, NULL, &target, &diag);
  *
- * Not here: windows, image files (drypoint/io.h), shading other than one flat surface colour. */
+ * Not here: windows, image files (drypoint/io.h). */
 #ifndef DRYPOINT_DRAW_H
 #define DRYPOINT_DRAW_H
 
@@ -38,10 +38,13 @@ typedef struct dp_context_desc {
      * from any threads, and return when all are done. NULL: the context's own threads. */
     void (*parallel_for)(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
                          void *arg);
-    /* Called from the drawing thread now and then, fraction in [0, 1]; a non-zero return stops the
-     * drawing with DP_ERR_CANCELLED. */
+    /* Called from the drawing thread now and then, fraction in [0, 1], or negative while a source of unknown
+     * length is streamed; a non-zero return stops the drawing with DP_ERR_CANCELLED. */
     int (*progress)(void *user, double fraction);
     void *user;
+    /* Memory beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. A source that would take more
+     * is not gathered but streamed: read twice, in parts (dp_draw). */
+    size_t memory;
 } dp_context_desc;
 
 /* desc may be NULL. DP_ERR_MEMORY, DP_ERR_LIMIT (threads could not be started). */
@@ -57,9 +60,27 @@ typedef struct dp_target {
     float *depth;           /* [height][width], world units along the line of sight; INFINITY: none */
     uint8_t *line_class;    /* [height][width], 1 + dp_line of the ink that covers the pixel, or 0 */
     float *normal;          /* [height][width][3], world space, unit, towards the eye; 0: none */
+    /* The G-buffer that shading and edge map work on, one surface per pixel (its greatest part): */
+    float *eye_normal;      /* [height][width][3], camera space, unit, as shaded; 0: none */
+    float *distance;        /* [height][width], as depth, at the pixel's centre; INFINITY: none */
+    uint16_t *id;           /* [height][width], 1 + group, at most 65535; 0: none */
+    uint8_t *edge_map;      /* [height][width][4]: inner edges in RGB, profile edges in A; 255: no edge
+                               (Nienhaus 2003, 4.1.2). Needs style.edge_map.detector; 255 without */
 } dp_target;
 
 /* Draws the source, from its start when it can be rewound, from where it is when not.
+ *
+ * With DP_INK_STROKES a source that would take more memory than the context may use is streamed: read in
+ * parts, once for surface and lines, once for what hides them, and more often where polygons that share an
+ * edge are many and far apart; memory then depends on the picture and on its lines, not on the source's
+ * length. The lines are the same, but for these: intersections are found between polygons of one part; an
+ * edge of more than two polygons, or one that lies in the middle of another polygon, may be taken for a border;
+ * beyond 64 readings edges are given up (dp_stats.edges_lost). Polygons of more than three corners are
+ * streamed as triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
+ * adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source is read once, and what hides lines is known only as finely as the picture's
+ * samples. A source that can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1.
+ * Sources of one stable batch are drawn from where they lie, whatever their size.
+ *
  * style NULL: all defaults. The picture is the same, bit for bit, for any number of threads.
  * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with; and
  * DP_ERR_FORMAT when the source held polygons but every one of them had to be dropped. */
@@ -89,6 +110,7 @@ typedef enum dp_stage {
     DP_STAGE_BIN,        /* polygons to tiles */
     DP_STAGE_TILES,      /* faces, edges, visibility */
     DP_STAGE_SEGMENTS,   /* merge the tiles' pieces */
+    DP_STAGE_SHADE,      /* shading and edge map, from the G-buffer */
     DP_STAGE_INK,        /* strokes, resolve to the target */
     DP_STAGE_COUNT
 } dp_stage;
@@ -108,6 +130,7 @@ typedef struct dp_stats {
     uint64_t edges_emergent;   /* left to emerge */
     uint64_t open_edges;       /* edges met with one polygon; counted per tile */
     uint64_t added_polygons;   /* by the primitive shaders; counted per tile */
+    uint64_t edges_lost;       /* streamed: edges given up because too many waited for their polygons */
     uint64_t segments;
     uint64_t bytes;            /* scratch memory held by the context */
     uint64_t adjacency_bytes;  /* of it, adjacency (DP_EDGES_ADJACENCY) */

@@ -7,6 +7,7 @@
 #include <drypoint/camera.h>
 #include <drypoint/draw.h>
 #include <drypoint/immediate.h>
+#include <drypoint/shade.h>
 #include <drypoint/shapes.h>
 #include <drypoint/source.h>
 #include <drypoint/strokes.h>

@@ -39,6 +39,15 @@ DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *pict
 /* A stroke texture from a PNG of any kind, at most 8192 px wide and high; what of it is ink: dp_texture_create.
  * DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */
 DP_API dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator, dp_texture **out, dp_diag *diag);
+/* A picture as read: freed by dp_io_free_pixels. */
+typedef struct dp_io_pixels {
+    uint8_t *rgba; /* [height][width][4], not premultiplied */
+    uint32_t width, height;
+} dp_io_pixels;
+
+/* Reads a PNG of any kind (for textures). DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */
+DP_API dp_result dp_io_read_png(const char *path, dp_io_pixels *pixels, dp_diag *diag);
+DP_API void dp_io_free_pixels(dp_io_pixels *pixels); /* NULL allowed */
 
 typedef enum dp_mesh_file {
     DP_MESH_FILE_AUTO = 0, /* by the name's ending */

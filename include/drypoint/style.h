@@ -7,7 +7,7 @@
 #ifndef DRYPOINT_STYLE_H
 #define DRYPOINT_STYLE_H
 
-#include <drypoint/base.h>
+#include <drypoint/shade.h>
 #include <drypoint/strokes.h>
 
 #ifdef __cplusplus
@@ -33,8 +33,6 @@ typedef enum dp_line {
 #define DP_ALL_LINES (DP_SIL_RIDGE_VALLEY | DP_INTERSECTION | DP_BORDER)
 #define DP_NO_LINES (1u << 31)
 
-/* 0xRRGGBBAA. 0 stands for the default of where it is used. */
-typedef uint32_t dp_color;
 #define DP_COLOR_NONE 0xFFFFFF00u
 #define DP_RGB(r, g, b) (((dp_color)(r) << 24) | ((dp_color)(g) << 16) | ((dp_color)(b) << 8) | 0xFFu)
 
@@ -81,12 +79,15 @@ typedef struct dp_style {
     dp_between between;
     dp_ink ink;
     int passes;              /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
-                                interval one, as printed; with 2 it does not depend on their order) */
+                                interval one, as printed; with 2 it does not depend on their order).
+                                strokes: 1 means that a source which is streamed is read once (dp_draw) */
     float between_offset;    /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
     dp_color paper;          /* 0 means white */
     dp_color surface;        /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
     bool cull_back_faces;    /* do not paint back faces as surface (closed models lose nothing) */
     bool edge_table_off;     /* strokes only: resolve no edge by the tile's table, let every line emerge */
+    dp_shade shade;          /* how surfaces look (shade.h) */
+    dp_edge_map edge_map;    /* off by default */
 } dp_style;
 
 /* The style with every default filled in. DP_ERR_ARGUMENT names the member that is out of range. */

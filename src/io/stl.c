@@ -6,10 +6,13 @@
  *
  * Invariant: a failure is final: it is reported again by every call until the source is rewound.
  *
+ * A binary file's triangles can also be read in any order (dp_records): its records have one size.
+ *
  * Does not handle: colours in the attribute bytes. */
 #include "io/readers.h"
 
 #include "io/text.h"
+#include "mesh/source.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -226,6 +229,42 @@ static dp_result stl_rewind(void *user, dp_diag *diag) {
     return dp_stream_rewind(self->stream, diag);
 }
 
+/* From any thread: only the file's size may have changed since it was opened. */
+static dp_result stl_records(void *user, uint64_t first, uint32_t count, uint8_t *to, dp_diag *diag) {
+    const stl *const self = user;
+    const uint64_t at = HEADER + RECORD * first;
+    const size_t size = (size_t)RECORD * count;
+    size_t got = 0;
+    int error = 0;
+    if (dp_stream_read_at(self->stream, at, to, size, &got, &error)) {
+        if (got == size) return DP_OK;
+        dp_fail_offset(diag, DP_ERR_FORMAT, at + got,
+                       "binary STL that announces %" PRIu32 " triangles ends in triangle %" PRIu64
+                       ": it is cut short, copy or export it again",
+                       self->announced, first + got / RECORD);
+        diag->item = first + got / RECORD;
+        return DP_ERR_FORMAT;
+    }
+    return dp_fail_offset(diag, DP_ERR_IO, at + got, "reading failed: %s", strerror(error));
+}
+
+static bool is_little_endian(void) {
+    const uint32_t one = 1;
+    uint8_t first;
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
+static void offer_records(stl *self, dp_source *source) {
+    if (!self->binary || !dp_stream_rewindable(self->stream) || !is_little_endian()) return;
+    source->records = (dp_records){.count = self->announced,
+                                   .size = RECORD,
+                                   .corners = CORNERS_AT,
+                                   .read = stl_records,
+                                   .progress = self->stream->progress,
+                                   .progress_user = self->stream->user};
+}
+
 static const char *stl_group_name(void *user, uint32_t group) {
     return dp_groups_name(&((stl *)user)->names, group);
 }
@@ -277,5 +316,6 @@ dp_result dp_read_stl(dp_stream *stream, dp_source **out, dp_diag *diag) {
                                            .group_name = stl_group_name};
     if (!result) result = dp_source_from_callbacks(&callbacks, &stream->allocator, out, diag);
     if (result) release(self);
+    else offer_records(self, *out);
     return result;
 }

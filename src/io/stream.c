@@ -177,6 +177,28 @@ size_t dp_stream_hint(const dp_stream *stream, uint64_t count, size_t bytes) {
     return (size_t)(count < most ? count : most);
 }
 
+bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, size_t size, size_t *got,
+                       int *error) {
+    *got = 0;
+    if (stream->descriptor < 0) {
+        const uint64_t left = offset < stream->size ? stream->size - offset : 0;
+        *got = left < size ? (size_t)left : size;
+        if (*got) memcpy(to, stream->memory + offset, *got);
+        return true;
+    }
+    while (*got < size) {
+        const ssize_t count = pread(stream->descriptor, to + *got, size - *got,
+                                    (off_t)((uint64_t)stream->start + offset + *got));
+        if (count == 0) break;
+        if (count > 0) *got += (size_t)count;
+        else if (errno != EINTR) {
+            *error = errno;
+            return false;
+        }
+    }
+    return true;
+}
+
 bool dp_stream_rewindable(const dp_stream *stream) { return stream->start >= 0; }
 
 dp_result dp_stream_rewind(dp_stream *stream, dp_diag *diag) {

@@ -209,6 +209,12 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     return DP_OK;
 }
 
+/* Per vertex: position and place on the screen; per polygon: its number, group and place in bins. */
+static bool is_beyond_limit(const dp_polygon_store *s) {
+    enum { VERTEX = 28, CORNER = 5, POLYGON = 34 };
+    return s->limit && VERTEX * s->vertices + CORNER * s->corner_count + POLYGON * s->polygons > s->limit;
+}
+
 static void use_store(const gatherer *g, dp_polygons *out) {
     const dp_polygon_store *const s = g->store;
     if (s->firsts) s->firsts[s->polygons] = (uint32_t)s->corner_count;
@@ -242,6 +248,8 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
     }
     while (batch.polygon_count) {
         if ((result = append_batch(g, &batch))) return result;
+        if ((g->store->is_beyond = is_beyond_limit(g->store)))
+            return dp_fail(g->diag, DP_ERR_LIMIT, "the model takes more than %zu MB of memory", g->store->limit >> 20);
         if ((result = dp_source_next(source, &batch, g->diag))) return result;
     }
     use_store(g, out);
@@ -255,6 +263,7 @@ dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocat
         if (result) return result;
     }
     store->vertices = store->corner_count = store->polygons = 0;
+    store->is_beyond = false;
     store->normals.count = store->texcoords.count = 0;
     store->normals.used = store->texcoords.used = false;
     gatherer g = {.store = store, .memory = allocator, .stats = stats, .diag = diag};

@@ -39,13 +39,16 @@ typedef struct dp_polygon_store {
     uint16_t *groups;
     size_t positions_cap, corners_cap, firsts_cap, source_cap, flags_cap, groups_cap;
     size_t vertices, corner_count, polygons;
+    size_t limit;   /* bytes that these arrays and what the stages make of them may take; 0: any number */
+    bool is_beyond; /* they would have taken more */
     dp_attribute_store normals, texcoords;
 } dp_polygon_store;
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator);
 
 /* Reads the source to its end (from its start when it can be rewound), splits what is not convex and
- * planar, and fills `out`. Counts polygons, triangles, split and dropped_corners in `stats`. */
+ * planar, and fills `out`. Counts polygons, triangles, split and dropped_corners in `stats`. DP_ERR_LIMIT
+ * beyond 2^30 polygons or, with store->is_beyond, beyond store->limit bytes; what can be borrowed costs none. */
 dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocator *allocator,
                     dp_polygons *out, dp_stats *stats, dp_diag *diag);
 

@@ -18,8 +18,7 @@ dp_result dp_source_from_callbacks(const dp_source_callbacks *callbacks,
     const dp_allocator memory = dp_allocator_resolve(allocator);
     dp_source *const source = dp_alloc(&memory, sizeof *source);
     if (!source) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a polygon source");
-    source->callbacks = *callbacks;
-    source->allocator = memory;
+    *source = (dp_source){.callbacks = *callbacks, .allocator = memory};
     *out = source;
     return DP_OK;
 }
@@ -152,6 +151,7 @@ static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *
 
 dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
     if (!source || !extent) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
+    if (source->records.read) return dp_records_extent(source, extent, diag);
     dp_extent sum = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0, 0, 0, 0};
     for (;;) {
         dp_batch batch;

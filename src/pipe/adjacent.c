@@ -99,7 +99,8 @@ static void add_polygon(dp_tile_worker *w, const dp_tile_polygon *p, bool crease
 }
 
 void dp_tile_adjacent_edges(dp_tile_worker *w) {
-    const bool creases = w->frame->lines & (DP_RIDGE | DP_VALLEY);
+    /* extruded geometry lies outside of outlines: creases have no outside */
+    const bool creases = w->frame->lines & (DP_RIDGE | DP_VALLEY) && w->frame->styles[0].ink == DP_INK_STROKES;
     for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         if (p->flags & DP_POLYGON_HIDDEN) continue;

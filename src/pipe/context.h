@@ -4,7 +4,10 @@
 
 #include "mesh/adjacency.h"
 #include "pipe/stages.h"
+#include "mesh/normals.h"
 #include "pipe/tile.h"
+#include "shade/shade.h"
+#include "strokes/mark.h"
 #include "strokes/stroke.h"
 
 typedef struct dp_recording dp_recording; /* immediate.c */
@@ -16,8 +19,13 @@ struct dp_context {
     dp_threads *threads;
     uint32_t workers;
 
+    size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
     dp_polygon_store polygons;
     dp_stroke_store strokes;
+    dp_normal_store normals; /* made for models without */
+    dp_shade_store shade;    /* G-buffer and what is made of it */
+    int shade_pass;          /* the one that runs */
+    dp_mark_store marks;
     dp_bin_worker *bin_workers;   /* [workers] */
     dp_tile_worker *tile_workers; /* [workers] */
     dp_ink_worker *ink_workers;   /* [workers] */

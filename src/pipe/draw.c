@@ -9,10 +9,12 @@
 #include "base/diag.h"
 #include "features/features.h"
 #include "kernel/kernels.h"
+#include "mesh/source.h"
 #include "pipe/adjacent.h"
 #include "pipe/fringe.h"
 #include "pipe/normals.h"
 #include "pipe/outline.h"
+#include "stream/stream.h"
 
 #include <string.h>
 #include <time.h>
@@ -25,14 +27,14 @@ static const float MARGIN = 0.75f;
 /* Quads as ink: a polygon's added polygons may reach a tile that it does not. */
 static float margin_of(const dp_frame *f) {
     float widest = 0;
-    if (f->styles[0].ink != DP_INK_QUADS) return MARGIN;
+    if (f->styles[0].ink != DP_INK_QUADS || f->styles[0].edges == DP_EDGES_ADJACENCY) return MARGIN;
     for (uint32_t i = 0; i < f->style_count; i++)
         for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmaxf(widest, f->styles[i].line[k].width);
     return 1 + widest * (f->styles[0].method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1);
 }
 
 const char *dp_stage_name(dp_stage stage) {
-    static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "ink"};
+    static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "shade", "ink"};
     return (unsigned)stage < DP_STAGE_COUNT ? names[stage] : "unknown";
 }
 
@@ -40,10 +42,13 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_context_create: out is NULL");
     *out = NULL;
     const dp_context_desc d = desc ? *desc : (dp_context_desc){0};
+    if (d.memory && d.memory < DP_MEMORY_LEAST)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%zu bytes of memory are too few; the least is %zu MB", d.memory, DP_MEMORY_LEAST >> 20);
     const dp_allocator memory = dp_allocator_resolve(d.allocator);
     dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
     if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
     c->memory = memory;
+    c->limit = d.memory ? d.memory : DP_MEMORY_DEFAULT;
     c->progress = d.progress;
     c->user = d.user;
     c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
@@ -75,6 +80,9 @@ void dp_context_destroy(dp_context *c) {
     dp_free(&memory, c->ink_workers);
     dp_polygon_store_free(&c->polygons, &memory);
     dp_stroke_store_free(&c->strokes, &memory);
+    dp_normal_store_free(&c->normals, &memory);
+    dp_shade_store_free(&c->shade, &memory);
+    dp_mark_store_free(&c->marks, &memory);
     dp_bins_free(&c->frame.polygon_bins, &memory);
     dp_bins_free(&c->frame.stroke_bins, &memory);
     dp_free(&memory, c->frame.vertices);
@@ -156,11 +164,18 @@ static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
     dp_tile_find(&c->tile_workers[worker], index);
+    if (c->shade.active) dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+}
+
+static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    (void)worker;
+    dp_shade_pass(&c->shade, c->shade_pass, index);
 }
 
 static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
-    dp_ink_tile(&c->frame, &c->ink_workers[worker], index);
+    (dp_is_by_hand(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker], index);
 }
 
 /* A part of a long loop, so that progress can be told between the parts. */
@@ -221,7 +236,7 @@ static uint64_t scratch_bytes(const dp_context *c) {
                    dp_bins_bytes(&c->frame.stroke_bins);
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
-           c->strokes.strokes_cap * sizeof(dp_stroke);
+           c->strokes.strokes_cap * sizeof(dp_stroke) + c->marks.marks_cap * sizeof(dp_mark);
     for (uint32_t i = 0; i < c->workers; i++) sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
     return sum;
 }
@@ -255,11 +270,50 @@ static bool find_adjacency(dp_context *c) {
     return true;
 }
 
-static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
-    dp_frame *const f = &c->frame;
-    dp_result result = dp_gather(source, &c->polygons, &c->memory, &f->polygons, &c->stats, diag);
+/* Everything but plain lines over one colour looks at all polygons at once. */
+static bool may_stream(const dp_context *c) {
+    const dp_style *const style = &c->frame.styles[0];
+    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && style->edges != DP_EDGES_ADJACENCY &&
+           !c->shade.active && !is_polar(&c->frame);
+}
+
+/* Whether to stream is decided by the source's size where it tells, else while it is gathered. */
+static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag *diag) {
+    const dp_style *const style = &c->frame.styles[0];
+    const bool may = may_stream(c), rewindable = dp_source_rewindable(source);
+    *streams = may && (dp_stream_is_large(source, c->limit) || (!rewindable && style->passes == 1));
+    if (*streams) return DP_OK;
+    c->polygons.limit = may ? c->limit : 0;
+    const dp_result result = dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
+    if (!result || !c->polygons.is_beyond) return result;
+    if (!rewindable)
+        return dp_fail(diag, DP_ERR_LIMIT, "the model takes more than %zu MB and can be read only once: allow more memory, draw "
+                       "it with one pass, or from a file", c->limit >> 20);
+    dp_polygon_store_free(&c->polygons, &c->memory);
+    c->stats = (dp_stats){0};
+    *streams = true;
+    return DP_OK;
+}
+
+static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
+    const dp_result result = dp_stream_find(c, source, stream, diag);
     if (result) return result;
+    lap(&c->stats, DP_STAGE_TILES, since);
+    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->tile_workers[i].stats);
+    return check_dropped(&c->stats, c->stats.polygons, diag);
+}
+
+static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
+    dp_frame *const f = &c->frame;
+    bool streams;
+    dp_result result = gather(c, source, &streams, diag);
+    if (result) return result;
+    if (dp_shade_needs_normals(f) &&
+        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, c->threads, &c->memory,
+                         &f->polygons.normals))
+        return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_GATHER, since);
+    if (streams) return stream_lines(c, source, stream, since, diag);
     if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
@@ -279,23 +333,54 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     return DP_OK;
 }
 
-static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+/* Shading and edge map: passes over the picture, each over before the next begins. */
+static dp_result shade(dp_context *c, dp_diag *diag) {
+    if (!c->shade.active) return DP_OK;
+    dp_shade_prepare(&c->shade);
+    for (int pass = 0; pass < DP_SHADE_PASSES; pass++) {
+        if (!dp_shade_pass_runs(&c->shade, pass)) continue;
+        c->shade_pass = pass;
+        const dp_result result = for_tiles(c, shade_tile, 0.8, 0.85, diag);
+        if (result) return result;
+        dp_shade_pass_ends(&c->shade, pass);
+    }
+    return DP_OK;
+}
+
+/* Segments; then strokes, or what the hand makes of them. */
+static bool make_strokes(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    if (!dp_make_segments(f, c->tile_workers, &c->strokes)) return false;
+    if (!dp_is_by_hand(f)) return dp_bin_strokes(f);
+    return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
+}
+
+static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
     double since = now_ms();
     const double start = since;
-    if (!begin_frame(c)) return out_of_memory(diag);
-    dp_result result = find_lines(c, source, &since, diag);
+    if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
+    dp_result result = find_lines(c, source, stream, &since, diag);
     if (result) return result;
-    if (!dp_make_segments(&c->frame, c->tile_workers, &c->strokes) || !dp_bin_strokes(&c->frame))
+    if (!make_strokes(c))
         return out_of_memory(diag);
     c->stats.segments = c->frame.segment_count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
-    if ((result = for_tiles(c, ink_tile, 0.8, 1, diag))) return result;
+    if ((result = shade(c, diag))) return result;
+    lap(&c->stats, DP_STAGE_SHADE, &since);
+    if ((result = for_tiles(c, ink_tile, 0.85, 1, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++)
         if (c->ink_workers[i].failed) return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
     c->stats.bytes = scratch_bytes(c);
     return DP_OK;
+}
+
+static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+    dp_stream_draw *stream = NULL;
+    const dp_result result = draw_stages(c, source, &stream, diag);
+    dp_stream_free(stream);
+    return result;
 }
 
 dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *camera,

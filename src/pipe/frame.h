@@ -77,6 +77,8 @@ typedef struct dp_frame {
     dp_segment *segments;
     struct dp_stroke *strokes; /* one per segment, strokes/stroke.h */
     size_t segment_count;
+    struct dp_mark *marks; /* instead of strokes, where lines are drawn by hand: strokes/mark.h */
+    size_t mark_count;
     dp_bins stroke_bins;
 } dp_frame;
 

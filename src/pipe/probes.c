@@ -57,7 +57,7 @@ static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *
     w->probes[w->probe_count++] = (dp_probe){.x = x, .y = y,
                                              .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
                                              .own_a = c->a, .own_b = c->b,
-                                             .cell = pixel_of(y) * DP_TILE + pixel_of(x)};
+                                             .cell = (uint16_t)(pixel_of(y) * DP_TILE + pixel_of(x))};
 }
 
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
@@ -112,8 +112,9 @@ static bool sort_probes(dp_tile_worker *w) {
     for (uint32_t i = w->probe_count; i-- > 0;) {
         dp_probe *const p = &w->probes[i];
         const uint32_t at = --first[p->cell + 1];
-        out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = p->limit, out->own_a[at] = p->own_a, out->own_b[at] = p->own_b;
-        p->cell = at;
+        out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = p->hidden ? INFINITY : p->limit;
+        out->own_a[at] = p->own_a, out->own_b[at] = p->own_b;
+        p->place = at;
     }
     /* the ends of pixels went down to their starts */
     memmove(first, first + 1, DP_TILE * DP_TILE * sizeof *first);
@@ -124,8 +125,6 @@ static bool sort_probes(dp_tile_worker *w) {
     }
     return true;
 }
-
-static bool is_hidden(const dp_tile_worker *w, uint32_t probe) { return w->sorted.limit[w->probes[probe].cell] == INFINITY; }
 
 static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
     if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
@@ -139,15 +138,24 @@ static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uin
 static void collect(dp_tile_worker *w, const dp_candidate *c) {
     uint32_t start = c->k0;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
-        const bool visible = k < c->k1 && !is_hidden(w, c->probe + (k - c->k0));
+        const bool visible = k < c->k1 && !w->probes[c->probe + (k - c->k0)].hidden;
         if (visible) continue;
         if (k > start) add_piece(w, c, start, k);
         start = k + 1;
     }
 }
 
-void dp_tile_probe(dp_tile_worker *w) {
+void dp_tile_hide(dp_tile_worker *w) {
     if (!w->probe_count || !sort_probes(w)) return;
     w->frame->kernels->hide(w);
+    for (uint32_t i = 0; i < w->probe_count; i++) w->probes[i].hidden = w->sorted.limit[w->probes[i].place] == INFINITY;
+}
+
+void dp_tile_collect(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
+}
+
+void dp_tile_probe(dp_tile_worker *w) {
+    dp_tile_hide(w);
+    dp_tile_collect(w);
 }

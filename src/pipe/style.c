@@ -61,6 +61,66 @@ static dp_result resolve_stroke(dp_stroke_style *s, dp_diag *diag) {
     return DP_OK;
 }
 
+const char *dp_shading_name(dp_shading shading) {
+    static const char *const names[DP_SHADING_COUNT] = {"flat", "paper", "lambert", "gooch", "toon", "hatch", "halftone"};
+    return (unsigned)shading < DP_SHADING_COUNT ? names[shading] : "unknown";
+}
+
+/* Fills in a default and checks the range; NaN is out of every range. */
+static dp_result resolve_number(float *value, float other, float least, float most, const char *name, dp_diag *diag) {
+    if (*value == 0) *value = other;
+    if (*value >= least && *value <= most) return DP_OK;
+    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s is %g; it must be %g to %g", name, (double)*value, (double)least,
+                   (double)most);
+}
+
+static dp_result resolve_light(float light[3], dp_diag *diag) {
+    static const float usual[3] = {-0.5f, 0.7f, 0.6f};
+    const bool none = light[0] == 0 && light[1] == 0 && light[2] == 0;
+    for (int k = 0; k < 3 && none; k++) light[k] = usual[k];
+    const float length = sqrtf(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
+    if (!(length > 1e-18f) || !isfinite(length))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the light's direction is too short, too long or not finite");
+    for (int k = 0; k < 3; k++) light[k] /= length;
+    return DP_OK;
+}
+
+static dp_result check_image(const dp_image *image, uint32_t most, const char *name, dp_diag *diag) {
+    if (!image->values || (image->width && image->height && image->width <= most && image->height <= most)) return DP_OK;
+    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s texture is %u x %u; each side must be 1 to %u", name, image->width,
+                   image->height, most);
+}
+
+static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
+    if ((unsigned)s->shading >= DP_SHADING_COUNT || (unsigned)s->normals > DP_NORMALS_FACET)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "shading or normals is not one of its values");
+    dp_result result = resolve_light(s->light, diag);
+    if (!result) result = resolve_number(&s->crease_angle, 40, 0, 180, "crease angle", diag);
+    if (!result) result = resolve_number(&s->gooch_blue, 0.4f, 0, 1, "blue of Gooch shading", diag);
+    if (!result) result = resolve_number(&s->gooch_yellow, 0.4f, 0, 1, "yellow of Gooch shading", diag);
+    if (!result) result = resolve_number(&s->gooch_alpha, 0.2f, 0, 1, "alpha of Gooch shading", diag);
+    if (!result) result = resolve_number(&s->gooch_beta, 0.6f, 0, 1, "beta of Gooch shading", diag);
+    if (!result) result = resolve_number(&s->highlight, 0, 0, 1, "highlight's strength", diag);
+    if (!result) result = resolve_number(&s->stroke_scale, 1, 0.05f, 50, "scale of strokes", diag);
+    if (!result) result = check_image(&s->shades, 65536, "shade", diag);
+    if (!result) result = check_image(&s->strokes, 16384, "stroke", diag);
+    s->ink = color_or(s->ink, DP_RGB(0, 0, 0));
+    return result;
+}
+
+static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
+    if ((unsigned)m->detector > DP_EDGE_MAP_C1) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge detector is not one of its values");
+    if (!m->radius) m->radius = 1;
+    if (m->radius > 4) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge map's radius is %u px; it must be 1 to 4", m->radius);
+    dp_result result = resolve_number(&m->inner_angle, 24, 0.01f, 180, "angle of inner edges", diag);
+    if (!result) result = resolve_number(&m->inner_softness, 0.25f, 1e-3f, 2, "softness of inner edges", diag);
+    if (!result) result = resolve_number(&m->profile_depth, 6, 0.01f, 1e6f, "depth of profile edges", diag);
+    if (!result) result = resolve_number(&m->profile_softness, 0.5f, 1e-3f, 1, "softness of profile edges", diag);
+    m->inner = color_or(m->inner, DP_RGB(0, 0, 0));
+    m->profile = color_or(m->profile, DP_RGB(0, 0, 0));
+    return result;
+}
+
 dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag) {
     if (!resolved) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_style_resolve: resolved is NULL");
     dp_style full = style ? *style : (dp_style){0};
@@ -84,6 +144,7 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");
+    if ((result = resolve_shade(&full.shade, diag)) || (result = resolve_edge_map(&full.edge_map, diag))) return result;
     full.paper = color_or(full.paper, DP_RGB(255, 255, 255));
     full.surface = color_or(full.surface, DP_RGB(255, 255, 255));
     *resolved = full;

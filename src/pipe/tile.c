@@ -65,8 +65,11 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 
-static void clear(dp_tile_worker *w) {
-    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
+void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
+    w->tile = tile;
+    w->tile_x = tile % w->frame->tiles_x * DP_TILE;
+    w->tile_y = tile / w->frame->tiles_x * DP_TILE;
+    w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
     memset(w->suspects, 0, sizeof w->suspects);
     w->candidate_count = w->probe_count = w->loose_count = 0;
@@ -74,10 +77,7 @@ static void clear(dp_tile_worker *w) {
 
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     const size_t first = w->piece_count;
-    w->tile = tile;
-    w->tile_x = tile % w->frame->tiles_x * DP_TILE;
-    w->tile_y = tile / w->frame->tiles_x * DP_TILE;
-    w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
+    dp_tile_open(w, tile);
     dp_tile_pieces *const out = &w->frame->tile_pieces[tile];
     out->first = first;
     out->count = 0;
@@ -86,7 +86,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
         dp_tile_bare_surface(w);
         return;
     }
-    clear(w);
+    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(w);
     if (w->frame->lines && dp_is_fringed(w->frame)) {
         if (w->frame->styles[0].passes == 1) dp_tile_fringe_one_pass(w);
@@ -95,7 +95,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     }
     dp_tile_faces(w);
     dp_tile_surface(w);
-    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS) {
+    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS && !w->frame->adjacency) {
         dp_tile_quads(w);
     } else if (w->frame->lines) {
         if (w->frame->adjacency) dp_tile_adjacent_edges(w);

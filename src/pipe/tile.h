@@ -85,7 +85,9 @@ typedef struct dp_probe {
     float x, y;
     float limit;            /* d */
     uint32_t own_a, own_b;  /* frame polygons */
-    uint32_t cell;          /* pixel of the tile that holds it, row by row; then its place among the sorted */
+    uint32_t place;         /* among the sorted */
+    uint16_t cell;          /* pixel of the tile that holds it, row by row */
+    bool hidden;
 } dp_probe;
 
 /* The same sorted by pixel, each member for itself, with room for one vector beyond the last. */
@@ -180,6 +182,9 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
 void dp_tile_worker_free(dp_tile_worker *worker);
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 
+/* Takes up a tile: nothing has won a sample, no line is known; its depth stays as it is (tile.c). */
+void dp_tile_open(dp_tile_worker *worker, uint32_t tile);
+
 /* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
@@ -190,7 +195,9 @@ void dp_tile_faces(dp_tile_worker *worker);                                /* cu
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
 void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
 void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
-void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c */
+void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c: the next two */
+void dp_tile_hide(dp_tile_worker *worker);    /* the tile's seen polygons hide sample points */
+void dp_tile_collect(dp_tile_worker *worker); /* runs of visible sample points become pieces */
 
 void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
 void dp_tile_bare_surface(dp_tile_worker *worker);

@@ -3,7 +3,7 @@
  * Coverage of a pixel is the overlap of a one pixel wide box, moved across the stroke, with the stroke's
  * width: exact for straight strokes, and the same on both sides of a joint. Strokes of one class and
  * colour are united by the largest coverage, so that joints of many short segments show no seams; then
- * each class is laid over the picture in the order of LAYERS.
+ * each class is laid over the picture in the order of dp_layers.
  *
  * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke the
  * surface may come nearer (a valley's sides) and still belong to it; and what lies behind the planes of the
@@ -18,7 +18,7 @@
 #include <string.h>
 
 /* From the bottom up: where lines cross, outlines lie over creases. */
-static const dp_line LAYERS[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
+const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
                                               DP_LINE_BORDER, DP_LINE_SILHOUETTE};
 
 /* How much nearer than the spine (in pixel sizes) a surface may be, at `distance` px from it, and still
@@ -29,7 +29,7 @@ static float nearer_allowed(const dp_frame *frame, const dp_stroke *s, float dis
     return 2 + 8 * distance + rounded;
 }
 
-static dp_tile_rect rect_of(const dp_stroke *s) {
+dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
     const float r = s->half_width + 1;
     const float x0 = dp_minf(s->a.x, s->b.x) - r, x1 = dp_maxf(s->a.x, s->b.x) + r;
     const float y0 = dp_minf(s->a.y, s->b.y) - r, y1 = dp_maxf(s->a.y, s->b.y) + r;
@@ -41,7 +41,7 @@ static dp_tile_rect rect_of(const dp_stroke *s) {
 static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
     const dp_frame *const frame = arg;
     (void)worker;
-    for (uint32_t i = 0; i < count; i++) rects[i] = rect_of(&frame->strokes[first + i]);
+    for (uint32_t i = 0; i < count; i++) rects[i] = dp_stroke_rect(&frame->strokes[first + i]);
 }
 
 static float distance_to(const dp_stroke *s, float x, float y, float *t) {
@@ -87,16 +87,15 @@ static float own_plane(const float plane[3], float x, float y) {
     return plane[0] + plane[1] * x + plane[2] * y + 0.5f * (fabsf(plane[1]) + fabsf(plane[2]));
 }
 
-/* Share of the pixel's samples that do not hide the stroke. */
-static float visible_share(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, float t,
-                           float distance) {
-    if (!ink->depth || !(ink->frame->lines & DP_SILHOUETTE)) return 1;
-    const uint32_t samples = ink->frame->target.samples;
-    const float *const depth = ink->depth + (size_t)((y - ink->y0) * DP_TILE + (x - ink->x0)) * samples;
+float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0, const dp_stroke *s,
+                       uint32_t x, uint32_t y, float t, float distance) {
+    if (!tile_depth || !(frame->lines & DP_SILHOUETTE)) return 1;
+    const uint32_t samples = frame->target.samples;
+    const float *const depth = tile_depth + (size_t)((y - y0) * DP_TILE + (x - x0)) * samples;
     const float spine = s->a.d + (s->b.d - s->a.d) * t;
-    const double step = dp_depth_step(&ink->frame->view, spine, 1);
+    const double step = dp_depth_step(&frame->view, spine, 1);
     const float fx = (float)x + 0.5f, fy = (float)y + 0.5f, slack = (float)step * 2;
-    float limit = spine + (float)(step * nearer_allowed(ink->frame, s, distance));
+    float limit = spine + (float)(step * nearer_allowed(frame, s, distance));
     limit = dp_maxf(own_plane(s->plane[0], fx, fy) + slack, limit);
     limit = dp_maxf(own_plane(s->plane[1], fx, fy) + slack, limit);
     uint32_t visible = 0;
@@ -114,7 +113,7 @@ static void cover_pixel(const tile_ink *ink, const dp_stroke *s, uint32_t x, uin
     const bool set = w->row[py] >> px & 1;
     float *const held = &w->coverage[py * DP_TILE + px];
     if (set && *held >= c) return;
-    c *= visible_share(ink, s, x, y, t, distance);
+    c *= dp_visible_share(ink->frame, ink->depth, ink->x0, ink->y0, s, x, y, t, distance);
     if (c <= 0 || (set && *held >= c)) return;
     *held = c;
     w->row[py] |= (uint64_t)1 << px;
@@ -166,7 +165,7 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
     }
 }
 
-static bool fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, size_t *count) {
+bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, size_t *count) {
     const dp_bins *const bins = &frame->stroke_bins;
     *count = 0;
     if (!dp_reserve(frame->memory, &w->strokes, &w->strokes_cap, dp_bins_tile_count(bins, tile),
@@ -196,7 +195,7 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
 
 void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
     size_t count;
-    if (!fetch_strokes(frame, worker, tile, &count)) {
+    if (!dp_fetch_strokes(frame, worker, tile, &count)) {
         worker->failed = true;
         return;
     }
@@ -209,5 +208,5 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
                           .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                           .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);
-    for (int i = 0; i < DP_LINE_COUNT; i++) ink_layer(&ink, worker->strokes, count, LAYERS[i]);
+    for (int i = 0; i < DP_LINE_COUNT; i++) ink_layer(&ink, worker->strokes, count, dp_layers[i]);
 }

@@ -30,14 +30,30 @@ bool dp_make_segments(dp_frame *frame, const struct dp_tile_worker *workers, dp_
 /* Strokes to tiles. False when memory is out. */
 bool dp_bin_strokes(dp_frame *frame);
 
+/* From the bottom up: the order in which classes are laid over each other. */
+extern const dp_line dp_layers[DP_LINE_COUNT];
+
+/* Tiles that a stroke reaches. */
+dp_tile_rect dp_stroke_rect(const dp_stroke *stroke);
+
 /* Inks one tile over what the target holds already. */
 typedef struct dp_ink_worker {
     float coverage[64 * 64];
     uint64_t row[64]; /* pixels of `coverage` that are set */
+    float nearest[64 * 64];    /* brush.c: px from the spine; colour */
+    dp_color color[64 * 64];
     uint32_t *strokes;
     size_t strokes_cap;
     bool failed;
 } dp_ink_worker;
+/* Which strokes a tile holds, into worker->strokes. False when memory is out. */
+bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile, size_t *count);
+
+/* Share of the samples of pixel (x, y) that do not hide the stroke, `distance` px beside its spine's point t.
+ * `tile_depth`: the samples of the tile at (x0, y0); NULL: there is no surface. */
+float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0, const dp_stroke *stroke,
+                       uint32_t x, uint32_t y, float t, float distance);
+
 void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile);
 
 #endif

@@ -92,6 +92,40 @@ standard_input() {
     cmp -s file.png redirected.png || fail "standard input from a file differs"
     cmp -s file.png piped.png || fail "standard input from a pipe differs"
 }
+# A file that does not fit is read twice, in parts: the picture is the same.
+streamed() {
+    local small="--size 160x120 --lines silhouette,ridge,valley"
+    run 0 make terrain --triangles 600000 -o t.stl
+    run 0 t.stl $small -o held.png --stats=json
+    grep -q '"polygons": 6' out || fail "statistics: $(cat out)"
+    run 0 t.stl $small -o streamed.png --memory 48M --stats=json
+    grep -q '"polygons": 6' out || fail "statistics, streamed: $(cat out)"
+    grep -q '"edges_lost": 0,' out || fail "edges are lost: $(cat out)"
+    silent err
+    cmp -s held.png streamed.png || fail "differs from the picture from memory"
+    run 0 t.stl $small -o threads.png --memory 50331648 --threads 3
+    cmp -s held.png threads.png || fail "differs with three threads"
+    run 0 t.stl $small -o once.png --memory 48m --passes 1
+    is_png once.png
+    for size in 0 1M -5 47M 12Q M ''; do wrong t.stl -o out.png --memory "$size" -- --memory; done
+    head -c 20000000 t.stl >cut.stl
+    run 1 cut.stl -o out.png --memory 48M
+    says err 'cut short'
+    absent out.png
+}
+streamed_from_a_pipe() {
+    run 0 make terrain --triangles 1300000 -o t.stl
+    view='--eye 3,2,3 --target 0,0,0 --fov 35'
+    "$program" - $small -o out.png --memory 48M <<<"$(true)" 2>err && fail "an empty pipe"
+    cat t.stl | "$program" - $small $view -o out.png --memory 48M 2>err && fail "a pipe that does not fit"
+    one_line
+    says err '--passes 1'
+    absent out.png
+    cat t.stl | "$program" - $small $view -o piped.png --memory 48M --passes 1 || fail "once through"
+    run 0 t.stl $small $view -o file.png --memory 48M --passes 1
+    is_png piped.png
+    [ "$(png_size piped.png)" = "$(png_size file.png)" ] || fail "sizes differ"
+}
 same_for_any_threads() {
     for threads in 1 2 7; do
         run 0 shape:gear --size 320x240 --threads $threads -o $threads.png
@@ -406,7 +440,7 @@ progress_on_a_terminal() {
     silent err
 }
 
-tests="draws default_size standard_output standard_input same_for_any_threads equals_sign every_option
+tests="draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts dropped_are_counted old_file_stays_on_error full_disk devices unwritable_places

@@ -1,0 +1,108 @@
+/* The edge map: one run of pixels through a detector, groups as a third source, then thresholds.
+ *
+ * A strength is how far 1 - I lies between a threshold and the threshold plus softness; as printed it is 1 - I
+ * itself, clamped. Pixels of groups that are not enhanced have none. */
+#include "gbuffer/edge_map.h"
+
+#include <string.h>
+
+static dp_rows rows_of(const float *plane, size_t at, size_t stride, int radius) {
+    const float *const p = plane + at;
+    const size_t step = stride * (size_t)radius;
+    return (dp_rows){p - step, p, p + step};
+}
+
+static dp_depth_measure measure_of(const dp_gbuffer *g, const dp_edge_map *map) {
+    if (map->as_printed) return (dp_depth_measure){.scale = 1 / (g->far_z - g->near_z), .both_sides = true};
+    return (dp_depth_measure){.scale = g->fy / map->profile_depth, .perspective = g->perspective,
+                              .both_sides = map->far_side};
+}
+
+/* C1 adds up to 1/2 along a straight step, of whose eight neighbours three lie beyond: twice that is whole. */
+static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, uint32_t x0, uint32_t y, uint32_t n,
+                      float *i_z) {
+    const dp_depth_measure m = measure_of(g, map);
+    const size_t at = (size_t)y * g->stride + x0;
+    const dp_rays rays = {g->perspective, g->cx, g->cy, g->fx, g->fy};
+    const int radius = (int)map->radius;
+    float slope[DP_TILE];
+    memset(i_z, 0, n * sizeof *i_z);
+    if (!map->as_printed) {
+        dp_c1_slope(&rays, g->nx + at, g->ny + at, g->nz + at, x0, y, n, slope);
+        for (uint32_t i = 0; i < n; i++) slope[i] *= 2 * (float)radius / map->profile_depth;
+    }
+    for (int pass = 0; pass < 3; pass++) {
+        if (map->as_printed) dp_c1_printed(z, &m, pass, radius, n, i_z);
+        else dp_c1_scaled(z, slope, &m, pass, radius, n, i_z);
+    }
+    const float whole = map->as_printed ? 1 : 2;
+    for (uint32_t i = 0; i < n; i++) i_z[i] = 1 - dp_minf(whole * i_z[i], 1);
+}
+
+/* Neighbours of another group that lie behind, or beside where this group's number is the larger. */
+static bool meets_group(const dp_gbuffer *g, const dp_edge_map *map, size_t at) {
+    const size_t r = map->radius, down = r * g->stride;
+    const size_t neighbours[4] = {at - down - r, at - down + r, at + down - r, at + down + r};
+    const float z = g->distance[at], px = (g->perspective ? z : 1) / g->fy * map->profile_depth;
+    for (int k = 0; k < 4; k++) {
+        const size_t other = neighbours[k];
+        if (g->id[other] == g->id[at]) continue;
+        const float behind = g->distance[other] - z;
+        if (map->far_side || behind > px || (behind > -px && g->id[other] < g->id[at])) return true;
+    }
+    return false;
+}
+
+static void add_groups(const dp_gbuffer *g, const dp_edge_map *map, size_t at, uint32_t n, float *profile) {
+    const size_t down = map->radius * g->stride, r = map->radius;
+    const uint16_t *const above = g->id + at - down, *const below = g->id + at + down, *const x = g->id + at;
+    for (uint32_t i = 0; i < n; i++) {
+        const bool same = above[i - r] == x[i] && above[i + r] == x[i] && below[i - r] == x[i] && below[i + r] == x[i];
+        if (!same && x[i] && meets_group(g, map, at + i)) profile[i] = 1;
+    }
+}
+
+static bool is_enhanced(const dp_edge_map *map, uint16_t id) {
+    return id && id <= map->enhanced_count && map->enhanced[id - 1];
+}
+
+/* 1 - I, from threshold to threshold + softness. */
+static void apply_threshold(float *i, uint32_t n, float threshold, float softness) {
+    const float scale = 1 / softness;
+    for (uint32_t k = 0; k < n; k++) i[k] = dp_minf(dp_maxf((1 - i[k] - threshold) * scale, 0), 1);
+}
+
+void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, uint32_t x0, uint32_t x1,
+                     dp_edge_run *out) {
+    const size_t at = (size_t)y * g->stride + x0;
+    const uint32_t n = x1 - x0;
+    const int radius = (int)map->radius;
+    const dp_depth_measure m = measure_of(g, map);
+    const dp_rows z = rows_of(map->as_printed ? g->distance : g->depth, at, g->stride, radius);
+    const dp_rows nx = rows_of(g->nx, at, g->stride, radius), ny = rows_of(g->ny, at, g->stride, radius);
+    const dp_rows nz = rows_of(g->nz, at, g->stride, radius);
+    if (map->as_printed) {
+        dp_diagonal_normals(nx, ny, nz, radius, n, out->inner);
+        dp_diagonal_depth_printed(z, &m, radius, n, out->profile);
+    } else {
+        dp_diagonal_scaled(nx, ny, nz, z, &m, radius, n, out->inner, out->profile);
+    }
+    if (map->detector == DP_EDGE_MAP_C1) detect_c1(g, map, z, x0, y, n, out->profile);
+    const float angle = map->inner_angle * (float)(3.14159265358979323846 / 180);
+    apply_threshold(out->inner, n, map->as_printed ? 0 : 1 - cosf(angle), map->as_printed ? 1 : map->inner_softness);
+    apply_threshold(out->profile, n, map->as_printed ? 0 : 0.15f, map->as_printed ? 1 : map->profile_softness);
+    if (!map->no_groups) add_groups(g, map, at, n, out->profile);
+    for (uint32_t i = 0; i < n; i++) {
+        const uint16_t id = g->id[at + i];
+        if (id && g->distance[at + i] >= DP_FAR) out->inner[i] = 0, out->profile[i] = 1; /* a fringe is outline */
+        if (!id || (map->enhanced && !is_enhanced(map, id))) out->inner[i] = out->profile[i] = 0;
+    }
+}
+
+void dp_edge_map_store(const dp_edge_run *run, uint32_t n, uint8_t *rgba) {
+    for (uint32_t i = 0; i < n; i++) {
+        const uint8_t inner = (uint8_t)(255.5f - 255 * run->inner[i]);
+        rgba[4 * i] = rgba[4 * i + 1] = rgba[4 * i + 2] = inner;
+        rgba[4 * i + 3] = (uint8_t)(255.5f - 255 * run->profile[i]);
+    }
+}

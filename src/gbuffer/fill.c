@@ -1,0 +1,288 @@
+/* The first pass: what the samples of a tile hold becomes one surface per pixel.
+ *
+ * A pixel's samples that lie on one surface (near each other in depth, or on one plane) are taken together; the
+ * greatest such part is the pixel's surface, the nearer one of two halves. How great it is (`share`) and how far
+ * away the rest lies (`other`) is kept, so that colours can be put together again later: this is what
+ * multisampling resolves, at the price of one shading per pixel.
+ *
+ * The normal is interpolated, right in perspective, at a sample that the polygon covers; the distance is that of
+ * the polygon's plane at the pixel's centre, so that neighbours differ as the surface does and not as their
+ * samples' places do. What the polygons give is first collected for a row; turning, facing and normalizing
+ * then run over the row in plain loops. */
+#include "gbuffer/gbuffer.h"
+
+#include <string.h>
+
+static const float SAME_SURFACE = 3; /* pixel sizes between samples of one surface */
+static const float REACH = 8;        /* pixel sizes that a plane may differ between a sample and the centre */
+
+typedef struct fill {
+    dp_gbuffer *g;
+    const dp_tile_worker *w;
+    bool facets;
+    float step; /* change of depth over a pixel size, per depth (perspective) or as such */
+} fill;
+
+/* One row of the tile: normals in world space, not unit, 0 for the facet's; planes as gradients of depth. */
+typedef struct row {
+    float wx[DP_TILE], wy[DP_TILE], wz[DP_TILE];
+    float gx[DP_TILE], gy[DP_TILE], gd[DP_TILE]; /* gd: depth where the axis meets the screen */
+} row;
+
+/* What a pixel shows. */
+typedef struct picked {
+    uint32_t polygon; /* of the tile */
+    float x, y, d;    /* where it is sampled */
+    uint8_t share;
+    float other;      /* depth of the rest; DP_DEPTH_EMPTY: paper */
+} picked;
+
+static float step_at(const fill *f, float d) { return f->g->perspective ? f->step * d : f->step; }
+
+/* Which of the samples lie on the surface that sample `s` shows, as a set. */
+static uint32_t samples_with(const fill *f, size_t lane, uint32_t s, float px, float py) {
+    const dp_tile_worker *const w = f->w;
+    const uint32_t n = w->frame->target.samples, *const winner = w->winner + lane;
+    const float *const d = w->depth + lane;
+    const dp_tile_polygon *const p = &w->polygons[winner[s]];
+    const float near = SAME_SURFACE * step_at(f, d[s]);
+    uint32_t set = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        if (winner[i] == UINT32_MAX) continue;
+        const float x = px + w->sampling.x[i / 4][i % 4], y = py + w->sampling.y[i / 4][i % 4];
+        if (fabsf(d[i] - d[s]) <= near || fabsf(d[i] - dp_plane_at(p, x, y)) <= near) set |= 1u << i;
+    }
+    return set;
+}
+
+/* The pixel holds more than one polygon, or not only polygons. */
+static void pick_part(const fill *f, size_t lane, float px, float py, picked *out) {
+    const dp_tile_worker *const w = f->w;
+    const uint32_t n = w->frame->target.samples, *const winner = w->winner + lane;
+    uint32_t s = 0, t = 0;
+    while (winner[s] == UINT32_MAX) s++;
+    uint32_t set = samples_with(f, lane, s, px, py);
+    const uint32_t count = (uint32_t)__builtin_popcount(set);
+    for (t = s + 1; t < n && 2 * count <= n; t++) {
+        if (winner[t] == UINT32_MAX || set >> t & 1) continue;
+        const uint32_t rest = samples_with(f, lane, t, px, py);
+        const uint32_t more = (uint32_t)__builtin_popcount(rest);
+        if (more > count || (more == count && w->depth[lane + t] > w->depth[lane + s])) set = rest, s = t;
+        break;
+    }
+    const uint32_t left = ~set & ((1u << n) - 1);
+    *out = (picked){.polygon = winner[s], .d = w->depth[lane + s],
+                  .x = px + w->sampling.x[s / 4][s % 4], .y = py + w->sampling.y[s / 4][s % 4],
+                  .share = (uint8_t)(255 * (uint32_t)__builtin_popcount(set) / n), .other = DP_DEPTH_EMPTY};
+    if (left && winner[__builtin_ctz(left)] != UINT32_MAX) out->other = w->depth[lane + (uint32_t)__builtin_ctz(left)];
+}
+
+/* False: nothing but paper. */
+static bool pick_surface(const fill *f, uint32_t x, uint32_t y, picked *out) {
+    const dp_tile_worker *const w = f->w;
+    const uint32_t n = w->frame->target.samples;
+    const size_t lane = dp_pixel_lane(&w->sampling, x, y);
+    const uint32_t *const winner = w->winner + lane;
+    bool same = true, none = winner[0] == UINT32_MAX;
+    for (uint32_t i = 1; i < n; i++) {
+        same &= winner[i] == winner[0];
+        none &= winner[i] == UINT32_MAX;
+    }
+    if (none) return false;
+    const float px = (float)x, py = (float)y;
+    if (!same) {
+        pick_part(f, lane, px, py, out);
+        return true;
+    }
+    *out = (picked){.polygon = winner[0], .x = px + 0.5f, .y = py + 0.5f, .share = 255,
+                  .d = dp_plane_at(&w->polygons[winner[0]], px + 0.5f, py + 0.5f)};
+    return true;
+}
+
+/* ------- corners' weights ------- */
+
+typedef struct weights {
+    uint32_t corner[3]; /* of the frame's polygons */
+    float weight[3];    /* none below zero */
+} weights;
+
+static float cross2(dp_vertex a, dp_vertex b, float x, float y) { return (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x); }
+
+/* Of the triangles (0, i - 1, i) of the polygon's fan the one that holds the point, or comes nearest to it. Areas
+ * on the screen times depth are weights in space (perspective), but for a common factor. */
+static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y, weights *out) {
+    const dp_vertex *const at = w->points + p->point;
+    const uint32_t first = dp_first_corner(&w->frame->polygons, p->id);
+    const bool perspective = w->frame->view.perspective;
+    float best = -INFINITY;
+    for (uint32_t i = 2; i < p->points; i++) {
+        const dp_vertex a = at[0], b = at[i - 1], c = at[i];
+        float e[3] = {cross2(b, c, x, y), cross2(c, a, x, y), cross2(a, b, x, y)};
+        if (e[0] + e[1] + e[2] < 0)
+            for (int k = 0; k < 3; k++) e[k] = -e[k];
+        const float least = dp_minf(e[0], dp_minf(e[1], e[2]));
+        if (i > 2 && !(least > best)) continue;
+        best = least;
+        *out = (weights){{first, first + i - 1, first + i}, {0}};
+        const float d[3] = {a.d, b.d, c.d};
+        for (int k = 0; k < 3; k++) out->weight[k] = dp_maxf(e[k], 0) * (perspective ? d[k] : 1);
+    }
+}
+
+/* The same in space, for a polygon whose points are not its corners any more. */
+static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, const picked *pick, weights *out) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+    const dp_vec3 q = dp_unproject(&w->frame->view, (dp_pointd){(double)pick->x + w->tile_x, (double)pick->y + w->tile_y, pick->d});
+    const dp_vec3 normal = dp_polygon_normal(w->frame, p->id);
+    const dp_vec3 a = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first))), q);
+    double best = -INFINITY;
+    for (uint32_t i = 2; i < n; i++) {
+        const dp_vec3 b = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i - 1))), q);
+        const dp_vec3 c = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i))), q);
+        const double e[3] = {dp_dot(dp_cross(b, c), normal), dp_dot(dp_cross(c, a), normal), dp_dot(dp_cross(a, b), normal)};
+        const double least = dp_min(e[0], dp_min(e[1], e[2])), sum = fabs(e[0]) + fabs(e[1]) + fabs(e[2]);
+        if (i > 2 && !(least > best)) continue;
+        best = least;
+        *out = (weights){{first, first + i - 1, first + i}, {0}};
+        for (int k = 0; k < 3; k++) out->weight[k] = sum > 0 ? (float)(dp_max(e[k], 0) / sum) : 0;
+    }
+}
+
+/* The weighted sum of the corners' normals, each as if of length 1; 0 where there are none. */
+static void sum_normals(const dp_polygons *p, const weights *at, float sign, float out[3]) {
+    float sum[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        const uint32_t i = dp_attribute_number(&p->normals, at->corner[k], dp_corner_vertex(p, at->corner[k]));
+        if (i == UINT32_MAX) continue;
+        const float *const n = dp_attribute_value(&p->normals, i);
+        const float length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        float weight = at->weight[k] * sign;
+        if (!(length2 > 0.99f && length2 < 1.01f)) {
+            if (!(length2 > 0 && length2 < INFINITY)) continue;
+            weight /= sqrtf(length2);
+        }
+        for (int c = 0; c < 3; c++) sum[c] += weight * n[c];
+    }
+    for (int c = 0; c < 3; c++) out[c] = sum[c];
+}
+
+static void put_texcoord(const fill *f, const weights *at, size_t pixel) {
+    const dp_polygons *const p = &f->w->frame->polygons;
+    float sum = 0, uv[2] = {0, 0};
+    f->g->u[pixel] = f->g->v[pixel] = NAN;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t i = dp_attribute_number(&p->texcoords, at->corner[k], dp_corner_vertex(p, at->corner[k]));
+        if (i == UINT32_MAX) return;
+        const float *const t = dp_attribute_value(&p->texcoords, i);
+        uv[0] += at->weight[k] * t[0], uv[1] += at->weight[k] * t[1];
+        sum += at->weight[k];
+    }
+    if (sum > 0) f->g->u[pixel] = uv[0] / sum, f->g->v[pixel] = uv[1] / sum;
+}
+
+/* ------- rows ------- */
+
+static float centre_depth(const fill *f, const dp_tile_polygon *p, const picked *pick, float x, float y) {
+    const float reach = REACH * step_at(f, pick->d), d = dp_plane_at(p, x, y);
+    return dp_minf(dp_maxf(d, pick->d - reach), dp_minf(pick->d + reach, dp_maxf(p->nearest, pick->d)));
+}
+
+static void fill_pixel(const fill *f, uint32_t x, uint32_t y, const picked *pick, size_t pixel, row *r) {
+    const dp_tile_worker *const w = f->w;
+    dp_gbuffer *const g = f->g;
+    const dp_tile_polygon *const p = &w->polygons[pick->polygon];
+    const dp_polygons *const polygons = &w->frame->polygons;
+    r->gx[x] = p->dx, r->gy[x] = p->dy;
+    r->gd[x] = g->perspective ? dp_plane_at(p, g->cx - (float)w->tile_x, g->cy - (float)w->tile_y) : 1;
+    float normal[3] = {0, 0, 0};
+    if (!f->facets || g->textured) {
+        weights at = {{0}, {0}};
+        if (p->flags & DP_POLYGON_CLIPPED) space_weights(w, p, pick, &at);
+        else screen_weights(w, p, pick->x, pick->y, &at);
+        if (!f->facets) sum_normals(polygons, &at, p->flags & DP_POLYGON_FRONT ? 1 : -1, normal);
+        if (g->textured) put_texcoord(f, &at, pixel);
+    }
+    r->wx[x] = normal[0], r->wy[x] = normal[1], r->wz[x] = normal[2];
+    const float d = centre_depth(f, p, pick, (float)x + 0.5f, (float)y + 0.5f);
+    g->distance[pixel] = g->perspective ? 1 / d : -d;
+    g->depth[pixel] = d;
+    g->id[pixel] = (uint16_t)(1 + (polygons->groups ? (polygons->groups[p->id] < UINT16_MAX - 1 ? polygons->groups[p->id] : UINT16_MAX - 1) : 0));
+    g->share[pixel] = pick->share;
+    if (pick->share == 255) return;
+    g->other[pixel] = pick->other <= DP_DEPTH_EMPTY ? DP_FAR : (float)dp_distance(&w->frame->view, pick->other);
+    if (pick->share >= 128 || g->other[pixel] < DP_FAR) return;
+    g->other[pixel] = g->distance[pixel]; /* fringe */
+    g->distance[pixel] = DP_FAR;
+    g->depth[pixel] = dp_gbuffer_empty_depth(g->perspective);
+}
+
+static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
+    for (uint32_t i = 0; i < n; i++) {
+        g->nx[pixel + i] = g->ny[pixel + i] = g->nz[pixel + i] = 0;
+        g->distance[pixel + i] = DP_FAR;
+        g->depth[pixel + i] = dp_gbuffer_empty_depth(g->perspective);
+        g->id[pixel + i] = 0;
+        g->share[pixel + i] = 255;
+    }
+}
+
+/* World to camera space, unit length, and facing as the visible side of the polygon does. A normal that lies
+ * clearly on the other side contradicts the winding: it is turned round. One that is missing is the polygon's. */
+static void finish_row(const dp_gbuffer *g, const row *r, size_t pixel, uint32_t n) {
+    float *const nx = g->nx + pixel, *const ny = g->ny + pixel, *const nz = g->nz + pixel;
+    float m[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) m[i][k] = (float)g->rotation[i][k];
+    for (uint32_t x = 0; x < n; x++) {
+        const float wx = r->wx[x], wy = r->wy[x], wz = r->wz[x];
+        const float length2 = wx * wx + wy * wy + wz * wz;
+        const float fx = -g->fx * r->gx[x], fy = g->fy * r->gy[x], fz = r->gd[x];
+        const float facet2 = fx * fx + fy * fy + fz * fz;
+        const float facet = facet2 > 0 ? 1 / sqrtf(facet2) : 0;
+        const float unit = length2 > 1e-30f && length2 < 1e30f ? 1 / sqrtf(length2) : 0;
+        const float ex = unit * (m[0][0] * wx + m[0][1] * wy + m[0][2] * wz);
+        const float ey = unit * (m[1][0] * wx + m[1][1] * wy + m[1][2] * wz);
+        const float ez = unit * (m[2][0] * wx + m[2][1] * wy + m[2][2] * wz);
+        const float toward = facet * (ex * fx + ey * fy + ez * fz);
+        const float sign = toward < -0.25f ? -1.0f : 1.0f, own = unit > 0 ? 0 : facet;
+        nx[x] = sign * ex + own * fx, ny[x] = sign * ey + own * fy, nz[x] = sign * ez + own * fz;
+    }
+}
+
+static uint64_t fill_row(const fill *f, uint32_t y, uint32_t width) {
+    dp_gbuffer *const g = f->g;
+    const dp_tile_worker *const w = f->w;
+    const size_t pixel = (size_t)(w->tile_y + y) * g->stride + w->tile_x;
+    row r;
+    uint64_t mask = 0;
+    for (uint32_t x = 0; x < width; x++) {
+        picked pick;
+        if (pick_surface(f, x, y, &pick)) {
+            mask |= (uint64_t)1 << x;
+            fill_pixel(f, x, y, &pick, pixel + x, &r);
+        } else {
+            r.wx[x] = r.wy[x] = r.wz[x] = r.gx[x] = r.gy[x] = r.gd[x] = 0;
+            fill_background(g, pixel + x, 1);
+        }
+    }
+    finish_row(g, &r, pixel, width);
+    return mask;
+}
+
+void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals) {
+    uint64_t *const mask = g->mask + (size_t)w->tile * DP_TILE;
+    const uint32_t width = g->width - w->tile_x < DP_TILE ? g->width - w->tile_x : DP_TILE;
+    const uint32_t height = g->height - w->tile_y < DP_TILE ? g->height - w->tile_y : DP_TILE;
+    const bool bare = w->frame->tile_pieces[w->tile].bare;
+    const dp_view *const view = &w->frame->view;
+    const fill f = {.g = g, .w = w, .facets = normals == DP_NORMALS_FACET || !w->frame->polygons.normals.values,
+                    .step = (float)(1 / view->focal)};
+    memset(mask, 0, DP_TILE * sizeof *mask);
+    if (bare && g->clean[w->tile]) return;
+    for (uint32_t y = 0; y < height; y++) {
+        if (bare) fill_background(g, (size_t)(w->tile_y + y) * g->stride + w->tile_x, width);
+        else mask[y] = fill_row(&f, y, width);
+    }
+    g->clean[w->tile] = bare;
+}

@@ -1,0 +1,129 @@
+/* The G-buffer's planes: memory, background, margin, the range of distances.
+ *
+ * All planes lie in one block, each (width + 2 margins) x (height + 2 margins), rows padded to 16 floats. */
+#include "gbuffer/gbuffer.h"
+
+#include <string.h>
+
+void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
+    dp_free(memory, g->block);
+    dp_free(memory, g->mask);
+    dp_free(memory, g->clean);
+    *g = (dp_gbuffer){0};
+}
+
+static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
+    const size_t floats = g->textured ? 8 : 6, bytes = plane * (floats * sizeof(float) + sizeof(uint16_t) + 1);
+    return dp_reserve(frame->memory, &g->block, &g->block_cap, bytes, 1) &&
+           dp_reserve(frame->memory, &g->mask, &g->mask_cap, tiles * DP_TILE, sizeof *g->mask) &&
+           dp_reserve(frame->memory, &g->clean, &g->clean_cap, tiles, 1);
+}
+
+static void place_planes(dp_gbuffer *g, size_t plane) {
+    const size_t origin = DP_GBUFFER_MARGIN * g->stride + DP_GBUFFER_MARGIN;
+    float **const planes[] = {&g->nx, &g->ny, &g->nz, &g->distance, &g->depth, &g->other, &g->u, &g->v};
+    const size_t floats = g->textured ? 8 : 6;
+    for (size_t i = 0; i < 8; i++) *planes[i] = i < floats ? (float *)g->block + i * plane + origin : NULL;
+    uint16_t *const ids = (uint16_t *)(void *)((float *)g->block + floats * plane);
+    g->id = ids + origin;
+    g->share = (uint8_t *)(ids + plane) + origin;
+}
+
+/* Where rays go, from the view's rows: camera space is its view matrix without scale. */
+static void take_camera(dp_gbuffer *g, const dp_frame *frame) {
+    const dp_view *const view = &frame->view;
+    const double w = 1, d = view->perspective ? 1 / w : -w; /* at distance 1 */
+    const dp_vec3 o = dp_unproject(view, (dp_pointd){0, 0, d});
+    const dp_vec3 x = dp_sub(dp_unproject(view, (dp_pointd){1, 0, d}), o);
+    const dp_vec3 y = dp_sub(dp_unproject(view, (dp_pointd){0, 1, d}), o);
+    const dp_vec3 right = dp_unit(x), back = dp_scale(view->forward, -1), up = dp_scale(dp_unit(y), -1);
+    const dp_vec3 rows[3] = {right, up, back};
+    for (int r = 0; r < 3; r++)
+        g->rotation[r][0] = rows[r].x, g->rotation[r][1] = rows[r].y, g->rotation[r][2] = rows[r].z;
+    const dp_vec3 axis = dp_sub(dp_mad(view->eye, view->forward, w), o);
+    g->perspective = view->perspective;
+    g->eye = view->eye;
+    g->fx = (float)(1 / dp_length(x)), g->fy = (float)(1 / dp_length(y));
+    g->cx = (float)(dp_dot(axis, right) / dp_length(x)), g->cy = (float)(-dp_dot(axis, up) / dp_length(y));
+}
+
+bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
+    const uint32_t width = frame->target.width, height = frame->target.height;
+    const bool same = g->block && g->width == width && g->height == height && g->textured == textured &&
+                      g->perspective == frame->view.perspective;
+    take_camera(g, frame);
+    if (same) return true;
+    g->width = width, g->height = height, g->textured = textured;
+    g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;
+    g->stride = ((size_t)width + 2 * DP_GBUFFER_MARGIN + 15) / 16 * 16;
+    const size_t plane = g->stride * ((size_t)height + 2 * DP_GBUFFER_MARGIN);
+    const size_t tiles = (size_t)g->tiles_x * g->tiles_y;
+    if (!reserve(g, frame, plane, tiles)) {
+        g->width = 0; /* nothing is right any more */
+        return false;
+    }
+    place_planes(g, plane);
+    memset(g->clean, 0, tiles);
+    return true;
+}
+
+static void repeat_sides(const dp_gbuffer *g, void *plane_at, size_t size, size_t y) {
+    char *const row = (char *)plane_at + y * g->stride * size;
+    for (size_t i = 1; i <= DP_GBUFFER_MARGIN; i++) {
+        memcpy(row - i * size, row, size);
+        memcpy(row + (g->width - 1 + i) * size, row + (g->width - 1) * size, size);
+    }
+}
+
+static void pad_plane(const dp_gbuffer *g, void *plane_at, size_t size) {
+    for (size_t y = 0; y < g->height; y++) repeat_sides(g, plane_at, size, y);
+    char *const first = (char *)plane_at - DP_GBUFFER_MARGIN * size;
+    char *const last = first + (g->height - 1) * g->stride * size;
+    const size_t row = ((size_t)g->width + 2 * DP_GBUFFER_MARGIN) * size;
+    for (size_t i = 1; i <= DP_GBUFFER_MARGIN; i++) {
+        memcpy(first - i * g->stride * size, first, row);
+        memcpy(last + i * g->stride * size, last, row);
+    }
+}
+
+void dp_gbuffer_pad(dp_gbuffer *g) {
+    pad_plane(g, g->nx, sizeof(float));
+    pad_plane(g, g->ny, sizeof(float));
+    pad_plane(g, g->nz, sizeof(float));
+    pad_plane(g, g->distance, sizeof(float));
+    pad_plane(g, g->depth, sizeof(float));
+    pad_plane(g, g->id, sizeof(uint16_t));
+}
+
+/* ------- the range of distances ------- */
+
+typedef struct range {
+    float least, most;
+} range;
+
+static void extend(range *r, const dp_frame *frame, uint32_t vertex) {
+    const dp_vertex v = frame->vertices[vertex];
+    if (v.x != v.x) return; /* to be clipped, or not finite */
+    const float z = (float)dp_distance(&frame->view, v.d);
+    r->least = dp_minf(z, r->least), r->most = dp_maxf(z, r->most);
+}
+
+void dp_gbuffer_fit_range(dp_gbuffer *g, const dp_frame *frame, const uint8_t *enhanced, uint32_t enhanced_count) {
+    const dp_polygons *const p = &frame->polygons;
+    range r = {DP_FAR, -DP_FAR};
+    if (!enhanced) {
+        for (uint32_t v = 0; v < p->vertex_count; v++) extend(&r, frame, v);
+    } else {
+        for (uint32_t i = 0; i < p->count; i++) {
+            const uint32_t group = p->groups ? p->groups[i] : 0;
+            if (group >= enhanced_count || !enhanced[group]) continue;
+            const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
+            for (uint32_t c = 0; c < n; c++) {
+                const uint32_t v = dp_corner_vertex(p, first + c);
+                if (v < p->vertex_count) extend(&r, frame, v);
+            }
+        }
+    }
+    g->near_z = r.least <= r.most ? r.least : 0;
+    g->far_z = r.most > r.least ? r.most : g->near_z + 1;
+}

@@ -1,0 +1,112 @@
+/* The extent of a source whose triangles lie as records: every corner read once, in threads.
+ *
+ * Records are cut into blocks, a block is one task, and a worker keeps the box of what it has seen. Which
+ * worker saw what does not matter to the sum. A triangle with a coordinate that is not finite is counted
+ * and left out. */
+#include "mesh/source.h"
+
+#include "base/diag.h"
+#include "base/hostile.h"
+#include "base/threads.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK = DP_TUNED(4096, 3), PART = DP_TUNED(1024, 5) /* blocks between reports of progress */ };
+
+/* One worker's sum; larger than two cache lines, so that workers do not share them. */
+typedef struct seen {
+    float min[3];
+    float max[3];
+    uint64_t not_finite;
+    uint8_t *buffer;
+    dp_diag diag;
+    dp_result result;
+} seen;
+
+typedef struct job {
+    const dp_source *source;
+    seen *workers;
+    uint64_t first; /* block */
+} job;
+
+static void look_at(seen *s, const uint8_t *record) {
+    float p[9];
+    memcpy(p, record, sizeof p);
+    float sum = 0;
+    for (int i = 0; i < 9; i++) sum += p[i] - p[i]; /* 0, or NaN when any is not finite */
+    if (sum != 0) {
+        s->not_finite++;
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        const float a = p[k], b = p[k + 3], c = p[k + 6];
+        float lo = a < b ? a : b, hi = a < b ? b : a;
+        lo = c < lo ? c : lo, hi = c > hi ? c : hi;
+        s->min[k] = lo < s->min[k] ? lo : s->min[k];
+        s->max[k] = hi > s->max[k] ? hi : s->max[k];
+    }
+}
+
+static void look_at_block(void *arg, uint32_t index, uint32_t worker) {
+    const job *const j = arg;
+    const dp_records *const r = &j->source->records;
+    seen *const s = &j->workers[worker];
+    const uint64_t first = (j->first + index) * BLOCK, left = r->count - first;
+    const uint32_t count = left < BLOCK ? (uint32_t)left : BLOCK;
+    if (s->result) return;
+    s->result = r->read(j->source->callbacks.user, first, count, s->buffer, &s->diag);
+    if (s->result) return;
+    for (uint32_t i = 0; i < count; i++) look_at(s, s->buffer + i * r->size + r->corners);
+}
+
+static dp_result look_at_all(dp_source *source, dp_threads *threads, seen *workers, dp_diag *diag) {
+    const dp_records *const r = &source->records;
+    const uint64_t blocks = r->count / BLOCK + (r->count % BLOCK != 0);
+    for (uint64_t first = 0; first < blocks; first += PART) {
+        job j = {source, workers, first};
+        dp_parallel(threads, (uint32_t)(blocks - first < PART ? blocks - first : PART), look_at_block, &j);
+        for (uint32_t i = 0; i < dp_threads_count(threads); i++)
+            if (workers[i].result) {
+                *diag = workers[i].diag;
+                return workers[i].result;
+            }
+        if (r->progress && r->progress(r->progress_user, (double)first / (double)blocks))
+            return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
+    }
+    return DP_OK;
+}
+
+static void add_up(const seen *workers, uint32_t count, dp_extent *extent) {
+    for (int k = 0; k < 3; k++) {
+        float lo = INFINITY, hi = -INFINITY;
+        for (uint32_t i = 0; i < count; i++) lo = fminf(lo, workers[i].min[k]), hi = fmaxf(hi, workers[i].max[k]);
+        extent->min[k] = lo <= hi ? lo : 0;
+        extent->max[k] = lo <= hi ? hi : 0;
+    }
+    for (uint32_t i = 0; i < count; i++) extent->not_finite += workers[i].not_finite;
+}
+
+dp_result dp_records_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
+    const dp_allocator *const memory = &source->allocator;
+    const dp_records *const r = &source->records;
+    dp_diag unused;
+    if (!diag) diag = &unused;
+    *extent = (dp_extent){.polygons = r->count, .corners = 3 * r->count, .vertices = 3 * r->count};
+    /* small files are read faster than threads start */
+    dp_threads *const threads = dp_threads_create(r->count > 64 * BLOCK ? 0 : 1, NULL, NULL, memory);
+    const uint32_t workers = threads ? dp_threads_count(threads) : 0;
+    seen *const seen_by = threads ? dp_alloc_array(memory, workers, sizeof *seen_by) : NULL;
+    dp_result result = seen_by ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
+    for (uint32_t i = 0; seen_by && i < workers; i++) {
+        seen_by[i] = (seen){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
+        seen_by[i].buffer = dp_alloc_array(memory, BLOCK, r->size);
+        if (!seen_by[i].buffer) result = dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
+    }
+    if (!result) result = look_at_all(source, threads, seen_by, diag);
+    if (!result) add_up(seen_by, workers, extent);
+    for (uint32_t i = 0; seen_by && i < workers; i++) dp_free(memory, seen_by[i].buffer);
+    dp_free(memory, seen_by);
+    dp_threads_destroy(threads);
+    return result ? result : dp_source_rewind(source, diag);
+}

@@ -1,0 +1,40 @@
+/* The cartoon map (Nienhaus and Döllner 2003, 5): the cartoon-shaded picture, sampled around each pixel to smooth
+ * the jaggies between its patches. Weights 1 2 1 in both directions; neighbours of another group, beyond a step in
+ * distance or beyond the surface do not count, so that outlines stay sharp. */
+#include "shade/passes.h"
+
+static const float STEP = 12; /* pixel sizes between neighbours of one surface */
+
+static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_t out[4]) {
+    static const uint8_t weights[3] = {1, 2, 1};
+    const dp_gbuffer *const g = &s->gbuffer;
+    const size_t at = (size_t)y * g->stride + x;
+    const float z = g->distance[at], near = STEP * (g->perspective ? z : 1) / g->fy;
+    const uint8_t *const centre = s->color + 4 * ((size_t)y * g->width + x);
+    uint32_t sum[3] = {0, 0, 0}, total = 0;
+    for (int dy = -1; dy <= 1; dy++)
+        for (int dx = -1; dx <= 1; dx++) {
+            const int64_t to = (int64_t)at + dy * (int64_t)g->stride + dx;
+            const int64_t px = (int64_t)x + dx, py = (int64_t)y + dy;
+            if (px < 0 || py < 0 || px >= g->width || py >= g->height) continue;
+            if (g->id[to] != g->id[at] || fabsf(g->distance[to] - z) > near) continue;
+            const uint8_t *const c = s->color + 4 * ((size_t)py * g->width + (size_t)px);
+            const uint32_t w = (uint32_t)weights[dx + 1] * weights[dy + 1];
+            for (int k = 0; k < 3; k++) sum[k] += w * c[k];
+            total += w;
+        }
+    for (int k = 0; k < 3; k++) out[k] = (uint8_t)((sum[k] + total / 2) / total);
+    out[3] = centre[3];
+}
+
+void dp_cartoon_map_tile(dp_shade_store *s, uint32_t tile) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;
+    for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
+        const uint32_t y = first + row;
+        for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits; bits &= bits - 1) {
+            const uint32_t x = tile_x + (uint32_t)__builtin_ctzll(bits);
+            smooth_pixel(s, x, y, s->smooth + 4 * ((size_t)y * g->width + x));
+        }
+    }
+}

@@ -1,0 +1,100 @@
+/* Composition: edges over shades, then pixels that several surfaces share.
+ *
+ * Edges in the paper's order (5, Technical Illustrations): between the shade and the inner edges' colour first,
+ * weighed by the map's RGB, then between the result and the profile edges' colour, weighed by its A.
+ *
+ * Resolving: a pixel's own surface covers `share` of it; the rest is the paper, or a surface that one of the
+ * pixels around shows, the one whose distance comes nearest to `other`. Colours are not premultiplied. */
+#include "gbuffer/edge_map.h"
+#include "shade/passes.h"
+
+/* c + (edge - c) * strength, for all four channels; an edge's own alpha weakens it. */
+static void blend(uint8_t c[4], dp_color edge, float strength) {
+    const float s = strength * (float)(edge & 0xff) / 255, under = (float)c[3] / 255, alpha = s + under * (1 - s);
+    if (!(s > 0)) return;
+    for (int k = 0; k < 3; k++) {
+        const float over = (float)(edge >> (24 - 8 * k) & 0xff);
+        c[k] = (uint8_t)((over * s + (float)c[k] * under * (1 - s)) / alpha + 0.5f);
+    }
+    c[3] = (uint8_t)(alpha * 255 + 0.5f);
+}
+
+static void edges_row(dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1) {
+    const dp_edge_map *const map = &s->frame->styles[0].edge_map;
+    const dp_gbuffer *const g = &s->gbuffer;
+    dp_edge_run run;
+    dp_edge_map_row(g, map, y, x0, x1, &run);
+    uint8_t *const out = s->frame->target.edge_map;
+    if (out) dp_edge_map_store(&run, x1 - x0, out + 4 * ((size_t)y * g->width + x0));
+    if (!s->colored || map->hidden) return;
+    uint8_t *color = s->shown + 4 * ((size_t)y * g->width + x0);
+    for (uint32_t i = 0; i < x1 - x0; i++, color += 4) {
+        if (!(run.inner[i] + run.profile[i] > 0)) continue;
+        blend(color, map->inner, run.inner[i]);
+        blend(color, map->profile, run.profile[i]);
+    }
+}
+
+void dp_edges_tile(dp_shade_store *s, uint32_t tile) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const uint32_t first = tile / g->tiles_x * DP_TILE;
+    for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
+        uint32_t x0, x1;
+        if (dp_gbuffer_span(g, tile, row, &x0, &x1)) edges_row(s, first + row, x0, x1);
+    }
+}
+
+/* ------- resolving ------- */
+
+/* The colour of what covers the rest of pixel (x, y). */
+static const uint8_t *other_color(const dp_shade_store *s, const uint8_t *colors, uint32_t x, uint32_t y, float other) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const uint8_t *best = colors + 4 * ((size_t)y * g->width + x);
+    float least = INFINITY;
+    for (int dy = -1; dy <= 1; dy++)
+        for (int dx = -1; dx <= 1; dx++) {
+            const int64_t px = (int64_t)x + dx, py = (int64_t)y + dy;
+            if ((!dx && !dy) || px < 0 || py < 0 || px >= g->width || py >= g->height) continue;
+            const size_t at = (size_t)py * g->stride + (size_t)px;
+            const float off = fabsf(g->distance[at] - other);
+            if (!g->id[at] || !(off < least)) continue;
+            least = off;
+            best = colors + 4 * ((size_t)py * g->width + (size_t)px);
+        }
+    return best;
+}
+
+static void mix_colors(const uint8_t a[4], const uint8_t b[4], uint32_t share, uint8_t out[4]) {
+    const uint32_t wa = share * a[3], wb = (255 - share) * b[3], sum = wa + wb;
+    if (!sum) {
+        for (int k = 0; k < 4; k++) out[k] = b[k];
+        return;
+    }
+    for (int k = 0; k < 3; k++) out[k] = (uint8_t)((wa * a[k] + wb * b[k] + sum / 2) / sum);
+    out[3] = (uint8_t)((sum + 127) / 255);
+}
+
+void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const dp_target *const target = &s->frame->target;
+    const dp_color paper = s->frame->styles[0].paper;
+    const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16), (uint8_t)(paper >> 8), (uint8_t)paper};
+    const uint8_t *const colors = s->shown;
+    const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;
+    if (!target->rgba) return;
+    for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
+        const uint32_t y = first + row;
+        for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits; bits &= bits - 1) {
+            const uint32_t x = tile_x + (uint32_t)__builtin_ctzll(bits);
+            const size_t at = (size_t)y * g->stride + x;
+            const uint8_t *const own = colors + 4 * ((size_t)y * g->width + x);
+            uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x;
+            if (g->share[at] == 255) {
+                for (int k = 0; k < 4; k++) out[k] = own[k];
+                continue;
+            }
+            const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
+            mix_colors(own, on_paper ? background : other_color(s, colors, x, y, g->other[at]), g->share[at], out);
+        }
+    }
+}

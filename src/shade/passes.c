@@ -1,0 +1,217 @@
+/* The passes over the whole picture, between finding lines and inking them (Nienhaus and Döllner 2003, "Rendering
+ * Passes"): the G-buffer was filled with the tiles; then
+ *     0  shade      G-buffer -> color
+ *     1  cartoon    color -> smooth                  (toon)
+ *     2  store      G-buffer to 8 bits, if asked for
+ *     3  edges      G-buffer -> edge map, over color
+ *     4  resolve    color -> target
+ * Every pass runs over tiles in parallel and reads what earlier passes left around its pixels; it looks only at
+ * the spans of rows that hold a surface, so that background costs nothing. */
+#include "shade/passes.h"
+
+#include <string.h>
+
+enum { SHADE, CARTOON, STORE, EDGES, RESOLVE };
+
+/* Looked up from N·L = -1 to 1: what the light does not reach is one shade. */
+static const uint8_t built_in_shades[8][4] = {
+    {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},
+    {156, 156, 156, 255}, {208, 208, 208, 255}, {208, 208, 208, 255}, {255, 255, 255, 255}};
+
+void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
+    dp_gbuffer_free(&s->gbuffer, memory);
+    dp_free(memory, s->color);
+    dp_free(memory, s->smooth);
+    dp_free(memory, s->hatching);
+    dp_free(memory, s->halftone);
+    *s = (dp_shade_store){0};
+}
+
+static bool is_shaded(const dp_frame *frame) {
+    const dp_shading shading = frame->styles[0].shade.shading;
+    return shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER;
+}
+
+static bool wants_colors(const dp_frame *frame) {
+    const dp_edge_map *const map = &frame->styles[0].edge_map;
+    return frame->target.rgba && (is_shaded(frame) || (map->detector && !map->hidden));
+}
+
+static bool is_active(const dp_frame *frame) {
+    const dp_target *const t = &frame->target;
+    return wants_colors(frame) || t->eye_normal || t->distance || t->id || t->edge_map;
+}
+
+bool dp_shade_needs_normals(const dp_frame *frame) {
+    const dp_normals normals = frame->styles[0].shade.normals;
+    return is_active(frame) && (normals == DP_NORMALS_SMOOTH || (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
+}
+
+static bool make_texture(uint8_t **values, void (*make)(uint8_t *), const dp_allocator *memory) {
+    if (*values) return true;
+    *values = dp_alloc(memory, (size_t)DP_STROKES_SIZE * DP_STROKES_SIZE);
+    if (*values) make(*values);
+    return *values != NULL;
+}
+
+static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
+    const dp_shade *const shade = &s->setup.shade;
+    if (shade->shading != DP_SHADING_HATCH && shade->shading != DP_SHADING_HALFTONE) return true;
+    const bool dots = shade->shading == DP_SHADING_HALFTONE;
+    s->setup.strokes = (dp_strokes_texture){shade->strokes.values, shade->strokes.width, shade->strokes.height};
+    if (shade->strokes.values) return true;
+    if (!make_texture(dots ? &s->halftone : &s->hatching, dots ? dp_make_halftone : dp_make_hatching, memory)) return false;
+    s->setup.strokes = (dp_strokes_texture){dots ? s->halftone : s->hatching, DP_STROKES_SIZE, DP_STROKES_SIZE};
+    return true;
+}
+
+static void set_up(dp_shade_store *s, const dp_frame *frame) {
+    const dp_shade *const shade = &frame->styles[0].shade;
+    const dp_color ink = shade->ink;
+    s->setup = (dp_shading_setup){.shade = *shade, .g = &s->gbuffer, .shades = shade->shades.values,
+                                  .shade_count = shade->shades.width};
+    for (int k = 0; k < 3; k++) s->setup.ink[k] = (float)(ink >> (24 - 8 * k) & 0xff) / 255;
+    if (s->setup.shades) return;
+    s->setup.shades = built_in_shades[0];
+    s->setup.shade_count = 8;
+}
+
+bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
+    s->frame = frame;
+    s->active = is_active(frame);
+    s->colored = wants_colors(frame);
+    if (!s->active) return true;
+    const size_t pixels = (size_t)frame->target.width * frame->target.height;
+    set_up(s, frame);
+    const dp_shade *const shade = &s->setup.shade;
+    const bool strokes = shade->shading == DP_SHADING_HATCH || shade->shading == DP_SHADING_HALFTONE;
+    const bool smooth = shade->shading == DP_SHADING_TOON && !shade->nearest;
+    if (!dp_gbuffer_begin(&s->gbuffer, frame, strokes && shade->object_space) || !choose_strokes(s, frame->memory) ||
+        (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
+        (s->colored && smooth && !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, 4 * pixels, 1)))
+        return false;
+    s->shown = smooth ? s->smooth : s->color;
+    return true;
+}
+
+/* ------- shading ------- */
+
+static dp_color surface_of(const dp_frame *frame, uint16_t id) {
+    const uint32_t group = id - 1u;
+    const dp_style *const style = &frame->styles[group < frame->style_count ? group : 0];
+    const dp_color c = style->shade.shading == DP_SHADING_PAPER ? style->paper : style->surface;
+    return c & 0xff ? c : frame->styles[0].paper;
+}
+
+static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1, dp_shade_run *run) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const size_t at = (size_t)y * g->stride + x0;
+    *run = (dp_shade_run){.nx = g->nx + at, .ny = g->ny + at, .nz = g->nz + at, .distance = g->distance + at,
+                          .u = g->u ? g->u + at : NULL, .v = g->v ? g->v + at : NULL, .id = g->id + at,
+                          .stride = g->stride, .x = x0, .y = y, .n = x1 - x0};
+    dp_color c = 0;
+    float rgba[4] = {0, 0, 0, 0};
+    for (uint32_t i = 0, last = UINT32_MAX; i < run->n; i++) {
+        if (!run->id[i]) continue;
+        if (run->id[i] != last) {
+            c = surface_of(s->frame, run->id[i]);
+            for (int k = 0; k < 4; k++) rgba[k] = (float)(c >> (24 - 8 * k) & 0xff) / 255;
+            last = run->id[i];
+        }
+        for (int k = 0; k < 3; k++) run->color[k][i] = rgba[k];
+        run->alpha[i] = rgba[3];
+    }
+}
+
+static uint8_t to_byte(float v) { return (uint8_t)(dp_minf(dp_maxf(v, 0), 1) * 255 + 0.5f); }
+
+static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
+    uint8_t *out = s->color + 4 * ((size_t)run->y * s->gbuffer.width + run->x);
+    for (uint32_t i = 0; i < run->n; i++, out += 4) {
+        for (int k = 0; k < 3; k++) out[k] = to_byte(run->color[k][i]);
+        out[3] = to_byte(run->alpha[i]);
+    }
+}
+
+static void shade_tile(dp_shade_store *s, uint32_t tile) {
+    static dp_shade_operator *const operators[DP_SHADING_COUNT] = {
+        [DP_SHADING_LAMBERT] = dp_shade_lambert, [DP_SHADING_GOOCH] = dp_shade_gooch, [DP_SHADING_TOON] = dp_shade_toon,
+        [DP_SHADING_HATCH] = dp_shade_hatch,     [DP_SHADING_HALFTONE] = dp_shade_hatch};
+    const dp_gbuffer *const g = &s->gbuffer;
+    const uint32_t first = tile / g->tiles_x * DP_TILE;
+    for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
+        uint32_t x0, x1;
+        dp_shade_run run;
+        if (!dp_gbuffer_span(g, tile, row, &x0, &x1)) continue;
+        begin_run(s, first + row, x0, x1, &run);
+        if (operators[s->setup.shade.shading]) operators[s->setup.shade.shading](&s->setup, &run);
+        end_run(s, &run);
+    }
+}
+
+/* ------- the target's own planes ------- */
+
+static void clear_outputs(const dp_target *t) {
+    const size_t pixels = (size_t)t->width * t->height;
+    if (t->edge_map) memset(t->edge_map, 255, 4 * pixels);
+    if (t->eye_normal) memset(t->eye_normal, 0, 3 * pixels * sizeof(float));
+    if (t->id) memset(t->id, 0, pixels * sizeof *t->id);
+    for (size_t i = 0; t->distance && i < pixels; i++) t->distance[i] = INFINITY;
+}
+
+static void put_outputs(const dp_shade_store *s, uint32_t tile) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const dp_target *const t = &s->frame->target;
+    const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;
+    for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++)
+        for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits; bits &= bits - 1) {
+            const uint32_t x = tile_x + (uint32_t)__builtin_ctzll(bits), y = first + row;
+            const size_t from = (size_t)y * g->stride + x, to = (size_t)y * g->width + x;
+            if (dp_gbuffer_is_fringe(g, from)) continue;
+            if (t->eye_normal) {
+                t->eye_normal[3 * to] = g->nx[from];
+                t->eye_normal[3 * to + 1] = g->ny[from];
+                t->eye_normal[3 * to + 2] = g->nz[from];
+            }
+            if (t->distance) t->distance[to] = g->distance[from];
+            if (t->id) t->id[to] = g->id[from];
+        }
+}
+
+/* ------- the passes ------- */
+
+void dp_shade_prepare(dp_shade_store *s) {
+    const dp_edge_map *const map = &s->frame->styles[0].edge_map;
+    if (map->detector && (map->as_printed || map->eight_bits))
+        dp_gbuffer_fit_range(&s->gbuffer, s->frame, map->enhanced, map->enhanced_count);
+    dp_gbuffer_pad(&s->gbuffer);
+    clear_outputs(&s->frame->target);
+}
+
+bool dp_shade_pass_runs(const dp_shade_store *s, int pass) {
+    const dp_edge_map *const map = &s->frame->styles[0].edge_map;
+    switch (pass) {
+    case SHADE: return s->colored;
+    case CARTOON: return s->colored && s->shown == s->smooth;
+    case STORE: return map->detector && map->eight_bits;
+    case EDGES: return map->detector;
+    default: return true;
+    }
+}
+
+void dp_shade_pass_ends(dp_shade_store *s, int pass) {
+    if (pass == STORE && dp_shade_pass_runs(s, pass)) dp_gbuffer_pad(&s->gbuffer);
+}
+
+void dp_shade_pass(dp_shade_store *s, int pass, uint32_t tile) {
+    switch (pass) {
+    case SHADE: shade_tile(s, tile); break;
+    case CARTOON: dp_cartoon_map_tile(s, tile); break;
+    case STORE: dp_gbuffer_quantize(&s->gbuffer, tile); break;
+    case EDGES: dp_edges_tile(s, tile); break;
+    default:
+        if (s->colored) dp_resolve_tile(s, tile);
+        put_outputs(s, tile);
+        break;
+    }
+}

@@ -1,0 +1,77 @@
+/* Shading: from the G-buffer to colours, one operator per look; and the passes that put all together. */
+#ifndef DP_SHADE_SHADE_H
+#define DP_SHADE_SHADE_H
+
+#include "gbuffer/gbuffer.h"
+
+/* One run of pixels of a row on its way through an operator; colours in [0, 1], planes of floats. */
+typedef struct dp_shade_run {
+    const float *nx, *ny, *nz, *distance; /* camera space; world units */
+    const float *u, *v;                   /* texture coordinates, NaN where none; or NULL */
+    const uint16_t *id;
+    size_t stride;                        /* from row to row of the six above, below and beside may be read */
+    uint32_t x, y, n;                     /* px of the first pixel; how many */
+    float color[3][DP_TILE];              /* in: the surface's own; out: as shaded */
+    float alpha[DP_TILE];
+} dp_shade_run;
+
+/* A texture of one channel, which repeats itself in both directions. */
+typedef struct dp_strokes_texture {
+    const uint8_t *values;
+    uint32_t width, height;
+} dp_strokes_texture;
+
+/* What an operator needs to know besides. */
+typedef struct dp_shading_setup {
+    dp_shade shade;          /* resolved; light of length 1 */
+    const dp_gbuffer *g;
+    dp_strokes_texture strokes;
+    const uint8_t *shades;   /* toon: [shade_count][4] */
+    uint32_t shade_count;
+    float ink[3];
+} dp_shading_setup;
+
+typedef void dp_shade_operator(const dp_shading_setup *setup, dp_shade_run *run);
+dp_shade_operator dp_shade_lambert, dp_shade_gooch, dp_shade_toon, dp_shade_hatch;
+
+/* Phong's highlight (r·v)^50 times strength, added towards white (lambert.c). */
+void dp_shade_highlight(const dp_shading_setup *setup, dp_shade_run *run);
+
+/* The built-in stroke textures: priorities (strokes.c). 256 x 256, the same every time. */
+enum { DP_STROKES_SIZE = 256 };
+void dp_make_hatching(uint8_t *values);
+void dp_make_halftone(uint8_t *values);
+
+/* ------- passes ------- */
+
+/* What shading keeps from frame to frame. Zero is empty. */
+typedef struct dp_shade_store {
+    dp_gbuffer gbuffer;
+    uint8_t *color, *smooth;  /* [height][width][4], not premultiplied, where the G-buffer holds a surface */
+    uint8_t *shown;           /* the one of the two that is shown: smooth with a cartoon map */
+    size_t color_cap, smooth_cap;
+    uint8_t *hatching, *halftone;
+    bool active;              /* this frame has a G-buffer */
+    bool colored;             /* … and colours */
+    dp_shading_setup setup;
+    const dp_frame *frame;
+} dp_shade_store;
+
+void dp_shade_store_free(dp_shade_store *store, const dp_allocator *memory);
+
+/* Before the tiles. False when memory is out. */
+bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);
+
+/* Do this frame's normals have to be made? */
+bool dp_shade_needs_normals(const dp_frame *frame);
+
+/* The passes over tiles, in order, once all tiles are filled; each is over before the next begins. */
+enum { DP_SHADE_PASSES = 5 };
+bool dp_shade_pass_runs(const dp_shade_store *store, int pass);
+void dp_shade_pass(dp_shade_store *store, int pass, uint32_t tile);
+/* After a pass: what no tile can do alone. */
+void dp_shade_pass_ends(dp_shade_store *store, int pass);
+/* Between filling and the first pass: what no tile can do alone. */
+void dp_shade_prepare(dp_shade_store *store);
+
+#endif

@@ -1,0 +1,93 @@
+/* What the files of a streamed drawing share. */
+#ifndef DP_STREAM_DRAW_H
+#define DP_STREAM_DRAW_H
+
+#include "stream/input.h"
+#include "stream/kept.h"
+#include "stream/stream.h"
+
+/* What a chunk leaves behind. */
+typedef struct dp_chunk_rest {
+    float (*corners)[9]; /* [DP_CHUNK] of triangles that may cover samples (or wanted pixels) */
+    uint32_t *numbers;   /* [DP_CHUNK] */
+    uint32_t covering;
+    uint32_t first;      /* where they go in the drawing's list */
+    dp_kept_triangle *kept; /* [DP_CHUNK] */
+    uint32_t kept_count;
+    dp_result result;
+    dp_diag diag;
+} dp_chunk_rest;
+
+/* Two triangles that cross. */
+typedef struct dp_crossing_pair {
+    uint32_t numbers[2];
+    float corners[2][9];
+} dp_crossing_pair;
+
+/* Scratch of one worker. */
+typedef struct dp_stream_worker {
+    dp_chunk *chunk;
+    uint8_t *buffer;
+    dp_crossing_pair *pairs;
+    size_t pairs_cap, pair_count;
+    dp_stats stats;
+    bool failed;
+} dp_stream_worker;
+
+/* A tile's lines while the source is read again. */
+typedef struct dp_tile_lines {
+    dp_candidate *candidates; /* one block of memory with the probes */
+    dp_probe *probes;
+    uint32_t candidate_count, probe_count;
+} dp_tile_lines;
+
+struct dp_stream_draw {
+    dp_context *context;
+    const dp_allocator *memory;
+    dp_input input;
+    dp_chunk_view view;
+    dp_stream_worker *workers; /* [context->workers] */
+
+    dp_chunk_rest *rests; /* [chunks] of the part at hand */
+    uint32_t chunks;
+    float (*corners)[9];  /* triangles to be drawn next; [part] */
+    uint32_t *numbers;    /* theirs */
+    uint32_t covering;    /* how many */
+
+    dp_kept kept;
+    float *positions;     /* frame->polygons, made of what is kept and of pairs that cross */
+    uint8_t *edge_flags;
+    uint32_t *polygon_numbers, *source_polygons;
+    dp_crossing_pair *pairs;
+    uint32_t pair_count, first_crossing; /* polygons from here on are pairs */
+
+    float *farthest;      /* dp_chunk_view */
+    uint64_t *wanted;
+    dp_tile_lines *lines; /* by tile */
+    uint64_t triangles;   /* in the stream */
+    bool read_again;
+};
+
+/* What a reading is for. */
+typedef enum dp_reading {
+    DP_READ_FACES = 0, /* faces are drawn and edges meet */
+    DP_READ_EDGES,     /* edges of another share meet (kept.h) */
+    DP_READ_HIDERS     /* triangles hide sample points */
+} dp_reading;
+
+/* One reading from the start: part after part, chunk by chunk (readings.c). Progress goes from `from` to
+ * `to`. Only the first counts in the context's statistics. */
+dp_result dp_stream_read(dp_stream_draw *stream, dp_reading reading, double from, double to, dp_diag *diag);
+
+/* Draws stream->corners and forgets them (tiles.c). False when memory is out. */
+bool dp_stream_draw_faces(dp_stream_draw *stream);
+bool dp_stream_hide_probes(dp_stream_draw *stream);
+
+/* After the first reading: the target's surface, and the lines among what is kept. When the source is not
+ * `read_again`, samples hide the lines' sample points (samples.c). */
+bool dp_stream_find_lines(dp_stream_draw *stream, bool read_again);
+void dp_stream_hide_by_samples(dp_tile_worker *worker);
+/* At the end: visible pieces into the tile workers. */
+bool dp_stream_collect(dp_stream_draw *stream);
+
+#endif

@@ -1,0 +1,170 @@
+/* Reading a source in parts of many chunks, as triangles.
+ *
+ * Where the source has records (a binary STL), a part is only a range of numbers: each chunk reads its own,
+ * in its own thread. Otherwise polygons are taken out of batches one after the other, and split where they
+ * have more than three corners; the diagonals never draw. Either way a triangle's number is its place in
+ * the stream, the same in every reading. */
+#include "stream/input.h"
+
+#include "base/diag.h"
+#include "mesh/source.h"
+
+#include <string.h>
+
+static dp_result out_of_memory(dp_diag *diag) { return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model"); }
+
+dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks, const dp_allocator *memory,
+                        dp_stats *stats, dp_diag *diag) {
+    *input = (dp_input){.source = source, .memory = memory, .stats = stats, .part = chunks * DP_CHUNK};
+    if (dp_source_rewindable(source)) {
+        const dp_result result = dp_source_rewind(source, diag);
+        if (result) return result;
+    }
+    if (source->records.read) return DP_OK;
+    input->corners = dp_alloc_array(memory, input->part, sizeof *input->corners);
+    input->flags = dp_alloc_array(memory, input->part, sizeof *input->flags);
+    input->polygons = dp_alloc_array(memory, input->part, sizeof *input->polygons);
+    if (input->corners && input->flags && input->polygons) return DP_OK;
+    dp_input_close(input);
+    return out_of_memory(diag);
+}
+
+void dp_input_close(dp_input *input) {
+    if (!input->memory) return;
+    dp_free(input->memory, input->corners);
+    dp_free(input->memory, input->flags);
+    dp_free(input->memory, input->polygons);
+    dp_free(input->memory, input->scratch.at);
+    dp_free(input->memory, input->scratch.links);
+    dp_free(input->memory, input->scratch.triangles);
+    *input = (dp_input){0};
+}
+
+/* ------- polygons of batches ------- */
+
+static void put(dp_input *input, const float *a, const float *b, const float *c, unsigned flags, size_t polygon) {
+    float *const out = input->corners[input->count];
+    memcpy(out, a, 3 * sizeof(float));
+    memcpy(out + 3, b, 3 * sizeof(float));
+    memcpy(out + 6, c, 3 * sizeof(float));
+    input->flags[input->count] = (uint8_t)flags;
+    input->polygons[input->count++] = (uint32_t)(input->handed_out + polygon);
+}
+
+/* Bit 0 where the edge from corner `from` of n leads to the next one and draws. */
+static unsigned edge_flag(const dp_batch *batch, size_t first, size_t n, uint32_t from, uint32_t to) {
+    return to == (from + 1) % n && (!batch->edge_flags || batch->edge_flags[first + from]);
+}
+
+static void put_piece(dp_input *input, size_t polygon, size_t first, size_t n, uint32_t a, uint32_t b, uint32_t c) {
+    const float *const *const at = input->scratch.at;
+    const dp_batch *const batch = &input->batch;
+    put(input, at[a], at[b], at[c],
+        edge_flag(batch, first, n, a, b) | edge_flag(batch, first, n, b, c) << 1 | edge_flag(batch, first, n, c, a) << 2,
+        polygon);
+}
+
+static bool reserve_scratch(dp_input *input, size_t n) {
+    dp_split_scratch *const s = &input->scratch;
+    return dp_reserve(input->memory, &s->at, &s->at_cap, n, sizeof *s->at) &&
+           dp_reserve(input->memory, &s->links, &s->links_cap, n, sizeof *s->links) &&
+           dp_reserve(input->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
+}
+
+/* The corners' positions; false where one is not usable, which is counted. */
+static bool locate(dp_input *input, size_t first, size_t n) {
+    const dp_batch *const batch = &input->batch;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t vertex = batch->indices ? batch->indices[first + i] : (uint32_t)(first + i);
+        if (vertex >= batch->vertex_count) {
+            input->stats->dropped_index++;
+            return false;
+        }
+        const float *const p = (const float *)(const void *)((const char *)batch->positions + vertex * batch->position_stride);
+        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) {
+            input->stats->dropped_finite++;
+            return false;
+        }
+        input->scratch.at[i] = p;
+    }
+    return true;
+}
+
+/* False: the part has no room for it. */
+static bool take_polygon(dp_input *input, size_t polygon, dp_result *result, dp_diag *diag) {
+    const dp_batch *const batch = &input->batch;
+    const size_t first = batch->firsts ? batch->firsts[polygon] : 3 * polygon;
+    const size_t n = batch->firsts ? batch->firsts[polygon + 1] - first : 3;
+    if (n < 3) return input->stats->dropped_corners++, true;
+    if (n - 2 > input->part - input->count) {
+        if (!input->count)
+            *result = dp_fail(diag, DP_ERR_LIMIT, "a polygon of %zu corners; streamed, it may have %u, or more with more memory", n, input->part + 2);
+        return false;
+    }
+    if (!reserve_scratch(input, n)) return *result = out_of_memory(diag), false;
+    input->stats->triangles += n - 2;
+    if (!locate(input, first, n)) return true;
+    if (n == 3 || dp_is_convex_planar(input->scratch.at, (uint32_t)n)) {
+        for (uint32_t i = 1; i + 1 < n; i++) put_piece(input, polygon, first, n, 0, i, i + 1);
+        return true;
+    }
+    input->stats->split++;
+    const uint32_t pieces = dp_split_polygon(input->scratch.at, (uint32_t)n, input->scratch.links, input->scratch.triangles);
+    for (uint32_t i = 0; i < pieces; i++) {
+        const uint32_t *const t = input->scratch.triangles[i];
+        put_piece(input, polygon, first, n, t[0], t[1], t[2]);
+    }
+    return true;
+}
+
+static dp_result next_of_batches(dp_input *input, dp_diag *diag) {
+    dp_result result = DP_OK;
+    while (input->count < input->part) {
+        if (input->taken == input->batch.polygon_count) {
+            input->handed_out += input->batch.polygon_count;
+            input->taken = 0;
+            result = dp_source_next(input->source, &input->batch, diag);
+            if (result || !input->batch.polygon_count) return result;
+            input->stats->polygons += input->batch.polygon_count;
+        }
+        if (!take_polygon(input, input->taken, &result, diag)) return result;
+        input->taken++;
+    }
+    return DP_OK;
+}
+
+/* ------- parts ------- */
+
+dp_result dp_input_next(dp_input *input, dp_diag *diag) {
+    const dp_records *const r = &input->source->records;
+    input->first += input->count;
+    input->count = 0;
+    if (input->first >= UINT32_MAX - 2 - input->part) return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles", UINT32_MAX - 2 - input->part);
+    if (!r->read) return next_of_batches(input, diag);
+    const uint64_t left = r->count - input->first;
+    input->count = left < input->part ? (uint32_t)left : input->part;
+    input->stats->polygons += input->count;
+    input->stats->triangles += input->count;
+    return DP_OK;
+}
+
+size_t dp_input_buffer_size(const dp_input *input) {
+    return input->source->records.read ? input->source->records.size * DP_CHUNK : 1;
+}
+
+dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer, dp_triangles *out, dp_diag *diag) {
+    const dp_records *const r = &input->source->records;
+    const uint32_t first = index * DP_CHUNK;
+    const uint32_t count = input->count - first < DP_CHUNK ? input->count - first : DP_CHUNK;
+    if (!r->read) {
+        *out = (dp_triangles){(const uint8_t *)input->corners[first], sizeof *input->corners, count, input->flags + first};
+        return DP_OK;
+    }
+    *out = (dp_triangles){buffer + r->corners, r->size, count, NULL};
+    return r->read(input->source->callbacks.user, input->first + first, count, buffer, diag);
+}
+
+double dp_input_fraction(const dp_input *input) {
+    const dp_records *const r = &input->source->records;
+    return r->read && r->count ? (double)(input->first + input->count) / (double)r->count : -1;
+}

@@ -1,0 +1,56 @@
+/* What is kept of a stream: the triangles whose edges may be lines, or wait for their other triangle. */
+#ifndef DP_STREAM_KEPT_H
+#define DP_STREAM_KEPT_H
+
+#include "stream/chunk.h"
+
+/* What is known of an edge of a kept triangle. */
+enum { DP_EDGE_PLAIN = 0, DP_EDGE_LINE = 1, DP_EDGE_ALONE = 2 };
+
+typedef struct dp_kept_triangle {
+    float corners[9];
+    uint32_t number;  /* in the stream */
+    uint32_t polygon; /* of the source */
+    uint8_t edges[3], unused;
+} dp_kept_triangle;
+
+/* Edges whose hash has these low bits. */
+typedef struct dp_kept_share {
+    uint32_t mask, value;
+} dp_kept_share;
+
+enum { DP_SHARES_MOST = 64 };
+
+typedef struct dp_kept {
+    const dp_allocator *memory;
+    const dp_chunk_view *view;
+    dp_kept_triangle *triangles; /* numbers ascend */
+    size_t count, cap;
+    size_t settled; /* how many were left when all were last looked at */
+    size_t limit;   /* triangles, those of earlier readings included */
+    dp_kept_triangle *earlier; /* what earlier readings kept; after the last, all in one */
+    size_t earlier_count, earlier_cap;
+    dp_kept_share share; /* edges that this reading follows */
+    dp_kept_share later[DP_SHARES_MOST]; /* and others, still to come */
+    uint32_t later_count, shares;
+    uint32_t *slots; /* 2 * slot_count: hash and edge, triangle number */
+    size_t slots_cap;
+    uint32_t slot_count, slots_used; /* used: also by what was taken out */
+    uint64_t lost;  /* edges given up for want of memory */
+} dp_kept;
+
+void dp_kept_free(dp_kept *kept);
+
+/* Does this reading follow the edge of a triangle? */
+bool dp_kept_follows(const dp_kept *kept, const dp_kept_triangle *triangle, uint32_t edge);
+
+/* Begins with the next share of edges; false when there is none. *enough: false when memory is out. */
+bool dp_kept_next_share(dp_kept *kept, bool *enough);
+
+/* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped. False when
+ * memory is out. */
+bool dp_kept_join(dp_kept *kept, size_t first);
+
+uint64_t dp_kept_bytes(const dp_kept *kept);
+
+#endif

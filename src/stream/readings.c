@@ -1,0 +1,153 @@
+/* A reading of the source: parts are cut into chunks, chunks are sifted in parallel, and what is left of
+ * them is put together in order.
+ *
+ * Most triangles end in their chunk. Those that may cover a sample are listed until the list is full and
+ * then go through the ordinary stages; those with an edge that matters are kept (kept.c). Order is that of
+ * the stream, whatever thread sifted which chunk. */
+#include "stream/draw.h"
+
+#include "base/diag.h"
+
+#include <string.h>
+
+typedef struct job {
+    dp_stream_draw *stream;
+    dp_reading reading;
+} job;
+
+static void leave_covering(const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, dp_chunk_rest *rest) {
+    rest->covering = 0;
+    for (uint32_t t = 0; t < chunk->count; t++) {
+        if (!(chunk->state[t] & DP_TRIANGLE_COVERS)) continue;
+        memcpy(rest->corners[rest->covering], triangles->corners + t * triangles->stride, sizeof *rest->corners);
+        rest->numbers[rest->covering++] = number + t;
+    }
+}
+
+static void leave_kept(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, dp_chunk_rest *rest) {
+    rest->kept_count = 0;
+    for (uint32_t t = 0; t < chunk->count; t++) {
+        if (!(chunk->lines[t] | chunk->alone[t])) continue;
+        dp_kept_triangle *const k = &rest->kept[rest->kept_count];
+        for (int i = 0; i < 3; i++) {
+            memcpy(k->corners + 3 * i, chunk->position[chunk->corner[3 * t + (uint32_t)i]], 3 * sizeof(float));
+            const bool line = chunk->lines[t] >> i & 1, alone = chunk->alone[t] >> i & 1;
+            k->edges[i] = line ? DP_EDGE_LINE : alone ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
+        }
+        for (uint32_t i = 0; i < 3; i++)
+            if (k->edges[i] == DP_EDGE_ALONE && !dp_kept_follows(&stream->kept, k, i)) k->edges[i] = DP_EDGE_PLAIN;
+        rest->kept_count += (k->edges[0] | k->edges[1] | k->edges[2]) != 0;
+        k->number = number + t;
+        k->polygon = dp_input_polygon(&stream->input, number + t);
+        k->unused = 0;
+    }
+}
+
+static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
+    const job *const j = arg;
+    dp_stream_draw *const s = j->stream;
+    dp_stream_worker *const w = &s->workers[worker];
+    dp_chunk_rest *const rest = &s->rests[index];
+    const uint32_t number = (uint32_t)s->input.first + index * DP_CHUNK;
+    dp_triangles triangles;
+    rest->covering = rest->kept_count = 0;
+    rest->result = dp_input_chunk(&s->input, index, w->buffer, &triangles, &rest->diag);
+    if (rest->result) return;
+    dp_chunk_place(w->chunk, &triangles, &s->context->frame.view);
+    dp_chunk_sift(w->chunk, &s->view, &w->stats);
+    if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
+    if (j->reading == DP_READ_HIDERS || !s->context->frame.lines) return;
+    dp_chunk_edges(w->chunk, &triangles, &s->view);
+    /* lines within the chunk are known since the first reading */
+    if (j->reading == DP_READ_EDGES) memset(w->chunk->lines, 0, w->chunk->count);
+    leave_kept(s, w->chunk, number, rest);
+}
+
+static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
+    dp_stream_draw *const s = arg;
+    const dp_chunk_rest *const rest = &s->rests[index];
+    (void)worker;
+    memcpy(s->corners + rest->first, rest->corners, rest->covering * sizeof *s->corners);
+    memcpy(s->numbers + rest->first, rest->numbers, rest->covering * sizeof *s->numbers);
+}
+
+static bool draw_listed(dp_stream_draw *s, dp_reading reading) {
+    return reading == DP_READ_HIDERS ? dp_stream_hide_probes(s) : dp_stream_draw_faces(s);
+}
+
+/* Adds what the chunks left to the list; draws the list first when it has no room. */
+static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading) {
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < chunks; i++) sum += s->rests[i].covering;
+    if (sum > s->input.part - s->covering && !draw_listed(s, reading)) return false;
+    for (uint32_t i = 0; i < chunks; i++) {
+        s->rests[i].first = s->covering;
+        s->covering += s->rests[i].covering;
+    }
+    dp_parallel(s->context->threads, chunks, list_chunk, s);
+    return true;
+}
+
+static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
+    dp_kept *const kept = &s->kept;
+    const size_t first = kept->count;
+    size_t sum = first;
+    for (uint32_t i = 0; i < chunks; i++) sum += s->rests[i].kept_count;
+    if (sum == first) return true;
+    if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles)) return false;
+    for (uint32_t i = 0; i < chunks; i++) {
+        memcpy(kept->triangles + kept->count, s->rests[i].kept, s->rests[i].kept_count * sizeof *kept->triangles);
+        kept->count += s->rests[i].kept_count;
+    }
+    return dp_kept_join(kept, first);
+}
+
+static dp_result out_of_memory(dp_diag *diag) { return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing"); }
+
+static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag) {
+    const uint32_t chunks = s->input.count / DP_CHUNK + (s->input.count % DP_CHUNK != 0);
+    job j = {s, reading};
+    dp_parallel(s->context->threads, chunks, sift_chunk, &j);
+    for (uint32_t i = 0; i < chunks; i++)
+        if (s->rests[i].result) {
+            if (diag) *diag = s->rests[i].diag;
+            return s->rests[i].result;
+        }
+    if (!list_covering(s, chunks, reading) || (reading != DP_READ_HIDERS && !keep_edges(s, chunks))) return out_of_memory(diag);
+    return DP_OK;
+}
+
+static dp_result report(const dp_stream_draw *s, double from, double to, dp_diag *diag) {
+    const dp_context *const c = s->context;
+    double done = dp_input_fraction(&s->input);
+    if (done < 0 && s->triangles) done = (double)(s->input.first + s->input.count) / (double)s->triangles;
+    if (c->progress && c->progress(c->user, done < 0 ? done : from + (to - from) * done))
+        return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
+    return DP_OK;
+}
+
+static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, double to, dp_diag *diag) {
+    for (;;) {
+        dp_result result = dp_input_next(&s->input, diag);
+        if (result) return result;
+        if (!s->input.count) break;
+        if ((result = read_part(s, reading, diag)) || (result = report(s, from, to, diag))) return result;
+    }
+    s->triangles = s->input.first;
+    return draw_listed(s, reading) ? DP_OK : out_of_memory(diag);
+}
+
+dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, double to, dp_diag *diag) {
+    dp_context *const c = s->context;
+    dp_source *const source = s->input.source;
+    const dp_stats before = c->stats;
+    dp_result result = DP_OK;
+    s->covering = 0;
+    if (reading != DP_READ_FACES) {
+        dp_input_close(&s->input);
+        result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
+    }
+    if (!result) result = read_all(s, reading, from, to, diag);
+    if (reading != DP_READ_FACES) c->stats = before;
+    return result;
+}

@@ -1,0 +1,155 @@
+/* Drawing a source that does not fit into memory.
+ *
+ *   first reading      chunks -> faces into the picture's depth; edges that matter are kept
+ *   more readings      only where the order of triangles is such that too many edges wait: a share each
+ *   in between         what was kept is a small mesh: its lines are candidates with sample points
+ *   second reading     chunks -> triangles over sample points hide them
+ *
+ * Then segments and ink are made as ever. Memory is that of the picture (depth, surface, sample points on
+ * lines) and that of one part of the source and of what is kept, which are bounded, whatever the length of
+ * the source. With one pass, sample points are hidden by the depth of the picture's samples instead. */
+#include "stream/draw.h"
+
+#include "base/diag.h"
+#include "mesh/source.h"
+
+#include <string.h>
+
+/* What memory is spent on, bytes: per triangle gathered and drawn from memory (positions, vertices, bins);
+ * for a chunk of a part (what it leaves, listed, drawn, in the largest tile of each of two workers); per
+ * triangle kept (and its part of the mesh, table and lines). */
+enum { GATHERED = 132, PER_CHUNK = 2 << 20, PER_KEPT = 160, CHUNKS_LEAST = DP_TUNED(1, 2), CHUNKS_MOST = DP_TUNED(64, 2), KEPT_LEAST = 65536 };
+
+bool dp_stream_is_large(const dp_source *source, size_t memory) {
+    return source->records.read && source->records.count > memory / GATHERED;
+}
+
+void dp_stream_free(dp_stream_draw *s) {
+    if (!s) return;
+    const dp_allocator *const memory = s->memory;
+    const dp_frame *const f = &s->context->frame;
+    dp_input_close(&s->input);
+    for (uint32_t i = 0; s->workers && i < s->context->workers; i++) {
+        dp_free(memory, s->workers[i].chunk);
+        dp_free(memory, s->workers[i].buffer);
+        dp_free(memory, s->workers[i].pairs);
+    }
+    for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
+        dp_free(memory, s->rests[i].corners);
+        dp_free(memory, s->rests[i].numbers);
+        dp_free(memory, s->rests[i].kept);
+    }
+    for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++) dp_free(memory, s->lines[i].candidates);
+    dp_kept_free(&s->kept);
+    void *const blocks[] = {s->workers, s->rests, s->corners, s->numbers, s->positions, s->edge_flags, s->polygon_numbers,
+                            s->source_polygons, s->pairs, s->farthest, s->wanted, s->lines};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
+    dp_free(memory, s);
+}
+
+static bool make_workers(dp_stream_draw *s) {
+    s->workers = dp_alloc_zeroed(s->memory, s->context->workers * sizeof *s->workers);
+    for (uint32_t i = 0; s->workers && i < s->context->workers; i++) {
+        s->workers[i].chunk = dp_alloc(s->memory, sizeof *s->workers[i].chunk);
+        s->workers[i].buffer = dp_alloc(s->memory, dp_input_buffer_size(&s->input));
+        if (!s->workers[i].chunk || !s->workers[i].buffer) return false;
+    }
+    return s->workers;
+}
+
+static bool make_rests(dp_stream_draw *s) {
+    s->rests = dp_alloc_zeroed(s->memory, s->chunks * sizeof *s->rests);
+    for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
+        dp_chunk_rest *const rest = &s->rests[i];
+        rest->corners = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->corners);
+        rest->numbers = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->numbers);
+        rest->kept = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->kept);
+        if (!rest->corners || !rest->numbers || !rest->kept) return false;
+    }
+    s->corners = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->corners);
+    s->numbers = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->numbers);
+    return s->rests && s->corners && s->numbers;
+}
+
+/* What lasts as long as the picture: nothing is covered yet. */
+static bool make_picture(dp_stream_draw *s) {
+    const dp_frame *const f = &s->context->frame;
+    const size_t tiles = (size_t)f->tiles_x * f->tiles_y, blocks = tiles * DP_BLOCKS * DP_BLOCKS;
+    s->farthest = dp_alloc_array(s->memory, blocks, sizeof *s->farthest);
+    s->wanted = dp_alloc_zeroed(s->memory, tiles * DP_TILE * sizeof *s->wanted);
+    s->lines = dp_alloc_zeroed(s->memory, tiles * sizeof *s->lines);
+    if (!s->farthest || !s->wanted || !s->lines) return false;
+    for (size_t i = 0; i < blocks; i++) s->farthest[i] = DP_DEPTH_EMPTY;
+    for (size_t i = 0; i < tiles * f->tile_samples; i++) f->depth[i] = DP_DEPTH_EMPTY;
+    if (f->target.normal) memset(f->target.normal, 0, 3 * sizeof(float) * f->target.width * f->target.height);
+    return true;
+}
+
+static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s, dp_diag *diag) {
+    const dp_frame *const f = &c->frame;
+    const size_t chunks = c->limit / 2 / PER_CHUNK;
+    s->chunks = chunks < CHUNKS_LEAST ? CHUNKS_LEAST : chunks > CHUNKS_MOST ? CHUNKS_MOST : (uint32_t)chunks;
+    const dp_result result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
+    if (result) return result;
+    s->view = (dp_chunk_view){.view = &f->view, .tiles_x = f->tiles_x, .tiles_y = f->tiles_y, .flat_cosine = f->flat_cosine};
+    if (!(f->lines & (DP_RIDGE | DP_VALLEY))) s->view.flat_cosine = -1;
+    dp_sampling_init(&s->view.sampling, f->target.samples);
+    s->kept = (dp_kept){.memory = s->memory, .view = &s->view, .shares = 1};
+    const size_t parts = (size_t)s->chunks * PER_CHUNK;
+    s->kept.limit = (c->limit > parts ? c->limit - parts : 0) / PER_KEPT;
+    if (s->kept.limit < KEPT_LEAST) s->kept.limit = KEPT_LEAST;
+    if (!make_workers(s) || !make_rests(s) || !make_picture(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
+    s->view.farthest = s->farthest;
+    return DP_OK;
+}
+
+static void add_stats(dp_stream_draw *s) {
+    dp_stats *const sum = &s->context->stats;
+    for (uint32_t i = 0; i < s->context->workers; i++) {
+        sum->dropped_finite += s->workers[i].stats.dropped_finite;
+        sum->dropped_area += s->workers[i].stats.dropped_area;
+        sum->clipped += s->context->bin_workers[i].stats.clipped;
+    }
+}
+
+/* Readings for edges that were put off, until none is left. */
+static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *diag) {
+    bool enough;
+    while (dp_kept_next_share(&s->kept, &enough)) {
+        if (!may) {
+            s->kept.lost += s->kept.later_count + 1; /* not known how many */
+            return DP_OK;
+        }
+        const double to = *done + (0.95 - *done) / (s->kept.later_count + 2);
+        const dp_result result = dp_stream_read(s, DP_READ_EDGES, *done, to, diag);
+        if (result) return result;
+        *done = to;
+    }
+    return enough ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
+}
+
+static dp_result find(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
+    dp_context *const c = s->context;
+    const bool again = c->frame.lines && c->frame.styles[0].passes != 1 && dp_source_rewindable(source);
+    double done = again ? 0.6 : 0.95;
+    dp_result result = open_stream(c, source, s, diag);
+    if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, done, diag);
+    if (!result) add_stats(s);
+    if (!result && c->frame.lines) result = read_edges(s, again, &done, diag);
+    if (result) return result;
+    c->stats.edges_lost = s->kept.lost;
+    if (!dp_stream_find_lines(s, again)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
+    s->view.wanted = s->wanted;
+    if (again && (result = dp_stream_read(s, DP_READ_HIDERS, done, 0.95, diag))) return result;
+    if (c->frame.lines && !dp_stream_collect(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
+    return DP_OK;
+}
+
+dp_result dp_stream_find(dp_context *context, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
+    dp_stream_draw *const s = dp_alloc_zeroed(&context->memory, sizeof *s);
+    *stream = s;
+    if (!s) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a streamed drawing");
+    s->context = context;
+    s->memory = &context->memory;
+    return find(s, source, diag);
+}

@@ -1,0 +1,228 @@
+/* Chaining segments by equal ends.
+ *
+ * Data structure: a segment has two ends, 2 i at a and 2 i + 1 at b. A hash table over the ends' bits puts ends that are
+ * one node into a list; in each node ends are mated in pairs, straightest first. A chain is then a walk from mate
+ * to mate. Ends that are left over are then mated over small gaps, nearest first, found in a grid. Invariant: mate[mate[e]] == e. The order of everything comes from the segments' order, never from the hash. */
+#include "strokes/chain.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NONE = UINT32_MAX, MOST_AT_NODE = 12, SHORT = 64 /* links */ };
+
+typedef struct chaining {
+    const dp_stroke *strokes;
+    const dp_chain_rule *rule;
+    uint32_t count;
+    uint32_t *slots, *next, *mate, *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
+    size_t slot_count;
+} chaining;
+
+void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory) {
+    dp_free(memory, store->links);
+    dp_free(memory, store->chains);
+    dp_free(memory, store->scratch);
+    dp_free(memory, store->bridges);
+    *store = (dp_chain_store){0};
+}
+
+static dp_point end_point(const chaining *c, uint32_t end) {
+    const dp_stroke *const s = &c->strokes[end / 2];
+    return end & 1 ? s->b : s->a;
+}
+
+static bool same_node(const chaining *c, uint32_t e, uint32_t f) {
+    const dp_point p = end_point(c, e), q = end_point(c, f);
+    const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
+    return p.x == q.x && p.y == q.y && p.d == q.d && s->line == t->line && s->color == t->color;
+}
+
+static uint32_t node_hash(const chaining *c, uint32_t end) {
+    const dp_point p = end_point(c, end);
+    uint32_t bits[3];
+    memcpy(bits, &p, sizeof bits);
+    uint32_t h = bits[0] * 0x9e3779b1u ^ bits[1] * 0x85ebca77u ^ bits[2] * 0xc2b2ae3du ^ c->strokes[end / 2].line;
+    h ^= h >> 15, h *= 0x2c1b3c6du;
+    return h ^ h >> 13;
+}
+
+/* Ends into lists by node, each in ascending order. */
+static void find_nodes(const chaining *c) {
+    memset(c->slots, 0, c->slot_count * sizeof *c->slots);
+    for (uint32_t i = 2 * c->count; i-- > 0;) {
+        size_t s = node_hash(c, i) & (c->slot_count - 1);
+        while (c->slots[s] && !same_node(c, c->slots[s] - 1, i)) s = (s + 1) & (c->slot_count - 1);
+        c->next[i] = c->slots[s] ? c->slots[s] - 1 : NONE;
+        c->slots[s] = i + 1;
+        c->mate[i] = NONE;
+    }
+}
+
+/* Cosine of the turn between coming in through `e` and leaving through `f`. */
+static float straightness(const chaining *c, uint32_t e, uint32_t f) {
+    const dp_point p = end_point(c, e), from = end_point(c, e ^ 1), to = end_point(c, f ^ 1);
+    const float ax = p.x - from.x, ay = p.y - from.y, bx = to.x - p.x, by = to.y - p.y;
+    const float length = sqrtf((ax * ax + ay * ay) * (bx * bx + by * by));
+    return length > 0 ? (ax * bx + ay * by) / length : 1;
+}
+
+static bool may_join(const chaining *c, uint32_t e, uint32_t f) {
+    if (e / 2 == f / 2) return false;
+    if (straightness(c, e, f) < c->rule->sharpest) return false;
+    if (!c->rule->side) return true;
+    /* entered at b one goes from a to b, left at a as well: then the sides must agree */
+    const bool along = (e & 1) != (f & 1);
+    return along == (c->rule->side[e / 2] == c->rule->side[f / 2]);
+}
+
+static void mate_node(const chaining *c, uint32_t first) {
+    uint32_t ends[MOST_AT_NODE], n = 0;
+    for (uint32_t e = first; e != NONE && n < MOST_AT_NODE; e = c->next[e]) ends[n++] = e;
+    for (;;) {
+        float best = -2;
+        uint32_t p = NONE, q = NONE;
+        for (uint32_t i = 0; i < n; i++)
+            for (uint32_t k = i + 1; k < n; k++) {
+                if (c->mate[ends[i]] != NONE || c->mate[ends[k]] != NONE || !may_join(c, ends[i], ends[k])) continue;
+                const float s = straightness(c, ends[i], ends[k]);
+                if (s > best) best = s, p = ends[i], q = ends[k];
+            }
+        if (p == NONE) return;
+        c->mate[p] = q, c->mate[q] = p;
+    }
+}
+
+/* ------- over gaps ------- */
+
+typedef struct dp_bridge {
+    float distance;
+    uint32_t e, f;
+} bridge;
+
+static int by_distance(const void *left, const void *right) {
+    const bridge *const l = left, *const r = right;
+    if (l->distance != r->distance) return l->distance < r->distance ? -1 : 1;
+    if (l->e != r->e) return l->e < r->e ? -1 : 1;
+    return (l->f > r->f) - (l->f < r->f);
+}
+
+static size_t cell_slot(const chaining *c, int32_t x, int32_t y) {
+    const uint32_t h = ((uint32_t)x * 0x9e3779b1u) ^ ((uint32_t)y * 0x85ebca77u);
+    return (h ^ h >> 15) & (c->slot_count - 1);
+}
+
+static int32_t cell_of(const chaining *c, float px) { return (int32_t)floorf(px / c->rule->gap); }
+
+/* Loose ends into lists by grid cell; cells that share a slot share a list. */
+static void find_cells(const chaining *c) {
+    memset(c->slots, 0, c->slot_count * sizeof *c->slots);
+    for (uint32_t i = 2 * c->count; i-- > 0;) {
+        if (c->mate[i] != NONE) continue;
+        const dp_point p = end_point(c, i);
+        uint32_t *const slot = &c->slots[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
+        c->next[i] = *slot ? *slot - 1 : NONE;
+        *slot = i + 1;
+    }
+}
+
+static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distance) {
+    const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
+    const dp_point p = end_point(c, e), q = end_point(c, f);
+    *distance = hypotf(q.x - p.x, q.y - p.y);
+    return *distance <= c->rule->gap && fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
+           may_join(c, e, f);
+}
+
+static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory, dp_chain_store *store, size_t *n) {
+    const dp_point p = end_point(c, e);
+    const int32_t x = cell_of(c, p.x), y = cell_of(c, p.y);
+    for (int32_t k = 0; k < 9; k++) {
+        const uint32_t head = c->slots[cell_slot(c, x + k % 3 - 1, y + k / 3 - 1)];
+        for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->next[f]) {
+            float distance;
+            if (f <= e || !may_bridge(c, e, f, &distance)) continue;
+            if (!dp_reserve(memory, &store->bridges, &store->bridges_cap, *n + 1, sizeof *store->bridges)) return false;
+            store->bridges[(*n)++] = (bridge){distance, e, f};
+        }
+    }
+    return true;
+}
+
+/* Would mating the ends close a chain of a few segments? */
+static bool closes_short(const chaining *c, uint32_t e, uint32_t f) {
+    uint32_t end = e ^ 1;
+    for (int i = 0; i < SHORT; i++) {
+        if (end == f) return true;
+        if (c->mate[end] == NONE) return false;
+        end = c->mate[end] ^ 1;
+    }
+    return false;
+}
+
+static bool bridge_gaps(const chaining *c, const dp_allocator *memory, dp_chain_store *store) {
+    size_t n = 0;
+    if (!(c->rule->gap > 0)) return true;
+    find_cells(c);
+    for (uint32_t e = 0; e < 2 * c->count; e++)
+        if (c->mate[e] == NONE && !offer_bridges(c, e, memory, store, &n)) return false;
+    if (n) qsort(store->bridges, n, sizeof *store->bridges, by_distance);
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t e = store->bridges[i].e, f = store->bridges[i].f;
+        if (c->mate[e] == NONE && c->mate[f] == NONE && !closes_short(c, e, f)) c->mate[e] = f, c->mate[f] = e;
+    }
+    return true;
+}
+
+/* ------- walking ------- */
+
+/* The end at which the chain through a segment begins; that of the segment itself where it is closed. */
+static uint32_t find_start(const chaining *c, uint32_t segment, bool *closed) {
+    uint32_t end = 2 * segment; /* going backwards, out of a */
+    *closed = false;
+    while (c->mate[end] != NONE) {
+        end = c->mate[end] ^ 1;
+        if (end == 2 * segment) {
+            *closed = true;
+            return end;
+        }
+    }
+    return end;
+}
+
+static void walk(const chaining *c, uint32_t start, dp_chain_store *store, dp_chain *chain, uint32_t *links) {
+    uint32_t end = start;
+    for (;;) {
+        store->links[(*links)++] = (dp_link){end / 2, end & 1};
+        c->visited[end / 2] = 1;
+        chain->count++;
+        const uint32_t next = c->mate[end ^ 1];
+        if (next == NONE || c->visited[next / 2]) return;
+        end = next;
+    }
+}
+
+bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule, const dp_allocator *memory,
+                    dp_chain_store *store) {
+    chaining c = {.strokes = strokes, .rule = rule, .count = count, .slot_count = 64};
+    while (c.slot_count < 4 * (size_t)count) c.slot_count *= 2;
+    store->chain_count = 0;
+    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap, c.slot_count + 5 * (size_t)count, sizeof(uint32_t)) ||
+        !dp_reserve(memory, &store->links, &store->links_cap, count, sizeof *store->links) ||
+        !dp_reserve(memory, &store->chains, &store->chains_cap, count, sizeof *store->chains))
+        return false;
+    c.slots = store->scratch, c.next = c.slots + c.slot_count, c.mate = c.next + 2 * (size_t)count;
+    c.visited = c.mate + 2 * (size_t)count;
+    if (count) memset(c.visited, 0, count * sizeof *c.visited);
+    find_nodes(&c);
+    for (size_t s = 0; s < c.slot_count; s++)
+        if (c.slots[s]) mate_node(&c, c.slots[s] - 1);
+    if (!bridge_gaps(&c, memory, store)) return false;
+    uint32_t links = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (c.visited[i]) continue;
+        dp_chain *const chain = &store->chains[store->chain_count++];
+        *chain = (dp_chain){.first = links};
+        walk(&c, find_start(&c, i, &chain->closed), store, chain, &links);
+    }
+    return true;
+}

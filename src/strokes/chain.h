@@ -1,0 +1,42 @@
+/* Chains: segments of one class joined end to end, in the order in which a hand would draw them. */
+#ifndef DP_STROKES_CHAIN_H
+#define DP_STROKES_CHAIN_H
+
+#include "strokes/stroke.h"
+
+/* A segment's place in its chain. */
+typedef struct dp_link {
+    uint32_t segment;
+    bool reversed; /* it is drawn from b to a */
+} dp_link;
+
+typedef struct dp_chain {
+    uint32_t first, count; /* links */
+    bool closed;           /* the last link's end is the first one's start */
+} dp_chain;
+
+typedef struct dp_chain_store {
+    dp_link *links;
+    dp_chain *chains;
+    uint32_t *scratch; /* slots, ends by node, mates */
+    struct dp_bridge *bridges; /* chain.c */
+    size_t links_cap, chains_cap, scratch_cap, bridges_cap;
+    uint32_t chain_count;
+} dp_chain_store;
+
+/* What may be joined. */
+typedef struct dp_chain_rule {
+    float sharpest;     /* cosine of the largest turn at which a chain goes on; below -1: any */
+    float gap;          /* px over which loose ends are joined all the same: outlines of fine meshes are full of holes */
+    float step;         /* as far in depth d as that, at most */
+    const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must stay on one
+                           side of a chain. NULL: no matter */
+} dp_chain_rule;
+
+/* Chains strokes[count] where ends of one class and colour are equal, bit for bit, then over small gaps. Where more than two meet, the
+ * straightest pairs go on. Chains come in the order of their first segments. False when memory is out. */
+bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule, const dp_allocator *memory,
+                    dp_chain_store *store);
+void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory);
+
+#endif

@@ -1,0 +1,350 @@
+/* The hand: from chains of segments to marks.
+ *
+ * Each chain is walked once per repeat. Its spine is taken up at even distances, smoothed where it is ragged and not
+ * where it has a corner, moved off by jitter, run on by overshoot; then each pair of points is a mark, with the width
+ * that taper, depth and light leave and with u from the length so far. A closed chain's texture is stretched to fit a
+ * whole number of times, so that it has no seam.
+ *
+ * Errors of the hand are noise over the arc length, seeded by the style's seed, the repeat, and the polygon at which
+ * the chain begins: nothing depends on threads or on what else is in the picture. */
+#include "strokes/mark.h"
+
+#include "pipe/normals.h"
+#include "pipe/outline.h"
+#include "texture/texture.h"
+
+enum { SMOOTHINGS = 3 };
+static const float GAP = 4;          /* px; smaller holes in an outline are rounding, or a fold of a single triangle */
+static const float CORNER = 0.77f;   /* cosine: sharper turns than 40 degrees are meant, and stay */
+static const float TURN = -0.7f;     /* chains do not go on at turns above 135 degrees */
+static const float BREAK = 0.34f;    /* at corners of more than 70 degrees the pen is lifted */
+static const float SWELL = 0.4f;     /* px of width per px of an extruded outline's length */
+static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
+
+typedef struct dp_hand_point {
+    float x, y, d;
+    float arc;        /* px from the chain's start */
+    uint32_t segment; /* that follows */
+} hand_point;
+
+void dp_mark_store_free(dp_mark_store *s, const dp_allocator *memory) {
+    dp_chain_store_free(&s->chains, memory);
+    dp_free(memory, s->marks);
+    dp_free(memory, s->points);
+    dp_free(memory, s->sides);
+    dp_free(memory, s->lights);
+    *s = (dp_mark_store){0};
+}
+
+bool dp_lies_outside(const dp_frame *f) {
+    return f->adjacency && f->styles[0].ink == DP_INK_QUADS;
+}
+
+bool dp_is_by_hand(const dp_frame *f) {
+    const dp_stroke_style *const s = &f->styles[0].stroke;
+    return dp_lies_outside(f) || s->texture || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 || s->depth > 0 ||
+           s->light > 0 || s->repeats > 1;
+}
+
+/* ------- noise ------- */
+
+static uint32_t hash(uint32_t a, uint32_t b) {
+    uint32_t h = a * 0x9e3779b1u ^ b * 0x85ebca77u;
+    h ^= h >> 15, h *= 0x2c1b3c6du, h ^= h >> 12, h *= 0x297a2d39u;
+    return h ^ h >> 15;
+}
+
+static float random_at(uint32_t i, uint32_t seed) { return (float)(hash(i, seed) >> 8) / 8388608.0f - 1; }
+
+/* Smooth, in [-1, 1], about one swing per unit. */
+static float noise(float t, uint32_t seed) {
+    const float f = floorf(t), a = t - f, w = a * a * (3 - 2 * a);
+    const uint32_t i = (uint32_t)(int32_t)f;
+    return random_at(i, seed) * (1 - w) + random_at(i + 1, seed) * w;
+}
+
+/* ------- one chain's points ------- */
+
+typedef struct hand {
+    dp_frame *frame;
+    dp_mark_store *store;
+    const dp_piece *pieces;
+    const dp_stroke_style *style;
+    bool outside;
+    float nearest, farthest; /* distances of all lines */
+    double nearest_depth;    /* d of the nearest */
+} hand;
+
+/* A part of a chain between two corners at which the pen is lifted; or the whole. */
+typedef struct run {
+    const dp_link *links; /* of the chain */
+    uint32_t total;       /* how many those are; the run may go round their end */
+    uint32_t first, count;
+    bool closed;
+} run;
+
+static const dp_link *link_at(const run *r, uint32_t i) { return &r->links[(r->first + i) % r->total]; }
+static dp_point link_start(const dp_frame *f, const dp_link *l) {
+    return l->reversed ? f->strokes[l->segment].b : f->strokes[l->segment].a;
+}
+static dp_point link_end(const dp_frame *f, const dp_link *l) {
+    return l->reversed ? f->strokes[l->segment].a : f->strokes[l->segment].b;
+}
+
+static bool add_point(hand *h, size_t *n, dp_point p, uint32_t segment) {
+    dp_mark_store *const s = h->store;
+    if (!dp_reserve(h->frame->memory, &s->points, &s->points_cap, *n + 1, sizeof *s->points)) return false;
+    s->points[(*n)++] = (hand_point){p.x, p.y, p.d, 0, segment};
+    return true;
+}
+
+static float cosine(float ax, float ay, float bx, float by) {
+    const float length = sqrtf((ax * ax + ay * ay) * (bx * bx + by * by));
+    return length > 0 ? (ax * bx + ay * by) / length : 1;
+}
+
+/* Points along the chain, each at least `spacing` from the last and no further than that within a segment: what zigzags
+ * within that distance does so no more. Where long segments meet always. */
+static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
+    const dp_frame *const f = h->frame;
+    dp_point last = {0, 0, 0};
+    *n = 0;
+    for (uint32_t i = 0; i < chain->count; i++) {
+        const dp_link *const link = link_at(chain, i);
+        const dp_point p = link_start(f, link), q = link_end(f, link);
+        const float dx = q.x - p.x, dy = q.y - p.y, step = hypotf(dx, dy), from_last = hypotf(p.x - last.x, p.y - last.y);
+        if (i == 0 || from_last >= (step > 2 * spacing ? spacing / 4 : spacing)) {
+            if (!add_point(h, n, p, link->segment)) return false;
+            last = p;
+        }
+        const float parts = floorf(step / spacing);
+        for (float k = 1; k < parts; k++) {
+            const float t = k / parts;
+            last = (dp_point){p.x + dx * t, p.y + dy * t, p.d + (q.d - p.d) * t};
+            if (!add_point(h, n, last, link->segment)) return false;
+        }
+    }
+    const dp_link *const end = link_at(chain, chain->count - 1);
+    const dp_point q = link_end(f, end);
+    /* the end itself: moves what is too close to it onto it */
+    if (*n > 1 && hypotf(q.x - last.x, q.y - last.y) < spacing / 2) --*n;
+    return add_point(h, n, q, end->segment);
+}
+
+/* Arc lengths of the points as they lie now. */
+static float measure(hand_point *p, size_t n) {
+    float arc = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (i) arc += hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
+        p[i].arc = arc;
+    }
+    return arc;
+}
+
+static void smooth(hand_point *p, size_t n) {
+    for (int pass = 0; pass < SMOOTHINGS; pass++) {
+        float x = p[0].x, y = p[0].y;
+        for (size_t i = 1; i + 1 < n; i++) {
+            const float cx = p[i].x, cy = p[i].y, nx = p[i + 1].x, ny = p[i + 1].y;
+            if (cosine(cx - x, cy - y, nx - cx, ny - cy) >= CORNER)
+                p[i].x = (x + 2 * cx + nx) / 4, p[i].y = (y + 2 * cy + ny) / 4;
+            x = cx, y = cy;
+        }
+    }
+}
+
+/* Off the line, square to it: a slow sway and a small tremble. Ends of closed chains stay together. */
+static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) {
+    if (!(by > 0)) return;
+    float x = p[0].x, y = p[0].y;
+    const float length = p[n - 1].arc;
+    for (size_t i = 0; i < n; i++) {
+        const hand_point *const next = &p[i + 1 < n ? i + 1 : i];
+        const float dx = next->x - x, dy = next->y - y, step = hypotf(dx, dy);
+        const float hold = closed ? dp_minf(1, dp_minf(p[i].arc, length - p[i].arc) / 20) : 1;
+        const float off = by * hold * (0.8f * noise(p[i].arc / 45, seed) + 0.3f * noise(p[i].arc / 11, seed + 1));
+        x = p[i].x, y = p[i].y;
+        if (step > 0) p[i].x -= dy / step * off, p[i].y += dx / step * off;
+    }
+}
+
+/* Runs the ends on along their directions. */
+static void overshoot(hand_point *p, size_t n, float by) {
+    const float most = p[n - 1].arc / 4, reach = by < most ? by : most;
+    const float ax = p[0].x - p[1].x, ay = p[0].y - p[1].y, a = hypotf(ax, ay);
+    const float bx = p[n - 1].x - p[n - 2].x, by_ = p[n - 1].y - p[n - 2].y, b = hypotf(bx, by_);
+    if (a > 0) p[0].x += ax / a * reach, p[0].y += ay / a * reach;
+    if (b > 0) p[n - 1].x += bx / b * reach, p[n - 1].y += by_ / b * reach;
+}
+
+/* ------- width ------- */
+
+/* Light from the eye's upper left, on the mean of the line's polygons. */
+static float light_of(const dp_frame *f, const dp_piece *piece) {
+    const dp_view *const v = &f->view;
+    const dp_vec3 right = dp_unit(dp_v3(v->clip[0][0], v->clip[0][1], v->clip[0][2]));
+    const dp_vec3 up = dp_unit(dp_v3(v->clip[1][0], v->clip[1][1], v->clip[1][2]));
+    const dp_vec3 side = dp_sub(right, dp_scale(v->forward, dp_dot(right, v->forward)));
+    const dp_vec3 to_light = dp_unit(dp_add(dp_add(dp_scale(dp_unit(side), -0.6), dp_scale(up, 0.7)), dp_scale(v->forward, -0.4)));
+    dp_vec3 n = dp_polygon_normal(f, piece->a);
+    if (piece->b != UINT32_MAX) n = dp_add(n, dp_polygon_normal(f, piece->b));
+    return (float)dp_max(0, dp_dot(dp_unit(n), to_light));
+}
+
+static void find_distances(hand *h) {
+    h->nearest = INFINITY, h->farthest = -INFINITY, h->nearest_depth = (double)DP_DEPTH_EMPTY;
+    for (size_t i = 0; i < h->frame->segment_count; i++) {
+        const float a = h->frame->segments[i].a[2], b = h->frame->segments[i].b[2];
+        h->nearest = dp_minf(h->nearest, dp_minf(a, b)), h->farthest = dp_maxf(h->farthest, dp_maxf(a, b));
+        h->nearest_depth = dp_max(h->nearest_depth, (double)dp_maxf(h->frame->strokes[i].a.d, h->frame->strokes[i].b.d));
+    }
+}
+
+static float ramp(float t) {
+    const float c = dp_minf(dp_maxf(t, 0), 1);
+    return c * c * (3 - 2 * c);
+}
+
+/* Share of the line's width at a point. */
+static float width_at(const hand *h, const hand_point *p, float length, bool closed) {
+    const dp_stroke_style *const s = h->style;
+    float share = 1;
+    if (s->taper > 0 && !closed && length > 0) {
+        const float reach = dp_minf(s->taper, length / 2), from_end = dp_minf(p->arc, length - p->arc);
+        share *= THINNEST + (1 - THINNEST) * ramp(from_end / reach);
+    }
+    if (s->depth > 0 && h->farthest > h->nearest) {
+        const float distance = (float)dp_distance(&h->frame->view, (double)p->d);
+        share *= 1 - s->depth * dp_minf(dp_maxf((distance - h->nearest) / (h->farthest - h->nearest), 0), 1);
+    }
+    if (s->light > 0) share *= 1 - s->light * h->store->lights[p->segment];
+    return dp_maxf(share, 0.05f);
+}
+
+/* ------- marks ------- */
+
+/* How many repeats of the texture one px is long. */
+static float repeats_per_px(const hand *h, float width, float length, bool closed) {
+    if (!h->style->texture) return 0;
+    const float period = dp_texture_period(h->style->texture, width) * h->style->scale;
+    if (!closed || length < period / 2) return 1 / period;
+    return floorf(length / period + 0.5f) / length;
+}
+
+static void set_directions(dp_mark *m, const hand_point *before, bool outside, float side) {
+    const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y, e = hypotf(ex, ey);
+    if (outside && e > 0) m->outward[0] = -ey / e * side, m->outward[1] = ex / e * side;
+    if (!before) return;
+    const float bx = m->stroke.a.x - before->x, by = m->stroke.a.y - before->y, b = hypotf(bx, by);
+    if (b > 0) m->before[0] = bx / b, m->before[1] = by / b;
+}
+
+/* Extruded ink is hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
+static float outside_width(float full, float length) { return dp_minf(full, 1.5f + SWELL * length); }
+
+static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_t id, uint32_t seed) {
+    dp_mark_store *const s = h->store;
+    const hand_point *const p = s->points;
+    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + n, sizeof *s->marks)) return false;
+    const dp_link *const head = link_at(chain, 0);
+    const dp_stroke *const first = &h->frame->strokes[head->segment];
+    const float full = h->outside ? outside_width(2 * first->half_width, length) : first->half_width;
+    const float per_px = repeats_per_px(h, 2 * first->half_width, length, chain->closed);
+    const float start = h->style->jitter > 0 && !chain->closed ? 0.5f + 0.5f * random_at(7, seed) : 0;
+    const float side = h->outside ? (float)(s->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
+    for (size_t i = 0; i + 1 < n; i++) {
+        const bool closed = chain->closed;
+        dp_mark *const m = &s->marks[s->count++];
+        *m = (dp_mark){.stroke = h->frame->strokes[p[i].segment], .chain = id, .ends = i + 2 == n && !chain->closed};
+        m->stroke.a = (dp_point){p[i].x, p[i].y, p[i].d}, m->stroke.b = (dp_point){p[i + 1].x, p[i + 1].y, p[i + 1].d};
+        m->half[0] = full * width_at(h, &p[i], length, closed);
+        m->half[1] = full * width_at(h, &p[i + 1], length, closed);
+        m->stroke.half_width = dp_maxf(m->half[0], m->half[1]);
+        m->arc[0] = start + p[i].arc * per_px, m->arc[1] = start + p[i + 1].arc * per_px;
+        set_directions(m, i ? &p[i - 1] : chain->closed ? &p[n - 2] : NULL, h->outside, side);
+    }
+    return true;
+}
+
+static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
+    const dp_stroke_style *const s = h->style;
+    const dp_link *const head = link_at(chain, 0);
+    const dp_piece *const piece = &h->pieces[head->segment];
+    const uint32_t seed = hash(hash(s->seed * 8 + repeat, piece->a), piece->edge * 4 + piece->line);
+    const float spacing = dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 2 : 5);
+    size_t n;
+    if (!take_points(h, chain, spacing, &n)) return false;
+    hand_point *const p = h->store->points;
+    float length = measure(p, n);
+    if (!h->outside) {
+        smooth(p, n);
+        measure(p, n);
+        sway(p, n, s->jitter + (repeat ? 0.8f : 0), seed, chain->closed);
+        if (s->overshoot > 0 && !chain->closed) overshoot(p, n, s->overshoot * (repeat ? 1 + 0.5f * random_at(3, seed) : 1));
+        length = measure(p, n);
+    }
+    if (!(length > 0)) return true;
+    return add_marks(h, chain, n, length, (*id)++, seed);
+}
+
+/* Does the pen stop before link i? Where two segments that are long on the screen make a corner. What is short may
+ * zigzag as it likes. */
+static bool is_cut(const hand *h, const run *r, uint32_t i) {
+    const dp_link *const l = link_at(r, i + r->total - 1), *const m = link_at(r, i);
+    const dp_point a = link_start(h->frame, l), b = link_end(h->frame, l), c = link_start(h->frame, m), d = link_end(h->frame, m);
+    const float least = 4 + 2 * h->frame->strokes[m->segment].half_width;
+    if (hypotf(b.x - a.x, b.y - a.y) < least || hypotf(d.x - c.x, d.y - c.y) < least) return false;
+    return cosine(b.x - a.x, b.y - a.y, d.x - c.x, d.y - c.y) < BREAK;
+}
+
+/* A chain's runs, each as often as the style says. */
+static bool draw_chain(hand *h, const dp_chain *chain, uint32_t *id) {
+    run r = {.links = h->store->chains.links + chain->first, .total = chain->count, .count = chain->count, .closed = chain->closed};
+    const uint32_t repeats = h->outside ? 1 : h->style->repeats;
+    for (uint32_t i = 0; !h->outside && r.closed && i < r.total; i++)
+        if (is_cut(h, &r, i)) r.first = i, r.closed = false;
+    run rest = r;
+    for (uint32_t i = 1; i <= r.total; i++) {
+        if (i < r.total && (h->outside || !is_cut(h, &r, i))) continue;
+        rest.count = i - ((rest.first + r.total - r.first) % r.total);
+        for (uint32_t k = 0; k < repeats; k++)
+            if (!draw_run(h, &rest, k, id)) return false;
+        rest.first = (r.first + i) % r.total;
+    }
+    return true;
+}
+
+/* Which side is outside, for chains to keep to; and how lit lines are. */
+static bool look_at_segments(hand *h) {
+    dp_frame *const f = h->frame;
+    dp_mark_store *const s = h->store;
+    if (!dp_reserve(f->memory, &s->sides, &s->sides_cap, f->segment_count, sizeof *s->sides) ||
+        !dp_reserve(f->memory, &s->lights, &s->lights_cap, f->segment_count, sizeof *s->lights))
+        return false;
+    for (size_t i = 0; i < f->segment_count; i++) {
+        const dp_stroke *const k = &f->strokes[i];
+        double out[2] = {0, 0};
+        if (h->outside)
+            dp_find_outside(f, h->pieces[i].a, (dp_pointd){k->a.x, k->a.y, 0}, (dp_pointd){k->b.x, k->b.y, 0}, out);
+        s->sides[i] = (k->b.x - k->a.x) * out[1] - (k->b.y - k->a.y) * out[0] < 0 ? -1 : 1;
+        if (h->style->light > 0) s->lights[i] = light_of(f, &h->pieces[i]);
+    }
+    return true;
+}
+
+bool dp_make_marks(dp_frame *frame, const dp_piece *pieces, dp_mark_store *store) {
+    hand h = {.frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke,
+              .outside = dp_lies_outside(frame)};
+    store->count = 0;
+    if (!look_at_segments(&h)) return false;
+    find_distances(&h);
+    const dp_chain_rule rule = {.sharpest = h.outside ? -2 : TURN, .side = h.outside ? store->sides : NULL, .gap = GAP,
+                                .step = (float)dp_depth_step(&frame->view, h.nearest_depth, 30)};
+    if (!dp_make_chains(frame->strokes, (uint32_t)frame->segment_count, &rule, frame->memory, &store->chains)) return false;
+    uint32_t id = 0;
+    for (uint32_t c = 0; c < store->chains.chain_count; c++)
+        if (!draw_chain(&h, &store->chains.chains[c], &id)) return false;
+    frame->marks = store->marks;
+    frame->mark_count = store->count;
+    return store->count < UINT32_MAX;
+}

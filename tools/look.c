@@ -1,0 +1,155 @@
+/* From settings to shading and edge map: words to values, textures from PNG files, names to groups. */
+#include "look.h"
+#include "report.h"
+
+#include <drypoint/io.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int read_texture(const char *name, const char *path, dp_io_pixels *pixels) {
+    dp_diag diag;
+    if (!dp_io_read_png(path, pixels, &diag)) return 0;
+    wrong_usage("--%s %s: %s; give a PNG file", name, path, diag.message);
+    return EXIT_FAILED;
+}
+
+/* The middle row. */
+static int read_shades(const tool_settings *s, look_data *data, dp_shade *shade) {
+    dp_io_pixels p;
+    if (!s->shade_texture) return 0;
+    const int wrong = read_texture("shade-texture", s->shade_texture, &p);
+    if (wrong) return wrong;
+    data->shades = malloc((size_t)4 * p.width);
+    if (data->shades) memcpy(data->shades, p.rgba + (size_t)4 * p.width * (p.height / 2), (size_t)4 * p.width);
+    shade->shades = (dp_image){data->shades, p.width, 1};
+    dp_io_free_pixels(&p);
+    return data->shades ? 0 : EXIT_FAILED;
+}
+
+/* Luminance; what is transparent is white, the paper. In the file dark is ink: priorities run the other way. */
+static int read_strokes(const tool_settings *s, look_data *data, dp_shade *shade) {
+    dp_io_pixels p;
+    if (!s->strokes) return 0;
+    const int wrong = read_texture("strokes", s->strokes, &p);
+    if (wrong) return wrong;
+    const size_t n = (size_t)p.width * p.height;
+    data->strokes = malloc(n);
+    for (size_t i = 0; data->strokes && i < n; i++) {
+        const uint8_t *const c = p.rgba + 4 * i;
+        const unsigned gray = (54u * c[0] + 183u * c[1] + 19u * c[2]) >> 8;
+        data->strokes[i] = (uint8_t)((255 - gray) * c[3] / 255);
+    }
+    shade->strokes = (dp_image){data->strokes, p.width, p.height};
+    dp_io_free_pixels(&p);
+    return data->strokes ? 0 : EXIT_FAILED;
+}
+
+static void from_angles(const double angles[2], float light[3]) {
+    const double degree = 0.017453292519943295, az = angles[0] * degree, el = angles[1] * degree;
+    light[0] = (float)(sin(az) * cos(el));
+    light[1] = (float)sin(el);
+    light[2] = (float)(cos(az) * cos(el));
+}
+
+/* ---- --enhance NAME,… ---- */
+
+enum { GROUPS = 65536 };
+
+/* Is the group called so? Parts of "object/group/material" count as names, too. */
+static bool is_called(const char *group, const char *name, size_t length) {
+    if (strlen(group) == length && !strncmp(group, name, length)) return true;
+    for (const char *part = group;;) {
+        const size_t n = strcspn(part, "/");
+        if (n == length && !strncmp(part, name, n)) return true;
+        if (!part[n]) return false;
+        part += n + 1;
+    }
+}
+
+static bool mark_groups(dp_source *source, const char *name, size_t length, uint8_t *enhanced) {
+    bool found = false;
+    for (uint32_t g = 0; g < GROUPS; g++) {
+        const char *const group = dp_source_group_name(source, g);
+        if (!group || !is_called(group, name, length)) continue;
+        enhanced[g] = 1;
+        found = true;
+    }
+    return found;
+}
+
+static void known_names(dp_source *source, char *text, size_t size) {
+    size_t length = 0;
+    *text = 0;
+    for (uint32_t g = 0; g < GROUPS && length + 64 < size; g++) {
+        const char *const name = dp_source_group_name(source, g);
+        if (name) length += (size_t)snprintf(text + length, size - length, "%s%.48s", length ? ", " : "", name);
+    }
+}
+
+static int read_enhanced(const tool_settings *s, dp_source *source, look_data *data, dp_edge_map *map) {
+    if (!s->enhance) return 0;
+    data->enhanced = calloc(GROUPS, 1);
+    if (!data->enhanced) return EXIT_FAILED;
+    for (const char *at = s->enhance;;) {
+        const size_t length = strcspn(at, ",");
+        if (!mark_groups(source, at, length, data->enhanced)) {
+            char names[400];
+            known_names(source, names, sizeof names);
+            wrong_usage("--enhance: the model has no object called \"%.*s\"; it has %s", (int)length, at,
+                        *names ? names : "no names");
+            return EXIT_FAILED;
+        }
+        if (!at[length]) break;
+        at += length + 1;
+    }
+    map->enhanced = data->enhanced;
+    map->enhanced_count = GROUPS;
+    return 0;
+}
+
+/* ---- all ---- */
+
+static void make_edge_map(const tool_settings *s, dp_edge_map *map) {
+    static const dp_edge_detector detectors[] = {DP_EDGE_MAP_DIAGONAL, DP_EDGE_MAP_DIAGONAL, DP_EDGE_MAP_C1};
+    const bool on = s->edges ? s->edges == EDGES_MAP || s->edges == EDGES_BOTH : s->edge_map > 0;
+    map->detector = on || s->wants_edge_map ? detectors[s->edge_map] : DP_EDGE_MAP_OFF;
+    map->as_printed = s->edge_measure == 2;
+    map->eight_bits = s->precision == 2;
+    map->radius = s->edge_radius;
+    map->inner_angle = (float)s->inner_angle;
+    map->inner_softness = (float)s->inner_softness;
+    map->profile_depth = (float)s->profile_depth;
+    map->profile_softness = (float)s->profile_softness;
+    map->no_groups = s->group_edges == SWITCH_OFF;
+    map->far_side = s->edge_sides == 2 || map->as_printed;
+    map->inner = s->inner_color, map->profile = s->profile_color;
+    map->hidden = !on;
+}
+
+int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_style *style) {
+    dp_shade *const shade = &style->shade;
+    if (s->shading) shade->shading = (dp_shading)(s->shading == 1 ? DP_SHADING_PAPER : s->shading == 2 ? DP_SHADING_FLAT : (dp_shading)(s->shading - 1));
+    if (s->has_light) from_angles(s->light, shade->light);
+    if (s->normals) shade->normals = (dp_normals)(s->normals - 1);
+    shade->crease_angle = (float)s->crease_angle;
+    shade->highlight = (float)s->highlight;
+    shade->gooch_plain = s->gooch_plain;
+    shade->nearest = s->cartoon_map == SWITCH_OFF;
+    shade->object_space = s->hatch_space == 2;
+    shade->stroke_scale = (float)s->hatch_scale;
+    shade->ink = s->hatch_color;
+    make_edge_map(s, &style->edge_map);
+    if (s->edges == EDGES_MAP || s->edges == EDGES_NONE) style->lines = DP_NO_LINES;
+    int code = read_shades(s, data, shade);
+    if (!code) code = read_strokes(s, data, shade);
+    if (!code) code = read_enhanced(s, source, data, &style->edge_map);
+    return code;
+}
+
+void look_free(look_data *data) {
+    free(data->shades);
+    free(data->strokes);
+    free(data->enhanced);
+}
