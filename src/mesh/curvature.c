@@ -255,44 +255,84 @@ static void make_tensor(const bending *b, uint32_t v, double size, tensor q) {
     add_cross(q, f, dp_cross(n, f), STEADY);
 }
 
-/* Room for spreading. */
+/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns. */
 typedef struct spreading {
     bending *b;
-    tensor *q, *sum;
-    float *count;
+    uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as often as they share triangles */
+    tensor *from, *to;
 } spreading;
 
-static void spread_triangle(const spreading *s, const triangle *t) {
-    for (int k = 0; k < 3; k++) {
-        const uint32_t v = t->v[k], w = t->v[(k + 1) % 3];
-        for (int i = 0; i < 6; i++) s->sum[v][i] += s->q[w][i], s->sum[w][i] += s->q[v][i];
-        s->count[v] += 1, s->count[w] += 1;
+static uint64_t triangle_count(const dp_polygons *p) {
+    const uint64_t corners = p->firsts ? p->firsts[p->count] - p->firsts[0] : 3 * (uint64_t)p->count;
+    return corners > 2 * (uint64_t)p->count ? corners - 2 * (uint64_t)p->count : 0;
+}
+
+/* Counts, then places: a counting sort by vertex. */
+static void find_neighbours(const spreading *s) {
+    const dp_polygons *const p = s->b->polygons;
+    triangle t;
+    memset(s->start, 0, ((size_t)p->vertex_count + 2) * sizeof *s->start);
+    uint32_t *const at = s->start + 1; /* one further, so that placing leaves starts behind */
+    for (int placing = 0; placing < 2; placing++) {
+        for (uint32_t i = 0; i < p->count; i++) {
+            const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
+            for (uint32_t k = 2; k < n; k++) {
+                if (!fetch(s->b, first, k, &t)) continue;
+                for (int c = 0; c < 3; c++) {
+                    if (placing) s->beside[at[t.v[c]]++] = t.v[(c + 1) % 3], s->beside[at[t.v[c]]++] = t.v[(c + 2) % 3];
+                    else at[t.v[c]] += 2;
+                }
+            }
+        }
+        uint32_t sum = 0;
+        for (uint32_t v = 0; !placing && v < p->vertex_count; v++) {
+            const uint32_t count = at[v];
+            at[v] = sum, sum += count;
+        }
     }
 }
 
-static void spread_once(const spreading *s) {
-    const dp_polygons *const p = s->b->polygons;
-    triangle t;
-    memset(s->sum, 0, p->vertex_count * sizeof *s->sum);
-    memset(s->count, 0, p->vertex_count * sizeof *s->count);
-    for (uint32_t i = 0; i < p->count; i++) {
-        const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
-        for (uint32_t k = 2; k < n; k++)
-            if (fetch(s->b, first, k, &t)) spread_triangle(s, &t);
-    }
-    for (uint32_t v = 0; v < p->vertex_count; v++) {
-        if (!(s->count[v] > 0)) continue;
-        dp_vec3 x, y;
-        double c, d;
-        frame_of(normal_at(s->b, v), &x, &y);
-        tensor mean;
-        for (int i = 0; i < 6; i++) mean[i] = 0.5f * (s->q[v][i] + s->sum[v][i] / s->count[v]);
-        in_plane(mean, x, y, &c, &d); /* back into the tangent plane */
-        memset(s->q[v], 0, sizeof(tensor));
-        const double angle = 0.5 * atan2(d, c);
-        const dp_vec3 along = dp_add(dp_scale(x, cos(angle)), dp_scale(y, sin(angle)));
-        add_cross(s->q[v], along, dp_cross(normal_at(s->b, v), along), hypot(c, d));
-    }
+/* c (u u' - v v') + s (u v' + v u') */
+static void put_in_plane(tensor q, dp_vec3 u, dp_vec3 v, double c, double s) {
+    q[0] = (float)(c * (u.x * u.x - v.x * v.x) + 2 * s * u.x * v.x);
+    q[1] = (float)(c * (u.x * u.y - v.x * v.y) + s * (u.x * v.y + v.x * u.y));
+    q[2] = (float)(c * (u.x * u.z - v.x * v.z) + s * (u.x * v.z + v.x * u.z));
+    q[3] = (float)(c * (u.y * u.y - v.y * v.y) + 2 * s * u.y * v.y);
+    q[4] = (float)(c * (u.y * u.z - v.y * v.z) + s * (u.y * v.z + v.y * u.z));
+    q[5] = (float)(c * (u.z * u.z - v.z * v.z) + 2 * s * u.z * v.z);
+}
+
+/* The mean of a vertex's own tensor and its neighbours', back in its tangent plane. */
+static void spread_vertex(const spreading *s, uint32_t v) {
+    const uint32_t first = s->start[v], last = s->start[v + 1];
+    memcpy(s->to[v], s->from[v], sizeof(tensor));
+    if (first == last) return;
+    float sum[6] = {0, 0, 0, 0, 0, 0};
+    for (uint32_t n = first; n < last; n++)
+        for (int i = 0; i < 6; i++) sum[i] += s->from[s->beside[n]][i];
+    const float share = 0.5f / (float)(last - first);
+    tensor mean;
+    for (int i = 0; i < 6; i++) mean[i] = 0.5f * s->from[v][i] + share * sum[i];
+    dp_vec3 x, y;
+    double c, d;
+    frame_of(normal_at(s->b, v), &x, &y);
+    in_plane(mean, x, y, &c, &d);
+    put_in_plane(s->to[v], x, y, c, d);
+}
+
+enum { BLOCK = DP_TUNED(16384, 7) };
+
+static void spread_block(void *arg, uint32_t index, uint32_t worker) {
+    const spreading *const s = arg;
+    const uint32_t count = s->b->polygons->vertex_count, first = index * BLOCK;
+    (void)worker;
+    for (uint32_t v = first; v < count && v < first + BLOCK; v++) spread_vertex(s, v);
+}
+
+static void spread_once(spreading *s, dp_threads *threads) {
+    dp_parallel(threads, s->b->polygons->vertex_count / BLOCK + 1, spread_block, s);
+    tensor *const swap = s->from;
+    s->from = s->to, s->to = swap;
 }
 
 static void put_directions(const spreading *s, const uint32_t *first, float (*out)[3]) {
@@ -301,7 +341,7 @@ static void put_directions(const spreading *s, const uint32_t *first, float (*ou
         dp_vec3 x, y;
         double c, d;
         frame_of(normal_at(s->b, w), &x, &y);
-        in_plane(s->q[w], x, y, &c, &d);
+        in_plane(s->from[w], x, y, &c, &d);
         const double angle = 0.5 * atan2(d, c);
         const dp_vec3 along = dp_add(dp_scale(x, cos(angle)), dp_scale(y, sin(angle)));
         out[v][0] = (float)along.x, out[v][1] = (float)along.y, out[v][2] = (float)along.z;
@@ -326,25 +366,29 @@ static double size_of(const dp_polygons *p) {
     return isfinite(size) ? size : 1;
 }
 
-static bool make(const dp_polygons *p, const dp_allocator *memory, float (*out)[3]) {
+static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, float (*out)[3]) {
     bending b = {.polygons = p};
     uint32_t *first;
-    const size_t n = (size_t)p->vertex_count + 1;
-    spreading s = {&b, dp_alloc_array(memory, n, sizeof *s.q), dp_alloc_array(memory, n, sizeof *s.sum),
-                   dp_alloc_array(memory, n, sizeof *s.count)};
-    const bool enough = begin(&b, memory, &first) && s.q && s.sum && s.count;
+    const size_t n = (size_t)p->vertex_count + 2;
+    if (6 * triangle_count(p) > UINT32_MAX) return false; /* 700 million triangles: as good as no memory */
+    spreading s = {.b = &b, .start = dp_alloc_array(memory, n, sizeof *s.start),
+                   .beside = dp_alloc_array(memory, 6 * triangle_count(p) + 1, sizeof *s.beside),
+                   .from = dp_alloc_array(memory, n, sizeof *s.from), .to = dp_alloc_array(memory, n, sizeof *s.to)};
+    const bool enough = begin(&b, memory, &first) && s.start && s.beside && s.from && s.to;
     if (enough) {
         const double size = size_of(p);
-        find_forms(&b);
-        for (uint32_t v = 0; v < p->vertex_count; v++) make_tensor(&b, v, size, s.q[v]);
         const int spreads = spreads_for(p->vertex_count);
-        for (int i = 0; i < spreads; i++) spread_once(&s);
+        find_forms(&b);
+        find_neighbours(&s);
+        for (uint32_t v = 0; v < p->vertex_count; v++) make_tensor(&b, v, size, s.from[v]);
+        for (int i = 0; i < spreads; i++) spread_once(&s, threads);
         put_directions(&s, first, out);
     }
     end(&b, memory, first);
-    dp_free(memory, s.q);
-    dp_free(memory, s.sum);
-    dp_free(memory, s.count);
+    dp_free(memory, s.start);
+    dp_free(memory, s.beside);
+    dp_free(memory, s.from);
+    dp_free(memory, s.to);
     return enough;
 }
 
@@ -354,8 +398,6 @@ void dp_bend_store_free(dp_bend_store *store, const dp_allocator *memory) {
 }
 
 /* ------- made once ------- */
-
-enum { BLOCK = DP_TUNED(16384, 7) };
 
 typedef struct keying {
     const dp_polygons *polygons;
@@ -412,7 +454,7 @@ bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads
     if (store->key == key) return true;
     store->key = 0;
     if (!dp_reserve(memory, &store->along, &store->along_cap, (size_t)polygons->vertex_count + 1, sizeof *store->along) ||
-        !make(polygons, memory, store->along))
+        !make(polygons, threads, memory, store->along))
         return false;
     store->key = key;
     store->ms = now_ms() - start;
