@@ -28,7 +28,8 @@ static int read_shades(const tool_settings *s, look_data *data, dp_shade *shade)
     return data->shades ? 0 : EXIT_FAILED;
 }
 
-/* Luminance; what is transparent is white, the paper. In the file dark is ink: priorities run the other way. */
+/* Luminance; what is transparent is white, the paper. In the file dark is ink: priorities run the other way, a
+ * pencil's brightness does not. */
 static int read_strokes(const tool_settings *s, look_data *data, dp_shade *shade) {
     dp_io_pixels p;
     if (!s->strokes) return 0;
@@ -39,7 +40,8 @@ static int read_strokes(const tool_settings *s, look_data *data, dp_shade *shade
     for (size_t i = 0; data->strokes && i < n; i++) {
         const uint8_t *const c = p.rgba + 4 * i;
         const unsigned gray = (54u * c[0] + 183u * c[1] + 19u * c[2]) >> 8;
-        data->strokes[i] = (uint8_t)((255 - gray) * c[3] / 255);
+        const unsigned ink = (255 - gray) * c[3] / 255;
+        data->strokes[i] = (uint8_t)(shade->shading == DP_SHADING_PENCIL ? 255 - ink : ink);
     }
     shade->strokes = (dp_image){data->strokes, p.width, p.height};
     dp_io_free_pixels(&p);
@@ -140,6 +142,10 @@ int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_sty
     shade->object_space = s->hatch_space == 2;
     shade->stroke_scale = (float)s->hatch_scale;
     shade->ink = s->hatch_color;
+    if (s->has_pencil_s) shade->pencil_s = s->pencil_s > 0 ? (float)s->pencil_s : -1;
+    if (s->has_pencil_o) shade->pencil_o = s->pencil_o > 0 ? (float)s->pencil_o : -1;
+    shade->pencil_tones = s->pencil_tones;
+    shade->pencil_printed = s->pencil_turns == 2;
     make_edge_map(s, &style->edge_map);
     if (s->edges == EDGES_MAP || s->edges == EDGES_NONE) style->lines = DP_NO_LINES;
     int code = read_shades(s, data, shade);

@@ -23,7 +23,7 @@ const option option_table[] = {
      "stays until the new one is whole. - is standard output (a PNG, or a PLY). NAME=FILE.png, once for each "
      "NAME, writes what shading and edges are made from beside the drawing: edge-map (inner edges in RGB, "
      "profile edges in A), normals, depth, id."},
-    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|patent",
+    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
      "A look: options that go together; those on the command line change it."},
     {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,
@@ -96,9 +96,9 @@ const option option_table[] = {
     {"seed", 0, "N", OPTION_COUNT, GROUP_STROKES, PICTURE, AT(seed), 0, 0, 4294967295.0,
      "Another number makes other errors of the hand, and another texture of the same kind. Default: 0."},
 
-    {"style", 0, "paper|flat|lambert|gooch|toon|hatch|halftone",
+    {"style", 0, "paper|flat|lambert|gooch|toon|hatch|halftone|pencil",
      OPTION_WORD, GROUP_SURFACE, PICTURE, AT(shading), 0, 0, 0,
-     "How surfaces look: the paper's colour, one colour, in light, cool to warm, cartoon, strokes, dots. "
+     "How surfaces look: the paper's colour, one colour, in light, cool to warm, cartoon, strokes, dots, pencil. "
      "Default: flat."},
     {"light", 0, "AZ,EL", OPTION_ANGLES, GROUP_SURFACE, PICTURE, AT(light), AT(has_light), -1e6, 1e6,
      "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
@@ -117,7 +117,17 @@ const option option_table[] = {
     {"cartoon-map", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(cartoon_map), 0, 0, 0,
      "With --style toon: smooth the jaggies between shades. Default: on."},
     {"strokes", 0, "FILE", OPTION_TEXT, GROUP_SURFACE, PICTURE, AT(strokes), 0, 0, 0,
-     "With --style hatch or halftone: a PNG of strokes, repeated; darker ones are drawn first."},
+     "With --style hatch or halftone: a PNG of strokes, repeated; darker ones are drawn first. With --style pencil: "
+     "a PNG of pencil strokes from left to right."},
+    {"pencil-s", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(pencil_s), AT(has_pencil_s), 0, 100,
+     "With --style pencil: how much darker shadows are; tone = brightness ^ ((1 - N.L) S + O). Default: 2.6."},
+    {"pencil-o", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(pencil_o), AT(has_pencil_o), 0, 100,
+     "With --style pencil: how dark all is. Default: 0.12."},
+    {"pencil-tones", 0, "N", OPTION_COUNT, GROUP_SURFACE, PICTURE, AT(pencil_tones), 0, 2, 8,
+     "With --style pencil: that many textures from bare to dark, instead of S and O (Lee et al. 2006)."},
+    {"pencil-turns", 0, "steps|printed", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(pencil_turns), 0, 0, 0,
+     "With --style pencil: let neighbours share directions, or turn strokes by each exact angle, as printed. "
+     "Default: steps."},
     {"hatch-space", 0, "screen|object", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(hatch_space), 0, 0, 0,
      "Strokes lie on the picture, or stick to the surface. Default: screen."},
     {"hatch-scale", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(hatch_scale), 0, 0.05, 50,

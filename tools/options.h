@@ -57,6 +57,10 @@ typedef struct tool_settings {
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
 
+    double pencil_s, pencil_o;
+    bool has_pencil_s, has_pencil_o;
+    uint32_t pencil_tones;
+    int pencil_turns; /* word */
     const char *stroke; /* a name, or a PNG file */
     int stroke_u;       /* word */
     double stroke_k, stroke_scale, taper, jitter, overshoot, width_by_depth, width_by_light;

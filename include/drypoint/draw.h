@@ -134,6 +134,7 @@ typedef struct dp_stats {
     uint64_t segments;
     uint64_t bytes;            /* scratch memory held by the context */
     uint64_t adjacency_bytes;  /* of it, adjacency (DP_EDGES_ADJACENCY) */
+    double curvature_ms;       /* making directions of least curvature took (DP_SHADING_PENCIL); 0 where they were kept */
     double adjacency_ms;       /* building that took, in the frame that built it; otherwise 0 */
     double stage_ms[DP_STAGE_COUNT];
     double frame_ms;

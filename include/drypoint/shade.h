@@ -24,6 +24,7 @@ typedef enum dp_shading {
     DP_SHADING_TOON,     /* N·L looks up a row of shades (Lake et al. 2000) */
     DP_SHADING_HATCH,    /* strokes by priority, smooth threshold (Freudenberg et al. 2002) */
     DP_SHADING_HALFTONE, /* the same with dots */
+    DP_SHADING_PENCIL,   /* strokes along the least curvature (Hermosilla and Vázquez 2010, 2.4) */
     DP_SHADING_COUNT
 } dp_shading;
 
@@ -68,6 +69,11 @@ typedef struct dp_shade {
                              model has them, along the three axes where not. Default: to the screen */
     float stroke_scale;   /* 0 means 1; 2: twice as large */
     dp_color ink;         /* of strokes and dots; 0 means black */
+
+    /* pencil: brightness ^ ((1 - max(N·L, 0)) S + O); `strokes` then is brightness, 255 the paper */
+    float pencil_s, pencil_o; /* 0 means 2.6 and 0.12; negative: 0 */
+    uint32_t pencil_tones;    /* 2 to 8: that many textures, from bare to dark, instead of the power (Lee et al. 2006) */
+    bool pencil_printed;      /* turn the texture by every exact angle, as printed: strokes break on fine meshes */
 } dp_shade;
 
 typedef enum dp_edge_detector {

@@ -209,6 +209,7 @@ static void fill_pixel(const fill *f, uint32_t x, uint32_t y, const picked *pick
     g->depth[pixel] = d;
     g->id[pixel] = (uint16_t)(1 + (polygons->groups ? (polygons->groups[p->id] < UINT16_MAX - 1 ? polygons->groups[p->id] : UINT16_MAX - 1) : 0));
     g->share[pixel] = pick->share;
+    if (g->polygon) g->polygon[pixel] = p->id;
     if (pick->share == 255) return;
     g->other[pixel] = pick->other <= DP_DEPTH_EMPTY ? DP_FAR : (float)dp_distance(&w->frame->view, pick->other);
     if (pick->share >= 128 || g->other[pixel] < DP_FAR) return;

@@ -27,6 +27,7 @@ typedef struct dp_gbuffer {
     float *other;          /* where `share` < 255: distance of what covers the rest, DP_FAR for the paper */
     float *u, *v;          /* texture coordinates, when asked for; NaN: none */
     uint16_t *id;          /* 1 + group */
+    uint32_t *polygon;     /* whose surface it is, where somebody asks: set by whoever keeps it, or NULL */
     uint8_t *share;        /* of the pixel's samples that are of this surface, 255 for all */
     uint64_t *mask;        /* [tile][DP_TILE]: pixels of a tile's row that hold a surface */
     uint8_t *clean;        /* [tile] */

@@ -13,6 +13,7 @@
 
 #include "base/hostile.h"
 #include "base/vec.h"
+#include "mesh/places.h"
 #include <drypoint/adjacency.h>
 
 #include "base/diag.h"
@@ -103,13 +104,6 @@ static bool twins_hold(const dp_adjacency *a, const dp_polygons *p) {
 
 /* ------- vertices by position ------- */
 
-static uint32_t place_hash(const float *p) {
-    const float q[3] = {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f}; /* -0 and 0 are one */
-    uint32_t bits[3];
-    memcpy(bits, q, sizeof bits);
-    return (uint32_t)(mix(bits[0] + mix(bits[1] + mix(bits[2]))) >> 20);
-}
-
 static bool add_twin(builder *b, const dp_allocator *memory, uint32_t vertex, uint32_t first) {
     dp_adjacency *const a = b->out;
     if (!dp_reserve(memory, &a->twins, &a->twins_cap, a->twin_count + 1, sizeof *a->twins)) return false;
@@ -117,26 +111,12 @@ static bool add_twin(builder *b, const dp_allocator *memory, uint32_t vertex, ui
     return true;
 }
 
-/* Open addressing, at most half full; slots hold 1 + vertex. */
 static bool weld(builder *b, const dp_allocator *memory) {
-    const uint32_t n = b->polygons->vertex_count;
-    size_t slots = 64;
-    while (slots < 2 * (size_t)n) slots *= 2;
-    uint32_t *const table = dp_alloc_zeroed(memory, slots * sizeof *table);
-    if (!table) return false;
-    bool enough = true;
     b->out->twin_count = 0;
-    for (uint32_t v = 0; v < n && enough; v++) {
-        const float *const p = dp_vertex_position(b->polygons, v);
-        size_t s = place_hash(p) & (slots - 1);
-        while (table[s] && !same_place(p, dp_vertex_position(b->polygons, table[s] - 1))) s = (s + 1) & (slots - 1);
-        if (!table[s]) table[s] = v + 1;
-        else enough = add_twin(b, memory, v, table[s] - 1);
-        b->stands_for[v] = table[s] - 1;
-        if (!(p[0] == p[0] && p[1] == p[1] && p[2] == p[2])) b->stands_for[v] = v; /* a NaN equals nothing */
-    }
-    dp_free(memory, table);
-    return enough;
+    if (!dp_find_places(b->polygons, b->stands_for, memory)) return false;
+    for (uint32_t v = 0; v < b->polygons->vertex_count; v++)
+        if (b->stands_for[v] != v && !add_twin(b, memory, v, b->stands_for[v])) return false;
+    return true;
 }
 
 /* ------- edges into buckets ------- */

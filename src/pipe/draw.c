@@ -308,6 +308,8 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     bool streams;
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
+    if (!dp_shade_vertices(&c->shade)) return out_of_memory(diag);
+    c->stats.curvature_ms = c->shade.bends.ms;
     if (dp_shade_needs_normals(f) &&
         !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, c->threads, &c->memory,
                          &f->polygons.normals))

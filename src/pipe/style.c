@@ -62,7 +62,7 @@ static dp_result resolve_stroke(dp_stroke_style *s, dp_diag *diag) {
 }
 
 const char *dp_shading_name(dp_shading shading) {
-    static const char *const names[DP_SHADING_COUNT] = {"flat", "paper", "lambert", "gooch", "toon", "hatch", "halftone"};
+    static const char *const names[DP_SHADING_COUNT] = {"flat", "paper", "lambert", "gooch", "toon", "hatch", "halftone", "pencil"};
     return (unsigned)shading < DP_SHADING_COUNT ? names[shading] : "unknown";
 }
 
@@ -91,6 +91,14 @@ static dp_result check_image(const dp_image *image, uint32_t most, const char *n
                    image->height, most);
 }
 
+static dp_result resolve_pencil(float *value, float other, const char *name, dp_diag *diag) {
+    if (*value == 0) *value = other;
+    else if (*value < 0 && *value >= -100) *value = -1e-9f; /* stays when resolved twice */
+    if (!(*value >= -1 && *value <= 100))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the pencil's %s is %g; it must be 0 to 100", name, (double)*value);
+    return DP_OK;
+}
+
 static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
     if ((unsigned)s->shading >= DP_SHADING_COUNT || (unsigned)s->normals > DP_NORMALS_FACET)
         return dp_fail(diag, DP_ERR_ARGUMENT, "shading or normals is not one of its values");
@@ -104,6 +112,10 @@ static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
     if (!result) result = resolve_number(&s->stroke_scale, 1, 0.05f, 50, "scale of strokes", diag);
     if (!result) result = check_image(&s->shades, 65536, "shade", diag);
     if (!result) result = check_image(&s->strokes, 16384, "stroke", diag);
+    if (!result) result = resolve_pencil(&s->pencil_s, 2.6f, "S", diag);
+    if (!result) result = resolve_pencil(&s->pencil_o, 0.12f, "O", diag);
+    if (!result && (s->pencil_tones == 1 || s->pencil_tones > 8))
+        result = dp_fail(diag, DP_ERR_ARGUMENT, "pencil with %u tones; give 2 to 8, or 0 for none", s->pencil_tones);
     s->ink = color_or(s->ink, DP_RGB(0, 0, 0));
     return result;
 }

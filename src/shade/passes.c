@@ -9,6 +9,9 @@
  * the spans of rows that hold a surface, so that background costs nothing. */
 #include "shade/passes.h"
 
+#include "shade/pencil.h"
+#include "texture/graphite.h"
+
 #include <string.h>
 
 enum { SHADE, CARTOON, STORE, EDGES, RESOLVE };
@@ -24,6 +27,11 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
     dp_free(memory, s->smooth);
     dp_free(memory, s->hatching);
     dp_free(memory, s->halftone);
+    dp_bend_store_free(&s->bends, memory);
+    dp_free(memory, s->turns);
+    dp_free(memory, s->polygon);
+    dp_free(memory, s->graphite);
+    dp_free(memory, s->tooth);
     *s = (dp_shade_store){0};
 }
 
@@ -65,6 +73,56 @@ static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
     return true;
 }
 
+static bool make_graphite(dp_shade_store *s, uint32_t tones, const dp_allocator *memory) {
+    const size_t one = (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE;
+    if (!s->tooth) {
+        s->tooth = dp_alloc(memory, one);
+        if (!s->tooth) return false;
+        dp_make_tooth(s->tooth);
+    }
+    if (s->graphite && s->graphite_tones == tones) return true;
+    dp_free(memory, s->graphite);
+    s->graphite = dp_alloc(memory, tones * one);
+    float *const scratch = dp_alloc_array(memory, one, sizeof *scratch);
+    if (s->graphite && scratch) dp_make_graphite(s->graphite, tones, scratch);
+    dp_free(memory, scratch);
+    s->graphite_tones = s->graphite && scratch ? tones : 0;
+    return s->graphite_tones;
+}
+
+/* The pencil's textures, and the plane that says which polygon a pixel shows. */
+static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
+    const dp_shade *const shade = &s->setup.shade;
+    dp_gbuffer *const g = &s->gbuffer;
+    g->polygon = NULL;
+    if (shade->shading != DP_SHADING_PENCIL) return true;
+    const uint32_t tones = shade->strokes.values || !shade->pencil_tones ? 1 : shade->pencil_tones;
+    if (!dp_reserve(frame->memory, &s->polygon, &s->polygon_cap, g->stride * g->height, sizeof *s->polygon) ||
+        !make_graphite(s, tones, frame->memory))
+        return false;
+    g->polygon = s->polygon;
+    s->setup.frame = frame;
+    s->setup.tooth = s->tooth;
+    s->setup.tone_count = tones;
+    for (uint32_t i = 0; i < tones; i++)
+        s->setup.tones[i] = (dp_strokes_texture){s->graphite + i * (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE,
+                                                 DP_GRAPHITE_SIZE, DP_GRAPHITE_SIZE};
+    if (shade->strokes.values)
+        s->setup.tones[0] = (dp_strokes_texture){shade->strokes.values, shade->strokes.width, shade->strokes.height};
+    return true;
+}
+
+bool dp_shade_vertices(dp_shade_store *s) {
+    const dp_frame *const frame = s->frame;
+    if (!s->active || s->setup.shade.shading != DP_SHADING_PENCIL) return true;
+    if (!dp_bends_make(&s->bends, &frame->polygons, frame->threads, frame->memory) ||
+        !dp_reserve(frame->memory, &s->turns, &s->turns_cap, (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
+        return false;
+    dp_pencil_vertices(frame, (const float(*)[3])s->bends.along, s->turns);
+    s->setup.turns = (const float(*)[2])s->turns;
+    return true;
+}
+
 static void set_up(dp_shade_store *s, const dp_frame *frame) {
     const dp_shade *const shade = &frame->styles[0].shade;
     const dp_color ink = shade->ink;
@@ -87,7 +145,7 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
     const bool strokes = shade->shading == DP_SHADING_HATCH || shade->shading == DP_SHADING_HALFTONE;
     const bool smooth = shade->shading == DP_SHADING_TOON && !shade->nearest;
     if (!dp_gbuffer_begin(&s->gbuffer, frame, strokes && shade->object_space) || !choose_strokes(s, frame->memory) ||
-        (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
+        !take_pencil(s, frame) || (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
         (s->colored && smooth && !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, 4 * pixels, 1)))
         return false;
     s->shown = smooth ? s->smooth : s->color;
@@ -136,7 +194,7 @@ static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
 static void shade_tile(dp_shade_store *s, uint32_t tile) {
     static dp_shade_operator *const operators[DP_SHADING_COUNT] = {
         [DP_SHADING_LAMBERT] = dp_shade_lambert, [DP_SHADING_GOOCH] = dp_shade_gooch, [DP_SHADING_TOON] = dp_shade_toon,
-        [DP_SHADING_HATCH] = dp_shade_hatch,     [DP_SHADING_HALFTONE] = dp_shade_hatch};
+        [DP_SHADING_HATCH] = dp_shade_hatch,     [DP_SHADING_HALFTONE] = dp_shade_hatch, [DP_SHADING_PENCIL] = dp_shade_pencil};
     const dp_gbuffer *const g = &s->gbuffer;
     const uint32_t first = tile / g->tiles_x * DP_TILE;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {

@@ -3,6 +3,7 @@
 #define DP_SHADE_SHADE_H
 
 #include "gbuffer/gbuffer.h"
+#include "mesh/curvature.h"
 
 /* One run of pixels of a row on its way through an operator; colours in [0, 1], planes of floats. */
 typedef struct dp_shade_run {
@@ -29,6 +30,12 @@ typedef struct dp_shading_setup {
     const uint8_t *shades;   /* toon: [shade_count][4] */
     uint32_t shade_count;
     float ink[3];
+
+    const dp_frame *frame;        /* pencil: whose polygons */
+    const float (*turns)[2];      /* by vertex: cosine and sine of the direction on the screen */
+    dp_strokes_texture tones[8];
+    uint32_t tone_count;
+    const int8_t *tooth;          /* of the paper: texture/graphite.h */
 } dp_shading_setup;
 
 typedef void dp_shade_operator(const dp_shading_setup *setup, dp_shade_run *run);
@@ -51,6 +58,14 @@ typedef struct dp_shade_store {
     uint8_t *shown;           /* the one of the two that is shown: smooth with a cartoon map */
     size_t color_cap, smooth_cap;
     uint8_t *hatching, *halftone;
+
+    dp_bend_store bends;      /* pencil: directions of least curvature */
+    float (*turns)[2];        /* the same on the screen */
+    uint32_t *polygon;        /* the G-buffer's plane */
+    uint8_t *graphite;        /* [graphite_tones] textures */
+    int8_t *tooth;
+    size_t turns_cap, polygon_cap;
+    uint32_t graphite_tones;
     bool active;              /* this frame has a G-buffer */
     bool colored;             /* … and colours */
     dp_shading_setup setup;
@@ -64,6 +79,9 @@ bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);
 
 /* Do this frame's normals have to be made? */
 bool dp_shade_needs_normals(const dp_frame *frame);
+
+/* Once polygons are gathered: the pencil's vertex stage. False when memory is out. */
+bool dp_shade_vertices(dp_shade_store *store);
 
 /* The passes over tiles, in order, once all tiles are filled; each is over before the next begins. */
 enum { DP_SHADE_PASSES = 5 };

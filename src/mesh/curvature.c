@@ -1,0 +1,462 @@
+/* Curvature: S. Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes", 3DPVT 2004.
+ *
+ * On each triangle the second fundamental form is what explains best, by least squares, how the corners' normals differ
+ * along its three edges. A vertex's form is the mean of those of its triangles, each turned into the vertex's tangent
+ * plane and weighed by the part of its area that is nearest to the vertex (Voronoi areas; Meyer et al. 2003). Its
+ * eigenvectors are the principal directions. Corner normals are weighed as of a sphere (Max 1999): on a sphere they are exact.
+ *
+ * Directions for drawing. "Least" is by absolute value: a pencil goes along a cylinder, seen from inside or outside.
+ * Where both curvatures are equal or opposite, or nearly zero, the direction is noise. So each vertex has a tensor
+ *     Q = confidence (d d' - e e')         d: least direction, e: across it, in the tangent plane
+ * which is blind to the sign of d, and the confidence vanishes there. Tensors are averaged with their neighbours' again
+ * and again, so that what is certain spreads into what is not; a tiny tensor along a fixed direction (level lines,
+ * or what is nearest to them) decides where nothing is certain at all. All of it lies on the mesh, not on the screen: as
+ * the camera moves, nothing flickers. */
+#include "mesh/curvature.h"
+
+#include "base/hostile.h"
+#include "base/vec.h"
+#include "mesh/places.h"
+
+#include <string.h>
+#include <time.h>
+
+enum { LEAST_SPREADS = 8, MOST_SPREADS = 48 };
+static const double UNBENT = 0.15;   /* curvature times the model's size below which a direction is uncertain */
+static const double STEADY = 0.02;   /* weight of the fixed direction */
+
+typedef struct bending {
+    const dp_polygons *polygons;
+    const uint32_t *first;   /* [vertices] who stands for a vertex */
+    float (*normal)[3];      /* [vertices] unit */
+    float *area;             /* [vertices] */
+    float (*form)[3];        /* [vertices] a, b, c in the vertex's frame */
+} bending;
+
+static dp_vec3 at(const bending *b, uint32_t vertex) { return dp_v3f(dp_vertex_position(b->polygons, vertex)); }
+static dp_vec3 normal_at(const bending *b, uint32_t vertex) { return dp_v3f(b->normal[vertex]); }
+
+static void add_to(float out[3], dp_vec3 v) { out[0] += (float)v.x, out[1] += (float)v.y, out[2] += (float)v.z; }
+
+/* The tangent frame of a normal: any, but always the same. */
+static void frame_of(dp_vec3 n, dp_vec3 *u, dp_vec3 *v) {
+    const dp_vec3 axis = fabs(n.x) < 0.6 ? dp_v3(1, 0, 0) : dp_v3(0, 1, 0);
+    *u = dp_unit(dp_cross(axis, n));
+    *v = dp_cross(n, *u);
+}
+
+/* A triangle of a polygon's fan, by who stands for its vertices; false where it has no area or is broken. */
+typedef struct triangle {
+    uint32_t v[3];
+    dp_vec3 p[3], e[3]; /* e[i] is opposite to corner i, from i + 1 to i + 2 */
+    dp_vec3 normal;     /* as long as twice the area */
+} triangle;
+
+static bool fetch(const bending *b, uint32_t first, uint32_t i, triangle *t) {
+    const uint32_t corners[3] = {first, first + i - 1, first + i};
+    for (int k = 0; k < 3; k++) {
+        const uint32_t v = dp_corner_vertex(b->polygons, corners[k]);
+        if (v >= b->polygons->vertex_count) return false;
+        t->v[k] = b->first[v];
+        t->p[k] = at(b, v);
+    }
+    for (int k = 0; k < 3; k++) t->e[k] = dp_sub(t->p[(k + 2) % 3], t->p[(k + 1) % 3]);
+    t->normal = dp_cross(t->e[0], t->e[1]);
+    const double size = dp_length(t->normal);
+    return size > 0 && isfinite(size);
+}
+
+typedef void visit(bending *b, const triangle *t);
+
+static void for_triangles(bending *b, visit *with) {
+    const dp_polygons *const p = b->polygons;
+    triangle t;
+    for (uint32_t i = 0; i < p->count; i++) {
+        const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
+        for (uint32_t k = 2; k < n; k++)
+            if (fetch(b, first, k, &t)) with(b, &t);
+    }
+}
+
+/* Max 1999: the cross product over the squares of the two edges' lengths. */
+static void add_normals(bending *b, const triangle *t) {
+    for (int k = 0; k < 3; k++) {
+        const dp_vec3 p = t->e[(k + 1) % 3], q = t->e[(k + 2) % 3];
+        const double weight = dp_dot(p, p) * dp_dot(q, q);
+        if (weight > 0) add_to(b->normal[t->v[k]], dp_scale(t->normal, 1 / weight));
+    }
+}
+
+/* The part of the triangle that is nearest to each corner; of an obtuse one as the midpoints of the edges say. */
+static void corner_areas(const triangle *t, double out[3]) {
+    const double area = dp_length(t->normal) / 2;
+    for (int k = 0; k < 3; k++) {
+        const dp_vec3 p = t->e[(k + 1) % 3], q = t->e[(k + 2) % 3]; /* q: k to k + 1; p: k + 2 to k */
+        if (dp_dot(p, q) < 0) continue;                             /* the angle at k is at most a right one */
+        const int l = (k + 1) % 3, m = (k + 2) % 3;
+        out[l] = -0.25 * dp_dot(q, q) * area / dp_dot(t->e[k], q);
+        out[m] = -0.25 * dp_dot(p, p) * area / dp_dot(t->e[k], p);
+        out[k] = area - out[l] - out[m];
+        return;
+    }
+    double sum = 0, weight[3];
+    for (int k = 0; k < 3; k++) {
+        const double a = dp_dot(t->e[k], t->e[k]), c = dp_dot(t->e[(k + 1) % 3], t->e[(k + 1) % 3]);
+        const double d = dp_dot(t->e[(k + 2) % 3], t->e[(k + 2) % 3]);
+        weight[k] = a * (c + d - a); /* barycentric, of the circumcentre */
+        sum += weight[k];
+    }
+    for (int k = 0; k < 3; k++) out[k] = area * 0.5 * (weight[(k + 1) % 3] + weight[(k + 2) % 3]) / sum;
+}
+
+/* The form a, b, c in the triangle's plane: least squares over three edges. */
+static bool triangle_form(const bending *b, const triangle *t, dp_vec3 u, dp_vec3 v, double out[3]) {
+    double uu = 0, uv = 0, vv = 0, r[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        const dp_vec3 dn = dp_sub(normal_at(b, t->v[(k + 2) % 3]), normal_at(b, t->v[(k + 1) % 3]));
+        const double x = dp_dot(t->e[k], u), y = dp_dot(t->e[k], v), nx = dp_dot(dn, u), ny = dp_dot(dn, v);
+        uu += x * x, uv += x * y, vv += y * y;
+        r[0] += nx * x, r[1] += nx * y + ny * x, r[2] += ny * y;
+    }
+    /* | uu  uv     0  | by Cramer's rule */
+    /* | uv  uu+vv  uv | */
+    /* | 0   uv     vv | */
+    const double mid = uu + vv, det = uu * (mid * vv - uv * uv) - uv * uv * vv;
+    if (!(fabs(det) > 1e-300)) return false;
+    out[0] = (r[0] * (mid * vv - uv * uv) - uv * (r[1] * vv - uv * r[2])) / det;
+    out[1] = (uu * (r[1] * vv - uv * r[2]) - r[0] * uv * vv) / det;
+    out[2] = (uu * (mid * r[2] - uv * r[1]) - uv * (uv * r[2]) + r[0] * uv * uv) / det;
+    return true;
+}
+
+/* A vector of the plane with normal `from`, turned with it to `to`. */
+static dp_vec3 turn(dp_vec3 x, dp_vec3 from, dp_vec3 to) {
+    const double c = 1 + dp_dot(from, to);
+    if (c < 1e-6) return x;
+    return dp_sub(x, dp_scale(dp_add(from, to), dp_dot(to, x) / c));
+}
+
+static void add_forms(bending *b, const triangle *t) {
+    const dp_vec3 n = dp_unit(t->normal), u = dp_unit(t->e[0]), v = dp_cross(n, u);
+    double form[3], areas[3];
+    if (!triangle_form(b, t, u, v, form)) return;
+    corner_areas(t, areas);
+    for (int k = 0; k < 3; k++) {
+        const uint32_t vertex = t->v[k];
+        const dp_vec3 m = normal_at(b, vertex), tu = turn(u, n, m), tv = turn(v, n, m);
+        dp_vec3 x, y;
+        frame_of(m, &x, &y);
+        const double ux = dp_dot(x, tu), uy = dp_dot(x, tv), vx = dp_dot(y, tu), vy = dp_dot(y, tv);
+        const double w = areas[k];
+        b->area[vertex] += (float)w;
+        b->form[vertex][0] += (float)(w * (form[0] * ux * ux + 2 * form[1] * ux * uy + form[2] * uy * uy));
+        b->form[vertex][1] += (float)(w * (form[0] * ux * vx + form[1] * (ux * vy + uy * vx) + form[2] * uy * vy));
+        b->form[vertex][2] += (float)(w * (form[0] * vx * vx + 2 * form[1] * vx * vy + form[2] * vy * vy));
+    }
+}
+
+static bool begin(bending *b, const dp_allocator *memory, uint32_t **first) {
+    const size_t n = (size_t)b->polygons->vertex_count + 1;
+    *first = dp_alloc_array(memory, n, sizeof **first);
+    b->first = *first;
+    b->normal = dp_alloc_zeroed(memory, n * sizeof *b->normal);
+    b->area = dp_alloc_zeroed(memory, n * sizeof *b->area);
+    b->form = dp_alloc_zeroed(memory, n * sizeof *b->form);
+    return *first && b->normal && b->area && b->form && dp_find_places(b->polygons, *first, memory);
+}
+
+static void end(bending *b, const dp_allocator *memory, uint32_t *first) {
+    dp_free(memory, first);
+    dp_free(memory, b->normal);
+    dp_free(memory, b->area);
+    dp_free(memory, b->form);
+}
+
+static void find_forms(bending *b) {
+    for_triangles(b, add_normals);
+    for (uint32_t v = 0; v < b->polygons->vertex_count; v++) {
+        const dp_vec3 n = dp_unit(normal_at(b, v));
+        b->normal[v][0] = (float)n.x, b->normal[v][1] = (float)n.y, b->normal[v][2] = (float)n.z;
+    }
+    for_triangles(b, add_forms);
+}
+
+/* Eigenvalues and the direction of the one that is least by absolute value. */
+static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
+    dp_curvature out = {0, 0, {0, 0, 0}};
+    if (!(b->area[vertex] > 0)) return out;
+    const double inverse = 1 / (double)b->area[vertex];
+    const double a = (double)b->form[vertex][0] * inverse, m = (double)b->form[vertex][1] * inverse, c = (double)b->form[vertex][2] * inverse;
+    const double mean = (a + c) / 2, half = hypot((a - c) / 2, m);
+    const double angle = 0.5 * atan2(2 * m, a - c); /* of the algebraically greatest */
+    const bool greatest = fabs(mean + half) <= fabs(mean - half);
+    const double turned = greatest ? angle : angle + 1.5707963267948966;
+    dp_vec3 u, v;
+    frame_of(normal_at(b, vertex), &u, &v);
+    const dp_vec3 d = dp_add(dp_scale(u, cos(turned)), dp_scale(v, sin(turned)));
+    out.least = (float)(greatest ? mean + half : mean - half), out.most = (float)(greatest ? mean - half : mean + half);
+    out.along[0] = (float)d.x, out.along[1] = (float)d.y, out.along[2] = (float)d.z;
+    return out;
+}
+
+bool dp_curvatures(const dp_polygons *polygons, const dp_allocator *memory, dp_curvature *out) {
+    bending b = {.polygons = polygons};
+    uint32_t *first;
+    const bool enough = begin(&b, memory, &first);
+    if (enough) {
+        find_forms(&b);
+        for (uint32_t v = 0; v < polygons->vertex_count; v++) out[v] = curvature_at(&b, first[v]);
+    }
+    end(&b, memory, first);
+    return enough;
+}
+
+/* ------- directions that can be drawn along ------- */
+
+/* Symmetric 3x3: xx, xy, xz, yy, yz, zz. */
+typedef float tensor[6];
+
+static void add_tensor(tensor out, dp_vec3 d, double weight) {
+    out[0] += (float)(weight * d.x * d.x), out[1] += (float)(weight * d.x * d.y), out[2] += (float)(weight * d.x * d.z);
+    out[3] += (float)(weight * d.y * d.y), out[4] += (float)(weight * d.y * d.z), out[5] += (float)(weight * d.z * d.z);
+}
+
+static void add_cross(tensor out, dp_vec3 d, dp_vec3 e, double weight) {
+    add_tensor(out, d, weight);
+    add_tensor(out, e, -weight);
+}
+
+/* The tensor seen in a tangent plane: (uu - vv) / 2 and uv, twice the direction's angle. */
+static void in_plane(const tensor q, dp_vec3 u, dp_vec3 v, double *c, double *s) {
+    const double x[3] = {q[0] * u.x + q[1] * u.y + q[2] * u.z, q[1] * u.x + q[3] * u.y + q[4] * u.z,
+                         q[2] * u.x + q[4] * u.y + q[5] * u.z};
+    const double y[3] = {q[0] * v.x + q[1] * v.y + q[2] * v.z, q[1] * v.x + q[3] * v.y + q[4] * v.z,
+                         q[2] * v.x + q[4] * v.y + q[5] * v.z};
+    *c = 0.5 * (u.x * x[0] + u.y * x[1] + u.z * x[2] - (v.x * y[0] + v.y * y[1] + v.z * y[2]));
+    *s = v.x * x[0] + v.y * x[1] + v.z * x[2];
+}
+
+/* Level lines: across the model's height; where the surface lies level itself, along x. */
+static dp_vec3 steady_direction(dp_vec3 n) {
+    const dp_vec3 level = dp_cross(dp_v3(0, 1, 0), n), other = dp_sub(dp_v3(1, 0, 0), dp_scale(n, n.x));
+    return dp_unit(dp_add(level, dp_scale(other, 0.05)));
+}
+
+static void make_tensor(const bending *b, uint32_t v, double size, tensor q) {
+    const dp_vec3 n = normal_at(b, v);
+    const dp_curvature k = curvature_at(b, v);
+    const dp_vec3 d = dp_v3f(k.along), e = dp_cross(n, d), f = steady_direction(n);
+    const double least = fabs((double)k.least), most = fabs((double)k.most);
+    memset(q, 0, sizeof(tensor));
+    if (!(dp_length(n) > 0)) return;
+    /* 0 where both are equal or opposite; and where there is hardly any */
+    const double contrast = most > 0 ? (most - least) / most : 0, bent = most * size / (most * size + UNBENT);
+    add_cross(q, d, e, contrast * bent);
+    add_cross(q, f, dp_cross(n, f), STEADY);
+}
+
+/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns. */
+typedef struct spreading {
+    bending *b;
+    uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as often as they share triangles */
+    tensor *from, *to;
+} spreading;
+
+static uint64_t triangle_count(const dp_polygons *p) {
+    const uint64_t corners = p->firsts ? p->firsts[p->count] - p->firsts[0] : 3 * (uint64_t)p->count;
+    return corners > 2 * (uint64_t)p->count ? corners - 2 * (uint64_t)p->count : 0;
+}
+
+/* Counts, then places: a counting sort by vertex. */
+static void find_neighbours(const spreading *s) {
+    const dp_polygons *const p = s->b->polygons;
+    triangle t;
+    memset(s->start, 0, ((size_t)p->vertex_count + 2) * sizeof *s->start);
+    uint32_t *const at = s->start + 1; /* one further, so that placing leaves starts behind */
+    for (int placing = 0; placing < 2; placing++) {
+        for (uint32_t i = 0; i < p->count; i++) {
+            const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
+            for (uint32_t k = 2; k < n; k++) {
+                if (!fetch(s->b, first, k, &t)) continue;
+                for (int c = 0; c < 3; c++) {
+                    if (placing) s->beside[at[t.v[c]]++] = t.v[(c + 1) % 3], s->beside[at[t.v[c]]++] = t.v[(c + 2) % 3];
+                    else at[t.v[c]] += 2;
+                }
+            }
+        }
+        uint32_t sum = 0;
+        for (uint32_t v = 0; !placing && v < p->vertex_count; v++) {
+            const uint32_t count = at[v];
+            at[v] = sum, sum += count;
+        }
+    }
+}
+
+/* c (u u' - v v') + s (u v' + v u') */
+static void put_in_plane(tensor q, dp_vec3 u, dp_vec3 v, double c, double s) {
+    q[0] = (float)(c * (u.x * u.x - v.x * v.x) + 2 * s * u.x * v.x);
+    q[1] = (float)(c * (u.x * u.y - v.x * v.y) + s * (u.x * v.y + v.x * u.y));
+    q[2] = (float)(c * (u.x * u.z - v.x * v.z) + s * (u.x * v.z + v.x * u.z));
+    q[3] = (float)(c * (u.y * u.y - v.y * v.y) + 2 * s * u.y * v.y);
+    q[4] = (float)(c * (u.y * u.z - v.y * v.z) + s * (u.y * v.z + v.y * u.z));
+    q[5] = (float)(c * (u.z * u.z - v.z * v.z) + 2 * s * u.z * v.z);
+}
+
+/* The mean of a vertex's own tensor and its neighbours', back in its tangent plane. */
+static void spread_vertex(const spreading *s, uint32_t v) {
+    const uint32_t first = s->start[v], last = s->start[v + 1];
+    memcpy(s->to[v], s->from[v], sizeof(tensor));
+    if (first == last) return;
+    float sum[6] = {0, 0, 0, 0, 0, 0};
+    for (uint32_t n = first; n < last; n++)
+        for (int i = 0; i < 6; i++) sum[i] += s->from[s->beside[n]][i];
+    const float share = 0.5f / (float)(last - first);
+    tensor mean;
+    for (int i = 0; i < 6; i++) mean[i] = 0.5f * s->from[v][i] + share * sum[i];
+    dp_vec3 x, y;
+    double c, d;
+    frame_of(normal_at(s->b, v), &x, &y);
+    in_plane(mean, x, y, &c, &d);
+    put_in_plane(s->to[v], x, y, c, d);
+}
+
+enum { BLOCK = DP_TUNED(16384, 7) };
+
+static void spread_block(void *arg, uint32_t index, uint32_t worker) {
+    const spreading *const s = arg;
+    const uint32_t count = s->b->polygons->vertex_count, first = index * BLOCK;
+    (void)worker;
+    for (uint32_t v = first; v < count && v < first + BLOCK; v++) spread_vertex(s, v);
+}
+
+static void spread_once(spreading *s, dp_threads *threads) {
+    dp_parallel(threads, s->b->polygons->vertex_count / BLOCK + 1, spread_block, s);
+    tensor *const swap = s->from;
+    s->from = s->to, s->to = swap;
+}
+
+static void put_directions(const spreading *s, const uint32_t *first, float (*out)[3]) {
+    for (uint32_t v = 0; v < s->b->polygons->vertex_count; v++) {
+        const uint32_t w = first[v];
+        dp_vec3 x, y;
+        double c, d;
+        frame_of(normal_at(s->b, w), &x, &y);
+        in_plane(s->from[w], x, y, &c, &d);
+        const double angle = 0.5 * atan2(d, c);
+        const dp_vec3 along = dp_add(dp_scale(x, cos(angle)), dp_scale(y, sin(angle)));
+        out[v][0] = (float)along.x, out[v][1] = (float)along.y, out[v][2] = (float)along.z;
+    }
+}
+
+/* The finer the mesh, the more steps the same way takes. */
+static int spreads_for(uint32_t vertices) {
+    const int n = LEAST_SPREADS + (int)(sqrt((double)vertices) / 12);
+    return n < MOST_SPREADS ? n : MOST_SPREADS;
+}
+
+static double size_of(const dp_polygons *p) {
+    dp_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        const dp_vec3 q = dp_v3f(dp_vertex_position(p, v));
+        if (!isfinite(q.x + q.y + q.z)) continue;
+        low = dp_v3(dp_min(low.x, q.x), dp_min(low.y, q.y), dp_min(low.z, q.z));
+        high = dp_v3(dp_max(high.x, q.x), dp_max(high.y, q.y), dp_max(high.z, q.z));
+    }
+    const double size = dp_length(dp_sub(high, low));
+    return isfinite(size) ? size : 1;
+}
+
+static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, float (*out)[3]) {
+    bending b = {.polygons = p};
+    uint32_t *first;
+    const size_t n = (size_t)p->vertex_count + 2;
+    if (6 * triangle_count(p) > UINT32_MAX) return false; /* 700 million triangles: as good as no memory */
+    spreading s = {.b = &b, .start = dp_alloc_array(memory, n, sizeof *s.start),
+                   .beside = dp_alloc_array(memory, 6 * triangle_count(p) + 1, sizeof *s.beside),
+                   .from = dp_alloc_array(memory, n, sizeof *s.from), .to = dp_alloc_array(memory, n, sizeof *s.to)};
+    const bool enough = begin(&b, memory, &first) && s.start && s.beside && s.from && s.to;
+    if (enough) {
+        const double size = size_of(p);
+        const int spreads = spreads_for(p->vertex_count);
+        find_forms(&b);
+        find_neighbours(&s);
+        for (uint32_t v = 0; v < p->vertex_count; v++) make_tensor(&b, v, size, s.from[v]);
+        for (int i = 0; i < spreads; i++) spread_once(&s, threads);
+        put_directions(&s, first, out);
+    }
+    end(&b, memory, first);
+    dp_free(memory, s.start);
+    dp_free(memory, s.beside);
+    dp_free(memory, s.from);
+    dp_free(memory, s.to);
+    return enough;
+}
+
+void dp_bend_store_free(dp_bend_store *store, const dp_allocator *memory) {
+    dp_free(memory, store->along);
+    *store = (dp_bend_store){0};
+}
+
+/* ------- made once ------- */
+
+typedef struct keying {
+    const dp_polygons *polygons;
+    uint64_t *blocks;
+} keying;
+
+static uint64_t mixed(uint64_t h, uint64_t x) {
+    h = (h ^ x) * 0x9e3779b97f4a7c15u;
+    return h ^ h >> 29;
+}
+
+static void key_block(void *arg, uint32_t index, uint32_t worker) {
+    const keying *const k = arg;
+    const dp_polygons *const p = k->polygons;
+    const uint32_t first = index * BLOCK;
+    uint64_t h = index;
+    (void)worker;
+    for (uint32_t v = first; v < p->vertex_count && v < first + BLOCK; v++) {
+        uint32_t bits[3];
+        memcpy(bits, dp_vertex_position(p, v), sizeof bits);
+        h = mixed(h, bits[0] | (uint64_t)bits[1] << 32) + bits[2] * (uint64_t)0xc2b2ae3d27d4eb4f;
+    }
+    /* corners alongside, as evenly */
+    const uint64_t corners = p->firsts ? p->firsts[p->count] : 3 * (uint64_t)p->count;
+    const uint64_t blocks = p->vertex_count / BLOCK + 1, from = corners * index / blocks, to = corners * (index + 1) / blocks;
+    for (uint64_t c = from; p->corners && c < to; c++) h = (h ^ p->corners[c]) * 0x9e3779b97f4a7c15u;
+    k->blocks[index] = h;
+}
+
+static bool find_key(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, uint64_t *key) {
+    const uint32_t blocks = p->vertex_count / BLOCK + 1;
+    const keying k = {p, dp_alloc_array(memory, blocks, sizeof *k.blocks)};
+    if (!k.blocks) return false;
+    dp_parallel(threads, blocks, key_block, (void *)&k);
+    *key = mixed(p->count, p->vertex_count);
+    for (uint32_t i = 0; i < blocks; i++) *key = mixed(*key, k.blocks[i]);
+    for (uint32_t i = 0; p->firsts && i <= p->count; i++) *key = mixed(*key, p->firsts[i]);
+    if (!*key) *key = 1;
+    dp_free(memory, k.blocks);
+    return true;
+}
+
+static double now_ms(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads, const dp_allocator *memory) {
+    uint64_t key;
+    const double start = now_ms();
+    if (!find_key(polygons, threads, memory, &key)) return false;
+    store->ms = 0;
+    if (store->key == key) return true;
+    store->key = 0;
+    if (!dp_reserve(memory, &store->along, &store->along_cap, (size_t)polygons->vertex_count + 1, sizeof *store->along) ||
+        !make(polygons, threads, memory, store->along))
+        return false;
+    store->key = key;
+    store->ms = now_ms() - start;
+    return true;
+}
