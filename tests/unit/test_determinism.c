@@ -1,4 +1,6 @@
-/* The same input gives the same bytes: for any number of threads, again, and in another context. */
+/* The same input gives the same bytes: for any number of threads, again, in another context, with any kernels. */
+#include "kernel/kernels.h"
+
 #include <drypoint/drypoint.h>
 
 #include <setjmp.h>
@@ -84,16 +86,18 @@ static dp_source *new_shape(const char *name, uint64_t triangles) {
     return source;
 }
 
-static dp_camera fitted(dp_source *source) {
+static dp_camera fitted_as(dp_source *source, dp_fit fit) {
     dp_extent extent;
     dp_camera camera;
-    dp_fit fit = {.aspect = (double)WIDTH / HEIGHT};
+    fit.aspect = (double)WIDTH / HEIGHT;
     assert_int_equal(dp_source_extent(source, &extent, NULL), DP_OK);
     memcpy(fit.min, extent.min, sizeof fit.min);
     memcpy(fit.max, extent.max, sizeof fit.max);
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     return camera;
 }
+
+static dp_camera fitted(dp_source *source) { return fitted_as(source, (dp_fit){0}); }
 
 /* Draws with 1, 2 and 7 threads, and with 7 once more. */
 static void check(dp_source *source, const dp_style *style, uint32_t samples, const char *what) {
@@ -187,6 +191,35 @@ static void stride_leaves_the_rest_alone(void **state) {
     dp_source_destroy(source);
 }
 
+/* Plain C and vectors of any width, in perspective and without, with lines and without. */
+static void check_kernels(dp_source *source, const dp_camera *camera, const dp_style *style, uint32_t samples, const char *what) {
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    for (uint32_t i = 0; i < count; i++) {
+        dp_context *const context = new_context(2);
+        assert_int_equal(setenv("DRYPOINT_CPU", list[i]->name, 1), 0);
+        assert_string_equal(dp_kernels_best()->name, list[i]->name);
+        draw(context, source, camera, style, samples, &results[i > 0]);
+        if (i > 0) expect_same(&results[0], &results[1], what, list[i]->name);
+        dp_context_destroy(context);
+    }
+    unsetenv("DRYPOINT_CPU");
+}
+
+static void every_kernel(void **state) {
+    static const uint32_t samples[] = {1, 4, 8, 16};
+    const dp_style styles[] = {{0}, {.lines = DP_NO_LINES}, {.ink = DP_INK_QUADS}};
+    (void)state;
+    for (uint32_t i = 0; i < dp_shape_count(); i++) {
+        dp_source *const source = new_shape(dp_shape_name(i), 20000);
+        for (uint32_t k = 0; k < 9; k++) {
+            const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k / 3 == 1, .zoom = k / 3 == 2 ? 30 : 1});
+            check_kernels(source, &camera, &styles[k % 3], samples[(i + k) % 4], dp_shape_name(i));
+        }
+        dp_source_destroy(source);
+    }
+}
+
 static int clean_up(void **state) {
     (void)state;
     free(results[0].segments);
@@ -199,6 +232,7 @@ int main(void) {
         cmocka_unit_test(every_shape),
         cmocka_unit_test(every_mode),
         cmocka_unit_test(every_number_of_samples),
+        cmocka_unit_test(every_kernel),
         cmocka_unit_test(contexts_remember_nothing),
         cmocka_unit_test(stride_leaves_the_rest_alone),
     };

@@ -1,0 +1,159 @@
+/* kernel/: vectors of any width give the bits of plain C; and what each kernel takes.
+ *
+ * Kernels that work on a whole tile are compared by the pictures and lines they make (test_determinism.c). With
+ * DRYPOINT_BENCH in the environment, times are printed as well. */
+#include "kernel/kernels.h"
+#include "pipe/bin.h"
+#include "pipe/frame.h"
+#include "pipe/outline.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+enum { VERTICES = 1003, TRIANGLES = 2 * VERTICES + 1, REPEATS = 200 };
+
+static float positions[VERTICES][3];
+static uint32_t corners[3 * TRIANGLES];
+
+static uint32_t next_random(uint32_t *state) {
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 8;
+}
+
+static void make_model(void) {
+    static const float odd[] = {0.0f, -0.0f, INFINITY, -INFINITY, NAN, 1e30f, -1e30f, 1e-40f, 3.4e38f};
+    uint32_t seed = 7;
+    for (int v = 0; v < VERTICES; v++)
+        for (int k = 0; k < 3; k++) {
+            positions[v][k] = (float)next_random(&seed) / (1 << 23) * 2 - 2;
+            if (v % 37 == 5) positions[v][k] = odd[next_random(&seed) % 9];
+        }
+    for (uint32_t c = 0; c < 3 * TRIANGLES; c++) {
+        const uint32_t v = next_random(&seed);
+        corners[c] = v % 97 == 0 ? UINT32_MAX - v % 3 : v % 3 ? c / 3 / 3 + v % 5 : v % VERTICES;
+    }
+}
+
+static dp_view make_view(bool orthographic) {
+    const double eye[3] = {0.3, 0.7, 4}, target[3] = {-0.5, 0, 0}, up[3] = {0, 1, 0};
+    dp_camera camera;
+    dp_view view;
+    assert_int_equal(dp_camera_look_at(&camera, eye, target, up), DP_OK);
+    if (orthographic) assert_int_equal(dp_camera_orthographic(&camera, 3, 1.5, 0.1, 10), DP_OK);
+    else assert_int_equal(dp_camera_perspective(&camera, 40, 1.5, 0.1, 10), DP_OK);
+    assert_int_equal(dp_view_init(&view, &camera, 1200, 800, NULL), DP_OK);
+    return view;
+}
+
+static double now_ns(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
+}
+
+static void report(const char *what, const dp_kernels *kernels, double start, uint32_t count) {
+    if (getenv("DRYPOINT_BENCH"))
+        print_message("%-10s %-7s %6.2f ns each\n", what, kernels->name, (now_ns() - start) / count / REPEATS);
+}
+
+/* x is NaN where a vertex must be clipped; its sign and payload mean nothing. */
+static void expect_same_vertices(const dp_vertex *a, const dp_vertex *b, uint32_t count, const char *name) {
+    for (uint32_t v = 0; v < count; v++) {
+        const bool clipped = isnan(a[v].x);
+        if (a[v].key != b[v].key) fail_msg("%s: vertex %u has another key", name, v);
+        if (clipped ? !isnan(b[v].x) : memcmp(&a[v], &b[v], sizeof a[v]) != 0) fail_msg("%s: vertex %u differs", name, v);
+    }
+}
+
+static void transforms_agree(void **state) {
+    static dp_vertex truth[VERTICES], vertices[VERTICES];
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    (void)state;
+    for (int orthographic = 0; orthographic < 2; orthographic++) {
+        const dp_view view = make_view(orthographic);
+        dp_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth);
+        for (uint32_t i = 0; i < count; i++) {
+            const double start = now_ns();
+            for (int r = 0; r < REPEATS; r++)
+                list[i]->transform(&view, positions[0], sizeof *positions, VERTICES, vertices);
+            report("transform", list[i], start, VERTICES);
+            expect_same_vertices(truth, vertices, VERTICES, list[i]->name);
+            for (uint32_t n = 1; n < 20; n++) { /* any length, and not a byte beyond */
+                memset(vertices, 0x55, sizeof vertices);
+                list[i]->transform(&view, positions[3], sizeof *positions, n, vertices);
+                expect_same_vertices(truth + 3, vertices, n, list[i]->name);
+                assert_int_equal(vertices[n].key, 0x55555555);
+            }
+        }
+    }
+}
+
+static void equal_positions_have_equal_keys(void **state) {
+    const float same[2][3] = {{0.0f, 1, -0.0f}, {-0.0f, 1, 0.0f}};
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    const dp_view view = make_view(false);
+    (void)state;
+    for (uint32_t i = 0; i < count; i++) {
+        dp_vertex v[2];
+        list[i]->transform(&view, same[0], sizeof *same, 2, v);
+        assert_int_equal(v[0].key, v[1].key);
+    }
+}
+
+static bool same_rect(const dp_tile_rect *a, const dp_tile_rect *b) {
+    if (a->x0 == DP_UNPLACED || b->x0 == DP_UNPLACED) return a->x0 == b->x0;
+    return a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1 && a->tag == b->tag;
+}
+
+/* A batch with an index out of range is left to the general way as a whole: the widths differ in what they
+ * leave, never in what they place. */
+static void places_agree(void **state) {
+    static dp_vertex vertices[VERTICES];
+    static dp_tile_rect truth[TRIANGLES], rects[TRIANGLES];
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    (void)state;
+    for (int indexed = 0; indexed < 2; indexed++) {
+        dp_frame frame = {.view = make_view(false)};
+        frame.nearly_edge_on = dp_nearly_edge_on(&frame.view);
+        frame.vertices = vertices;
+        frame.polygons = (dp_polygons){.positions = positions[0], .stride = sizeof *positions, .vertex_count = VERTICES,
+                                       .corners = indexed ? corners : NULL, .count = indexed ? TRIANGLES : VERTICES / 3};
+        dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES, vertices);
+        dp_kernels_plain.place(&frame, 0.75f, 0, frame.polygons.count, truth);
+        for (uint32_t i = 0; i < count; i++) {
+            const double start = now_ns();
+            uint32_t placed = 0;
+            for (int r = 0; r < REPEATS; r++) list[i]->place(&frame, 0.75f, 0, frame.polygons.count, rects);
+            report("place", list[i], start, frame.polygons.count);
+            for (uint32_t t = 0; t < frame.polygons.count; t++) {
+                placed += rects[t].x0 != DP_UNPLACED;
+                if (indexed && rects[t].x0 == DP_UNPLACED) continue;
+                if (!same_rect(&truth[t], &rects[t])) fail_msg("%s: triangle %u differs", list[i]->name, t);
+            }
+            assert_true(placed > frame.polygons.count / 50);
+        }
+    }
+}
+
+static int set_up(void **state) {
+    (void)state;
+    make_model();
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(transforms_agree),
+        cmocka_unit_test(equal_positions_have_equal_keys),
+        cmocka_unit_test(places_agree),
+    };
+    return cmocka_run_group_tests(tests, set_up, NULL);
+}
