@@ -66,7 +66,9 @@ static int measure(const tool_settings *s, bench *b) {
     dp_camera camera;
     dp_diag diag = {0};
     int code = measure_model(s, b->source, &extent);
+    if (!code) look_mirror(s, &extent, &style);
     if (!code) code = make_camera(s, &extent, &camera);
+    if (!code) look_deepen(&style, &extent, &camera);
     if (!code) code = make_stroke(s, &style, &b->texture);
     if (!code) code = look_make(s, b->source, &b->look, &style);
     if (code) return code;

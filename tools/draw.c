@@ -30,11 +30,14 @@ typedef struct drawing {
 /* Draws into a picture of its own, which the caller frees. */
 static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     dp_camera camera;
-    const int wrong = make_camera(s, extent, &camera);
+    dp_extent seen = *extent;
+    dp_style style = make_style(s);
+    look_mirror(s, &seen, &style);
+    const int wrong = make_camera(s, &seen, &camera);
     if (wrong) return wrong;
+    look_deepen(&style, &seen, &camera);
     const dp_context_desc desc = {.threads = s->threads, .progress = progress_report,
                                   .memory = (size_t)s->memory};
-    dp_style style = make_style(s);
     const int wrong_stroke = make_stroke(s, &style, &d->texture);
     if (wrong_stroke) return wrong_stroke;
     dp_diag diag = {0};

@@ -154,6 +154,63 @@ int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_sty
     return code;
 }
 
+/* ---- --mirror ---- */
+
+static void corner_of(const dp_extent *e, int i, double p[3]) {
+    for (int k = 0; k < 3; k++) p[k] = (double)(i >> k & 1 ? e->max[k] : e->min[k]);
+}
+
+void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
+    const dp_extent model = *extent;
+    dp_mirror *const m = &style->mirror;
+    double n[3], p[3], length = 0, largest = 0, least = INFINITY;
+    if (!s->has_mirror) return;
+    for (int k = 0; k < 3; k++) length += s->mirror[k] * s->mirror[k];
+    for (int k = 0; k < 3; k++) {
+        n[k] = s->mirror[k] / sqrt(length);
+        m->normal[k] = (float)n[k];
+        m->center[k] = 0.5f * (model.min[k] + model.max[k]);
+        largest = fmax(largest, (double)model.max[k] - (double)model.min[k]);
+    }
+    for (int i = 0; i < 8; i++) {
+        corner_of(&model, i, p);
+        least = fmin(least, n[0] * p[0] + n[1] * p[1] + n[2] * p[2]);
+    }
+    const double offset = s->has_mirror_offset ? s->mirror[3] / sqrt(length) : least;
+    m->offset = (float)offset;
+    m->size = (float)(s->mirror_size > 0 ? s->mirror_size : 1.5 * largest);
+    m->fade = (float)s->mirror_fade;
+    m->tint = s->mirror_tint;
+    m->tint_share = (float)(s->mirror_tint_share > 0 ? s->mirror_tint_share : s->mirror_tint ? 0.25 : 0);
+    const double off = n[0] * (double)m->center[0] + n[1] * (double)m->center[1] + n[2] * (double)m->center[2] - offset;
+    for (int i = 0; i < 8; i++) /* the mirror around its middle */
+        for (int k = 0; k < 3; k++) {
+            const double half = 0.5 * (double)m->size * sqrt(fmax(1 - n[k] * n[k], 0));
+            const float at = (float)((double)m->center[k] - off * n[k] + (i >> k & 1 ? half : -half));
+            extent->min[k] = fminf(extent->min[k], at), extent->max[k] = fmaxf(extent->max[k], at);
+        }
+}
+
+void look_deepen(const dp_style *style, const dp_extent *seen, dp_camera *camera) {
+    const dp_mirror *const m = &style->mirror;
+    dp_extent deep = *seen;
+    if (!(m->size > 0)) return;
+    for (int i = 0; i < 8; i++) { /* the image's box */
+        double p[3], off = -(double)m->offset;
+        corner_of(seen, i, p);
+        for (int k = 0; k < 3; k++) off += (double)m->normal[k] * p[k];
+        for (int k = 0; k < 3; k++) {
+            const float at = (float)(p[k] - 2 * off * (double)m->normal[k]);
+            deep.min[k] = fminf(deep.min[k], at), deep.max[k] = fmaxf(deep.max[k], at);
+        }
+    }
+    double near_z, far_z, *const matrix = camera->projection;
+    dp_camera_near_far(camera, deep.min, deep.max, &near_z, &far_z);
+    const bool perspective = matrix[11] != 0;
+    matrix[10] = (perspective ? near_z + far_z : 2) / (near_z - far_z);
+    matrix[14] = (perspective ? 2 * near_z * far_z : near_z + far_z) / (near_z - far_z);
+}
+
 void look_free(look_data *data) {
     free(data->shades);
     free(data->strokes);

@@ -139,6 +139,18 @@ const option option_table[] = {
      "Where lines come from: found in each tile as they emerge, with nothing known about neighbours; by adjacency "
      "that is built once per model (Hermosilla and Vazquez 2010); the edge map (Nienhaus and Doellner 2003); emergent "
      "lines and the map; nowhere. Default: emergent; both with --edge-map."},
+    {"mirror", 0, "NX,NY,NZ[,D]", OPTION_PLANE, GROUP_SURFACE, PICTURE, AT(mirror), 0, 0, 0,
+     "A square mirror in the plane through all points whose product with N is D; without D, where the model touches "
+     "it. 0,1,0 is a floor."},
+    {"mirror-size", 0, "S", OPTION_INSIDE, GROUP_SURFACE, PICTURE, AT(mirror_size), 0, 0, 1e30,
+     "Side of the mirror, in the model's units. Default: half as much again as the model's largest side."},
+    {"mirror-fade", 0, "S", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_fade), 0, 0, 1e30,
+     "Distance from the mirror at which images have faded away. Default: they do not fade."},
+    {"mirror-tint", 0, "#RRGGBB", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(mirror_tint), 0, 0, 0,
+     "Colour of the mirror. Default: white."},
+    {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), 0, 0, 1,
+     "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
+
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
      "How steps in the G-buffer are found: four diagonal samples, or the C1-discontinuity operator in three "
      "passes. Default: diagonal."},

@@ -123,6 +123,27 @@ static bool store_angles(const option *o, const char *value, double to[2]) {
     return true;
 }
 
+static bool store_plane(const option *o, const char *value, tool_settings *settings) {
+    const char *at = value;
+    int count = 0;
+    for (; count < 4; count++) {
+        const char *const end = at + strcspn(at, ",");
+        if (!read_number(at, end, &settings->mirror[count])) break;
+        at = end + 1;
+        if (!*end) {
+            count++;
+            break;
+        }
+    }
+    const double *const n = settings->mirror;
+    settings->has_mirror = true;
+    settings->has_mirror_offset = count == 4;
+    if (count < 3 || at[-1])
+        return wrong_usage("--%s: \"%s\" is not a plane; give three or four numbers like 0,1,0,-0.5", o->name, value);
+    if (n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0) return true;
+    return wrong_usage("--%s: the normal is zero; give one like 0,1,0", o->name);
+}
+
 /* NAME=FILE for a plane, else a file. */
 static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
@@ -304,6 +325,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_point(o, value, to);
     case OPTION_ANGLES:
         return store_angles(o, value, to);
+    case OPTION_PLANE:
+        return store_plane(o, value, settings);
     case OPTION_OUTPUT:
         return store_output(value, settings);
     case OPTION_WORD:

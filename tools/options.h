@@ -82,6 +82,10 @@ typedef struct tool_settings {
     double inner_angle, inner_softness, profile_depth, profile_softness;
     dp_color inner_color, profile_color;
     const char *enhance;
+    double mirror[4]; /* normal, offset */
+    bool has_mirror, has_mirror_offset;
+    double mirror_size, mirror_fade, mirror_tint_share;
+    dp_color mirror_tint;
     const char *planes[PLANE_COUNT]; /* files */
     bool wants_edge_map;
 
@@ -102,6 +106,7 @@ typedef enum option_kind {
     OPTION_INSIDE,   /* double, limits excluded */
     OPTION_POINT,    /* double[3] */
     OPTION_ANGLES,   /* double[2] */
+    OPTION_PLANE,    /* double[4], then two bools as in tool_settings.mirror */
     OPTION_OUTPUT,   /* const char *, or one of tool_settings.planes */
     OPTION_WORD,     /* int: which of the argument's words */
     OPTION_SIZE,     /* uint32_t[2] */

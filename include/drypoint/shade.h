@@ -105,6 +105,21 @@ typedef struct dp_edge_map {
     uint32_t enhanced_count; /* groups beyond are not enhanced */
 } dp_edge_map;
 
+/* A planar mirror: a square in the plane n·p = offset, in which the scene is drawn again, reflected, with all its
+ * lines and shades (section 5). It reflects on the side that the eye is on; polygons behind it have no image.
+ * Zero is none. It is drawn as one more polygon, of group DP_MIRROR_GROUP. */
+typedef struct dp_mirror {
+    float normal[3];  /* of any length, not zero; the plane is that of the unit normal */
+    float offset;     /* world units along the unit normal */
+    float center[3];  /* of the square; moved into the plane */
+    float size;       /* side of the square, world units; 0: there is no mirror */
+    dp_color tint;    /* 0 means none, white */
+    float tint_share; /* how much of what is seen is the tint, 0 to 1 */
+    float fade;       /* images of points this far from the plane have faded away; 0: none fade */
+} dp_mirror;
+
+#define DP_MIRROR_GROUP 65534u
+
 #ifdef __cplusplus
 }
 #endif

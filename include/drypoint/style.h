@@ -88,6 +88,7 @@ typedef struct dp_style {
     bool edge_table_off;     /* strokes only: resolve no edge by the tile's table, let every line emerge */
     dp_shade shade;          /* how surfaces look (shade.h) */
     dp_edge_map edge_map;    /* off by default */
+    dp_mirror mirror;        /* none by default */
 } dp_style;
 
 /* The style with every default filled in. DP_ERR_ARGUMENT names the member that is out of range. */

@@ -32,11 +32,12 @@ void dp_diagonal_depth_printed(dp_rows z, const dp_depth_measure *m, int radius,
         i_z[i] = together(dp_minf(scale * fabsf(a[i] - h[i]), 1), dp_minf(scale * fabsf(c[i] - f[i]), 1));
 }
 
-/* What the slope does not explain of a pair's difference, times `scale`, in [0, 1]; `second` tells its side. */
+/* What the slope does not explain of a pair's difference, as a share of a whole step, in [0, 1]; the first third of
+ * it does not count: so far a fold reaches. `second` tells its side. */
 static inline float unexplained(float p, float x, float q, float scale, float *second) {
     *second = p + q - 2 * x;
     const float first = dp_minf(fabsf(p - x), fabsf(q - x));
-    return dp_maxf(dp_minf((fabsf(*second) - 1.75f * first) * scale, 1), 0);
+    return dp_maxf(dp_minf((fabsf(*second) - 1.75f * first) * scale * 1.5f - 0.5f, 1), 0);
 }
 
 void dp_diagonal_scaled(dp_rows nx, dp_rows ny, dp_rows nz, dp_rows d, const dp_depth_measure *m, int radius, uint32_t n,

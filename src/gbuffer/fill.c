@@ -73,29 +73,47 @@ static void pick_part(const fill *f, size_t lane, float px, float py, picked *ou
     const uint32_t left = ~set & ((1u << n) - 1);
     *out = (picked){.polygon = winner[s], .d = w->depth[lane + s],
                   .x = px + w->sampling.x[s / 4][s % 4], .y = py + w->sampling.y[s / 4][s % 4],
-                  .share = (uint8_t)(255 * (uint32_t)__builtin_popcount(set) / n), .other = DP_DEPTH_EMPTY};
+                  .share = (uint8_t)(255 * (uint32_t)__builtin_popcount(set) >> __builtin_ctz(n)), /* n is 4, 8 or 16 */
+                  .other = DP_DEPTH_EMPTY};
     if (left && winner[__builtin_ctz(left)] != UINT32_MAX) out->other = w->depth[lane + (uint32_t)__builtin_ctz(left)];
+}
+
+static bool pick_at_centre(const fill *f, uint32_t polygon, uint32_t x, uint32_t y, picked *out) {
+    const float cx = (float)x + 0.5f, cy = (float)y + 0.5f;
+    *out = (picked){.polygon = polygon, .x = cx, .y = cy, .d = dp_plane_at(&f->w->polygons[polygon], cx, cy), .share = 255};
+    return true;
+}
+
+static bool all_same(dp_i4 v) { return !dp_any(v ^ (dp_i4){v[1], v[2], v[3], v[0]}); }
+
+/* Four samples, as there mostly are. Small polygons: several, and still one surface. */
+static bool pick_of_four(const fill *f, uint32_t x, uint32_t y, picked *out) {
+    const dp_tile_worker *const w = f->w;
+    const size_t lane = dp_pixel_lane(&w->sampling, x, y);
+    const dp_i4 winner = *(const dp_i4 *)(const void *)(w->winner + lane);
+    if (all_same(winner)) return winner[0] == -1 ? false : pick_at_centre(f, (uint32_t)winner[0], x, y, out);
+    const dp_f4 d = *(const dp_f4 *)(const void *)(w->depth + lane);
+    const dp_f4 near = dp_splat(SAME_SURFACE * step_at(f, d[0])), off = d - dp_splat(d[0]);
+    if (dp_any((winner == -1) | (off > near) | (off < -near))) {
+        pick_part(f, lane, (float)x, (float)y, out);
+        return true;
+    }
+    *out = (picked){.polygon = (uint32_t)winner[0], .d = d[0], .share = 255, .x = (float)x + w->sampling.x[0][0],
+                    .y = (float)y + w->sampling.y[0][0]};
+    return true;
 }
 
 /* False: nothing but paper. */
 static bool pick_surface(const fill *f, uint32_t x, uint32_t y, picked *out) {
     const dp_tile_worker *const w = f->w;
     const uint32_t n = w->frame->target.samples;
+    if (n == 4) return pick_of_four(f, x, y, out);
     const size_t lane = dp_pixel_lane(&w->sampling, x, y);
     const uint32_t *const winner = w->winner + lane;
-    bool same = true, none = winner[0] == UINT32_MAX;
-    for (uint32_t i = 1; i < n; i++) {
-        same &= winner[i] == winner[0];
-        none &= winner[i] == UINT32_MAX;
-    }
-    if (none) return false;
-    const float px = (float)x, py = (float)y;
-    if (!same) {
-        pick_part(f, lane, px, py, out);
-        return true;
-    }
-    *out = (picked){.polygon = winner[0], .x = px + 0.5f, .y = py + 0.5f, .share = 255,
-                  .d = dp_plane_at(&w->polygons[winner[0]], px + 0.5f, py + 0.5f)};
+    bool same = true;
+    for (uint32_t i = 1; i < n; i++) same &= winner[i] == winner[0];
+    if (same) return winner[0] == UINT32_MAX ? false : pick_at_centre(f, winner[0], x, y, out);
+    pick_part(f, lane, (float)x, (float)y, out);
     return true;
 }
 
@@ -129,6 +147,19 @@ static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, fl
     }
 }
 
+/* The same of a triangle: no search. */
+static inline void triangle_weights(const dp_tile_worker *w, const dp_tile_polygon *p, bool perspective, float x, float y, weights *out) {
+    const dp_vertex *const at = w->points + p->point;
+    const dp_vertex a = at[0], b = at[1], c = at[2];
+    const uint32_t first = dp_first_corner(&w->frame->polygons, p->id);
+    const float ea = cross2(b, c, x, y), eb = cross2(c, a, x, y), ec = cross2(a, b, x, y);
+    const float sign = ea + eb + ec < 0 ? -1.0f : 1.0f;
+    out->corner[0] = first, out->corner[1] = first + 1, out->corner[2] = first + 2;
+    out->weight[0] = dp_maxf(sign * ea, 0) * (perspective ? a.d : 1);
+    out->weight[1] = dp_maxf(sign * eb, 0) * (perspective ? b.d : 1);
+    out->weight[2] = dp_maxf(sign * ec, 0) * (perspective ? c.d : 1);
+}
+
 /* The same in space, for a polygon whose points are not its corners any more. */
 static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, const picked *pick, weights *out) {
     const dp_polygons *const polygons = &w->frame->polygons;
@@ -149,22 +180,17 @@ static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, con
     }
 }
 
-/* The weighted sum of the corners' normals, each as if of length 1; 0 where there are none. */
-static void sum_normals(const dp_polygons *p, const weights *at, float sign, float out[3]) {
-    float sum[3] = {0, 0, 0};
-    for (int k = 0; k < 3; k++) {
-        const uint32_t i = dp_attribute_number(&p->normals, at->corner[k], dp_corner_vertex(p, at->corner[k]));
-        if (i == UINT32_MAX) continue;
-        const float *const n = dp_attribute_value(&p->normals, i);
-        const float length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-        float weight = at->weight[k] * sign;
-        if (!(length2 > 0.99f && length2 < 1.01f)) {
-            if (!(length2 > 0 && length2 < INFINITY)) continue;
-            weight /= sqrtf(length2);
-        }
-        for (int c = 0; c < 3; c++) sum[c] += weight * n[c];
-    }
-    for (int c = 0; c < 3; c++) out[c] = sum[c];
+static const int16_t *corner_normal(const fill *f, uint32_t corner) {
+    const int16_t *const shared = f->g->normals->vertex[dp_corner_vertex(&f->w->frame->polygons, corner)];
+    return shared[3] ? f->g->normals->corner[corner] : shared;
+}
+
+/* The weighted sum of the corners' normals; 0 where there are none. */
+static void sum_normals(const fill *f, const weights *at, float sign, float out[3]) {
+    const int16_t *const a = corner_normal(f, at->corner[0]), *const b = corner_normal(f, at->corner[1]);
+    const int16_t *const c = corner_normal(f, at->corner[2]);
+    for (int k = 0; k < 3; k++)
+        out[k] = sign * (at->weight[0] * (float)a[k] + at->weight[1] * (float)b[k] + at->weight[2] * (float)c[k]);
 }
 
 static void put_texcoord(const fill *f, const weights *at, size_t pixel) {
@@ -199,8 +225,9 @@ static void fill_pixel(const fill *f, uint32_t x, uint32_t y, const picked *pick
     if (!f->facets || g->textured) {
         weights at = {{0}, {0}};
         if (p->flags & DP_POLYGON_CLIPPED) space_weights(w, p, pick, &at);
+        else if (p->points == 3) triangle_weights(w, p, g->perspective, pick->x, pick->y, &at);
         else screen_weights(w, p, pick->x, pick->y, &at);
-        if (!f->facets) sum_normals(polygons, &at, p->flags & DP_POLYGON_FRONT ? 1 : -1, normal);
+        if (!f->facets) sum_normals(f, &at, p->flags & DP_POLYGON_FRONT ? 1 : -1, normal);
         if (g->textured) put_texcoord(f, &at, pixel);
     }
     r->wx[x] = normal[0], r->wy[x] = normal[1], r->wz[x] = normal[2];
@@ -218,14 +245,18 @@ static void fill_pixel(const fill *f, uint32_t x, uint32_t y, const picked *pick
     g->depth[pixel] = dp_gbuffer_empty_depth(g->perspective);
 }
 
-static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
-    for (uint32_t i = 0; i < n; i++) {
-        g->nx[pixel + i] = g->ny[pixel + i] = g->nz[pixel + i] = 0;
-        g->distance[pixel + i] = DP_FAR;
-        g->depth[pixel + i] = dp_gbuffer_empty_depth(g->perspective);
-        g->id[pixel + i] = 0;
-        g->share[pixel + i] = 255;
-    }
+/* Planes apart, so that each is a run of stores. The normals of a row that also holds surfaces are written with them. */
+static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n, bool normals) {
+    const float empty = dp_gbuffer_empty_depth(g->perspective);
+    float *const distance = g->distance + pixel, *const depth = g->depth + pixel;
+    for (uint32_t i = 0; i < n; i++) distance[i] = DP_FAR;
+    for (uint32_t i = 0; i < n; i++) depth[i] = empty;
+    memset(g->id + pixel, 0, n * sizeof *g->id);
+    memset(g->share + pixel, 255, n);
+    if (!normals) return;
+    memset(g->nx + pixel, 0, n * sizeof(float));
+    memset(g->ny + pixel, 0, n * sizeof(float));
+    memset(g->nz + pixel, 0, n * sizeof(float));
 }
 
 /* World to camera space, unit length, and facing as the visible side of the polygon does. A normal that lies
@@ -251,21 +282,35 @@ static void finish_row(const dp_gbuffer *g, const row *r, size_t pixel, uint32_t
     }
 }
 
+/* Which polygons a row shows is known before their normals are needed: nearly all the time goes into waiting. */
+static void prefetch_normals(const fill *f, const dp_tile_polygon *p) {
+    if (f->facets) return;
+    const dp_polygons *const polygons = &f->w->frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, p->id);
+    for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(f->g->normals->vertex[dp_corner_vertex(polygons, first + k)]);
+}
+
 static uint64_t fill_row(const fill *f, uint32_t y, uint32_t width) {
     dp_gbuffer *const g = f->g;
     const dp_tile_worker *const w = f->w;
     const size_t pixel = (size_t)(w->tile_y + y) * g->stride + w->tile_x;
     row r;
+    picked picks[DP_TILE];
     uint64_t mask = 0;
     for (uint32_t x = 0; x < width; x++) {
-        picked pick;
-        if (pick_surface(f, x, y, &pick)) {
-            mask |= (uint64_t)1 << x;
-            fill_pixel(f, x, y, &pick, pixel + x, &r);
-        } else {
-            r.wx[x] = r.wy[x] = r.wz[x] = r.gx[x] = r.gy[x] = r.gd[x] = 0;
-            fill_background(g, pixel + x, 1);
-        }
+        if (!pick_surface(f, x, y, &picks[x])) continue;
+        mask |= (uint64_t)1 << x;
+        prefetch_normals(f, &w->polygons[picks[x].polygon]);
+    }
+    const bool whole = mask == ~(uint64_t)0 >> (64 - width);
+    if (!whole) {
+        fill_background(g, pixel, width, !mask);
+        if (!mask) return 0;
+        memset(&r, 0, sizeof r);
+    }
+    for (uint64_t bits = mask; bits; bits &= bits - 1) {
+        const uint32_t x = (uint32_t)__builtin_ctzll(bits);
+        fill_pixel(f, x, y, &picks[x], pixel + x, &r);
     }
     finish_row(g, &r, pixel, width);
     return mask;
@@ -277,13 +322,13 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals)
     const uint32_t height = g->height - w->tile_y < DP_TILE ? g->height - w->tile_y : DP_TILE;
     const bool bare = w->frame->tile_pieces[w->tile].bare;
     const dp_view *const view = &w->frame->view;
-    const fill f = {.g = g, .w = w, .facets = normals == DP_NORMALS_FACET || !w->frame->polygons.normals.values,
+    const fill f = {.g = g, .w = w, .facets = normals == DP_NORMALS_FACET || !g->normals,
                     .step = (float)(1 / view->focal)};
     memset(mask, 0, DP_TILE * sizeof *mask);
-    if (bare && g->clean[w->tile]) return;
+    if (bare && g->clean[w->tile]) return; /* it still holds background */
     for (uint32_t y = 0; y < height; y++) {
-        if (bare) fill_background(g, (size_t)(w->tile_y + y) * g->stride + w->tile_x, width);
+        if (bare) fill_background(g, (size_t)(w->tile_y + y) * g->stride + w->tile_x, width, true);
         else mask[y] = fill_row(&f, y, width);
     }
-    g->clean[w->tile] = bare;
+    g->clean[w->tile] = bare; /* the margin beside it is not yet */
 }

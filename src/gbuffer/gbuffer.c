@@ -52,6 +52,7 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     const bool same = g->block && g->width == width && g->height == height && g->textured == textured &&
                       g->perspective == frame->view.perspective;
     take_camera(g, frame);
+    g->normals = NULL;
     if (same) return true;
     g->width = width, g->height = height, g->textured = textured;
     g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;
@@ -67,32 +68,37 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     return true;
 }
 
-static void repeat_sides(const dp_gbuffer *g, void *plane_at, size_t size, size_t y) {
-    char *const row = (char *)plane_at + y * g->stride * size;
-    for (size_t i = 1; i <= DP_GBUFFER_MARGIN; i++) {
-        memcpy(row - i * size, row, size);
-        memcpy(row + (g->width - 1 + i) * size, row + (g->width - 1) * size, size);
+/* Repeats the border of one tile in one plane: its rows to the left and right, then what these rows have become
+ * above and below. Tiles inside have none. */
+static void pad_tile(const dp_gbuffer *g, uint32_t tile, void *plane_at, size_t size) {
+    const uint32_t tx = tile % g->tiles_x, ty = tile / g->tiles_x;
+    const bool left = tx == 0, right = tx == g->tiles_x - 1, top = ty == 0, bottom = ty == g->tiles_y - 1;
+    const size_t x0 = (size_t)tx * DP_TILE, x1 = right ? g->width : x0 + DP_TILE;
+    const size_t y0 = (size_t)ty * DP_TILE, y1 = bottom ? g->height : y0 + DP_TILE;
+    for (size_t y = y0; y < y1; y++) {
+        char *const row = (char *)plane_at + y * g->stride * size;
+        for (size_t i = 1; left && i <= DP_GBUFFER_MARGIN; i++) memcpy(row - i * size, row, size);
+        for (size_t i = 0; right && i < DP_GBUFFER_MARGIN; i++) memcpy(row + (x1 + i) * size, row + (x1 - 1) * size, size);
     }
-}
-
-static void pad_plane(const dp_gbuffer *g, void *plane_at, size_t size) {
-    for (size_t y = 0; y < g->height; y++) repeat_sides(g, plane_at, size, y);
-    char *const first = (char *)plane_at - DP_GBUFFER_MARGIN * size;
-    char *const last = first + (g->height - 1) * g->stride * size;
-    const size_t row = ((size_t)g->width + 2 * DP_GBUFFER_MARGIN) * size;
+    char *const first = (char *)plane_at + y0 * g->stride * size + x0 * size - (left ? DP_GBUFFER_MARGIN * size : 0);
+    char *const last = first + (y1 - 1 - y0) * g->stride * size;
+    const size_t row = (x1 - x0 + (left ? DP_GBUFFER_MARGIN : 0) + (right ? DP_GBUFFER_MARGIN : 0)) * size;
     for (size_t i = 1; i <= DP_GBUFFER_MARGIN; i++) {
-        memcpy(first - i * g->stride * size, first, row);
-        memcpy(last + i * g->stride * size, last, row);
+        if (top) memcpy(first - i * g->stride * size, first, row);
+        if (bottom) memcpy(last + i * g->stride * size, last, row);
     }
 }
 
 void dp_gbuffer_pad(dp_gbuffer *g) {
-    pad_plane(g, g->nx, sizeof(float));
-    pad_plane(g, g->ny, sizeof(float));
-    pad_plane(g, g->nz, sizeof(float));
-    pad_plane(g, g->distance, sizeof(float));
-    pad_plane(g, g->depth, sizeof(float));
-    pad_plane(g, g->id, sizeof(uint16_t));
+    for (uint32_t tile = 0; tile < g->tiles_x * g->tiles_y; tile++) {
+        const uint32_t tx = tile % g->tiles_x, ty = tile / g->tiles_x;
+        const bool inside = tx > 0 && ty > 0 && tx < g->tiles_x - 1 && ty < g->tiles_y - 1;
+        if (inside || g->clean[tile] == 2) continue;
+        float *const planes[] = {g->nx, g->ny, g->nz, g->distance, g->depth};
+        for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) pad_tile(g, tile, planes[i], sizeof(float));
+        pad_tile(g, tile, g->id, sizeof(uint16_t));
+        if (g->clean[tile]) g->clean[tile] = 2;
+    }
 }
 
 /* ------- the range of distances ------- */

@@ -3,6 +3,7 @@
 #ifndef DP_GBUFFER_GBUFFER_H
 #define DP_GBUFFER_GBUFFER_H
 
+#include "mesh/normals.h"
 #include "pipe/tile.h"
 
 /* Pixels around the picture that repeat its border, so that operators need not look where they are. */
@@ -30,7 +31,7 @@ typedef struct dp_gbuffer {
     uint32_t *polygon;     /* whose surface it is, where somebody asks: set by whoever keeps it, or NULL */
     uint8_t *share;        /* of the pixel's samples that are of this surface, 255 for all */
     uint64_t *mask;        /* [tile][DP_TILE]: pixels of a tile's row that hold a surface */
-    uint8_t *clean;        /* [tile] */
+    uint8_t *clean;        /* [tile] 1: no surface; 2: nor in the margin beside it */
 
     /* the camera, for operators: a pixel's ray is ((x - cx) / fx, (cy - y) / fy, -1) in camera space */
     bool perspective;
@@ -39,6 +40,8 @@ typedef struct dp_gbuffer {
     dp_vec3 eye;           /* world space */
     float near_z, far_z;   /* of the enhanced groups (as printed, 8 bits) */
     uint32_t tiles_x, tiles_y;
+
+    const dp_packed_normals *normals; /* of the frame's corners, borrowed; NULL: none */
 
     void *block;           /* all planes */
     size_t block_cap, mask_cap, clean_cap;

@@ -19,9 +19,7 @@ enum {
     CROWD = 512 /* polygons around a place beyond which creases are not looked for: quadratic */
 };
 
-void dp_normal_store_free(dp_normal_store *s, const dp_allocator *memory) {
-    dp_free(memory, s->values);
-    dp_free(memory, s->indices);
+static void free_scratch(dp_normal_store *s, const dp_allocator *memory) {
     dp_free(memory, s->facet);
     dp_free(memory, s->angle);
     dp_free(memory, s->place);
@@ -30,6 +28,18 @@ void dp_normal_store_free(dp_normal_store *s, const dp_allocator *memory) {
     dp_free(memory, s->owner);
     dp_free(memory, s->slots);
     dp_free(memory, s->extra);
+    s->facet = NULL, s->angle = NULL;
+    s->place = s->starts = s->around = s->owner = s->slots = s->extra = NULL;
+    s->facet_cap = s->angle_cap = s->place_cap = s->starts_cap = s->around_cap = s->owner_cap = 0;
+    s->slots_cap = s->extra_cap = 0;
+}
+
+void dp_normal_store_free(dp_normal_store *s, const dp_allocator *memory) {
+    free_scratch(s, memory);
+    dp_free(memory, s->values);
+    dp_free(memory, s->indices);
+    dp_free(memory, s->packed.corner);
+    dp_free(memory, s->packed.vertex);
     *s = (dp_normal_store){0};
 }
 
@@ -322,10 +332,105 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
     dp_free(memory, j.hashes);
     if (key != store->key) {
         store->key = 0;
-        if (!compute(&j, threads, memory)) return false;
+        const bool made = compute(&j, threads, memory);
+        free_scratch(store, memory); /* many times what is kept */
+        if (!made) return false;
         store->key = key;
     }
     *out = (dp_attribute){.values = store->values[0], .stride = sizeof *store->values, .count = store->count,
                           .indices = store->indices};
+    return true;
+}
+
+/* ------- packing ------- */
+
+static void pack_corners(void *arg, uint32_t index, uint32_t worker) {
+    const job *const j = arg;
+    const dp_polygons *const p = j->polygons;
+    (void)worker;
+    for (size_t c = (size_t)index * BLOCK; c < block_end(index, j->corners); c++) {
+        const uint32_t i = dp_attribute_number(&p->normals, c, dp_corner_vertex(p, (uint32_t)c));
+        int16_t *const to = j->store->packed.corner[c];
+        to[0] = to[1] = to[2] = 0;
+        if (i == UINT32_MAX) continue;
+        const float *const n = dp_attribute_value(&p->normals, i);
+        const double length = dp_length(dp_v3f(n));
+        if (!(length > 0 && length < INFINITY)) continue;
+        for (int k = 0; k < 3; k++) to[k] = (int16_t)lrint(n[k] / length * 32767);
+    }
+}
+
+/* What all corners of a vertex agree on. */
+static void pack_vertices(const job *j) {
+    enum { SHARED, DIFFER, UNKNOWN };
+    const dp_polygons *const p = j->polygons;
+    int16_t(*const vertex)[4] = j->store->packed.vertex;
+    for (uint32_t v = 0; v < p->vertex_count; v++) vertex[v][3] = UNKNOWN;
+    for (size_t c = 0; c < j->corners; c++) {
+        const uint32_t v = dp_corner_vertex(p, (uint32_t)c);
+        const int16_t *const n = j->store->packed.corner[c];
+        if (v >= p->vertex_count || vertex[v][3] == DIFFER) continue;
+        if (vertex[v][3] == UNKNOWN) memcpy(vertex[v], n, 3 * sizeof *n), vertex[v][3] = SHARED;
+        else if (memcmp(vertex[v], n, 3 * sizeof *n)) vertex[v][3] = DIFFER;
+    }
+}
+
+static void hash_values(void *arg, uint32_t index, uint32_t worker) {
+    const job *const j = arg;
+    const dp_attribute *const a = &j->polygons->normals;
+    const size_t first = (size_t)index * BLOCK, last = block_end(index, a->count);
+    uint64_t h = index;
+    (void)worker;
+    for (size_t i = first; i < last; i++) {
+        uint32_t bits[3];
+        memcpy(bits, dp_attribute_value(a, (uint32_t)i), sizeof bits);
+        h = mix(mix(h, bits[0] | (uint64_t)bits[1] << 32), bits[2]);
+    }
+    j->hashes[index] = h;
+}
+
+static void hash_indices(void *arg, uint32_t index, uint32_t worker) {
+    const job *const j = arg;
+    const dp_attribute *const a = &j->polygons->normals;
+    const size_t first = (size_t)index * BLOCK, last = block_end(index, j->corners);
+    (void)worker;
+    j->hashes[index] = hash_words(index, (a->indices ? a->indices : j->polygons->corners) + first, last - first);
+}
+
+/* Of normals that a model brought. */
+static uint64_t make_value_key(const job *j, dp_threads *threads) {
+    const dp_attribute *const a = &j->polygons->normals;
+    uint64_t h = mix(mix(a->count, j->corners), 77);
+    dp_parallel(threads, blocks(a->count), hash_values, (void *)(uintptr_t)j);
+    for (uint32_t i = 0; i < blocks(a->count); i++) h = mix(h, j->hashes[i]);
+    if (a->indices || j->polygons->corners) {
+        dp_parallel(threads, blocks(j->corners), hash_indices, (void *)(uintptr_t)j);
+        for (uint32_t i = 0; i < blocks(j->corners); i++) h = mix(h, j->hashes[i]);
+    }
+    return h ? h : 1;
+}
+
+bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_threads *threads,
+                     const dp_allocator *memory) {
+    const dp_attribute *const a = &polygons->normals;
+    if (!polygons->count) return true;
+    job j = {.store = store, .polygons = polygons,
+             .corners = polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count};
+    uint64_t key = store->key; /* of those that were made */
+    if (store->count == 0 || a->values != store->values[0]) {
+        j.hashes = dp_alloc_array(memory, blocks(j.corners > a->count ? j.corners : a->count), sizeof *j.hashes);
+        if (!j.hashes) return false;
+        key = make_value_key(&j, threads);
+        dp_free(memory, j.hashes);
+    }
+    if (key == store->packed_key) return true;
+    store->packed_key = 0;
+    if (!dp_reserve(memory, &store->packed.corner, &store->packed_corner_cap, j.corners, sizeof *store->packed.corner) ||
+        !dp_reserve(memory, &store->packed.vertex, &store->packed_vertex_cap, polygons->vertex_count,
+                    sizeof *store->packed.vertex))
+        return false;
+    dp_parallel(threads, blocks(j.corners), pack_corners, &j);
+    pack_vertices(&j);
+    store->packed_key = key;
     return true;
 }

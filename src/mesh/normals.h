@@ -5,14 +5,24 @@
 #include "base/threads.h"
 #include "mesh/polygons.h"
 
+/* Unit normals times 32767, 0: none. Nearly all vertices have one for all their corners, next to which those of
+ * the other vertices around a polygon lie: few cache lines. */
+typedef struct dp_packed_normals {
+    int16_t (*vertex)[4]; /* per vertex: x, y, z, and 1 where its corners differ */
+    int16_t (*corner)[3]; /* per corner */
+} dp_packed_normals;
+
 /* What dp_normals_make keeps for the next frame. Zero is empty. */
 typedef struct dp_normal_store {
     float (*values)[3];
     uint32_t *indices; /* per corner */
     size_t values_cap, indices_cap, count;
     uint64_t key;      /* of the polygons and the angle that these normals belong to; 0: none */
+    dp_packed_normals packed; /* dp_normals_pack */
+    size_t packed_corner_cap, packed_vertex_cap;
+    uint64_t packed_key;
 
-    /* scratch, kept too */
+    /* scratch while normals are made */
     float (*facet)[3]; /* per polygon, unit; 0 without area */
     float *angle;      /* per corner: its weight, radians */
     uint32_t *place;   /* per vertex: the first vertex at its position */
@@ -35,5 +45,10 @@ void dp_normal_store_free(dp_normal_store *store, const dp_allocator *memory);
  * *out is borrowed from the store. False when memory is out. */
 bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, dp_threads *threads,
                      const dp_allocator *memory, dp_attribute *out);
+
+/* Fills store->packed with the polygons' normals (polygons->normals, made or the model's, of any length). Nothing is done when nothing has changed since the last call.
+ * False when memory is out. */
+bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_threads *threads,
+                     const dp_allocator *memory);
 
 #endif

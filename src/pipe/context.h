@@ -26,6 +26,12 @@ struct dp_context {
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
     dp_mark_store marks;
+    struct {
+        dp_normal_store normals; /* of the reflected scene */
+        uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
+        float *distance;         /* the same, INFINITY: paper */
+        size_t rgba_cap, distance_cap;
+    } mirror;
     dp_bin_worker *bin_workers;   /* [workers] */
     dp_tile_worker *tile_workers; /* [workers] */
     dp_ink_worker *ink_workers;   /* [workers] */
@@ -42,6 +48,12 @@ struct dp_context {
 dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag);
+
+enum { DP_PICTURE_MOST = 32768 /* px, either side */ };
+
+/* dp_draw with a mirror; the style is resolved (shade/mirror.c). */
+dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera, const dp_style *style,
+                           const dp_target *target, dp_diag *diag);
 
 void dp_recording_free(dp_context *context);
 

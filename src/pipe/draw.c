@@ -19,8 +19,6 @@
 #include <string.h>
 #include <time.h>
 
-enum { MAX_SIZE = 32768 };
-
 /* Tiles are widened by this, so that an edge along a tile's border meets both its polygons (px). */
 static const float MARGIN = 0.75f;
 
@@ -83,6 +81,9 @@ void dp_context_destroy(dp_context *c) {
     dp_normal_store_free(&c->normals, &memory);
     dp_shade_store_free(&c->shade, &memory);
     dp_mark_store_free(&c->marks, &memory);
+    dp_normal_store_free(&c->mirror.normals, &memory);
+    dp_free(&memory, c->mirror.rgba);
+    dp_free(&memory, c->mirror.distance);
     dp_bins_free(&c->frame.polygon_bins, &memory);
     dp_bins_free(&c->frame.stroke_bins, &memory);
     dp_free(&memory, c->frame.vertices);
@@ -111,9 +112,9 @@ static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *
     *out = *target;
     if (!out->samples) out->samples = 4;
     if (!out->rgba_stride) out->rgba_stride = 4 * (size_t)out->width;
-    if (out->width < 1 || out->height < 1 || out->width > MAX_SIZE || out->height > MAX_SIZE)
+    if (out->width < 1 || out->height < 1 || out->width > DP_PICTURE_MOST || out->height > DP_PICTURE_MOST)
         return dp_fail(diag, DP_ERR_ARGUMENT, "the picture is %u x %u px; each side must be 1 to %d",
-                       out->width, out->height, MAX_SIZE);
+                       out->width, out->height, DP_PICTURE_MOST);
     if (out->samples != 1 && out->samples != 4 && out->samples != 8 && out->samples != 16)
         return dp_fail(diag, DP_ERR_ARGUMENT, "%u samples per pixel; it must be 1, 4, 8 or 16", out->samples);
     if (out->rgba_stride < 4 * (size_t)out->width)
@@ -310,10 +311,14 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     if (result) return result;
     if (!dp_shade_vertices(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.bends.ms;
-    if (dp_shade_needs_normals(f) &&
+    if (dp_shade_needs_normals(&c->shade) &&
         !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, c->threads, &c->memory,
                          &f->polygons.normals))
         return out_of_memory(diag);
+    if (c->shade.active && f->polygons.normals.values) {
+        if (!dp_normals_pack(&c->normals, &f->polygons, c->threads, &c->memory)) return out_of_memory(diag);
+        c->shade.gbuffer.normals = &c->normals.packed;
+    }
     lap(&c->stats, DP_STAGE_GATHER, since);
     if (streams) return stream_lines(c, source, stream, since, diag);
     if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
@@ -416,6 +421,7 @@ dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camer
     dp_style resolved;
     const dp_result result = dp_style_resolve(style, &resolved, diag);
     if (result) return result;
+    if (resolved.mirror.size > 0) return dp_draw_mirrored(context, source, camera, &resolved, target, diag);
     return dp_draw_groups(context, source, camera, &resolved, 1, target, diag);
 }
 

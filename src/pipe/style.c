@@ -120,6 +120,19 @@ static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
     return result;
 }
 
+static dp_result resolve_mirror(dp_mirror *m, dp_diag *diag) {
+    const double length = sqrt((double)m->normal[0] * m->normal[0] + (double)m->normal[1] * m->normal[1] + (double)m->normal[2] * m->normal[2]);
+    if (m->size == 0) return DP_OK;
+    if (!(m->size > 0) || !isfinite(m->size) || !isfinite(m->offset) || !isfinite(m->center[0] + m->center[1] + m->center[2]))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's size must be above zero, and its place finite");
+    if (!(length > 1e-18) || !isfinite(length))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's normal is too short, too long or not finite");
+    for (int k = 0; k < 3; k++) m->normal[k] = (float)(m->normal[k] / length);
+    m->tint = color_or(m->tint, DP_RGB(255, 255, 255));
+    if (!(m->fade >= 0) || !isfinite(m->fade)) return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's fade must be 0 or above");
+    return resolve_number(&m->tint_share, 0, 0, 1, "share of the mirror's tint", diag);
+}
+
 static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
     if ((unsigned)m->detector > DP_EDGE_MAP_C1) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge detector is not one of its values");
     if (!m->radius) m->radius = 1;
@@ -156,7 +169,10 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");
-    if ((result = resolve_shade(&full.shade, diag)) || (result = resolve_edge_map(&full.edge_map, diag))) return result;
+    if ((result = resolve_shade(&full.shade, diag)) || (result = resolve_edge_map(&full.edge_map, diag)) ||
+        (result = resolve_mirror(&full.mirror, diag)))
+        return result;
+    if (full.shade.shading == DP_SHADING_PAPER) full.surface = DP_COLOR_NONE;
     full.paper = color_or(full.paper, DP_RGB(255, 255, 255));
     full.surface = color_or(full.surface, DP_RGB(255, 255, 255));
     *resolved = full;

@@ -11,6 +11,10 @@ static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_
     const size_t at = (size_t)y * g->stride + x;
     const float z = g->distance[at], near = STEP * (g->perspective ? z : 1) / g->fy;
     const uint8_t *const centre = s->color + 4 * ((size_t)y * g->width + x);
+    if (g->id[at] == 1 + DP_MIRROR_GROUP) { /* a picture, and smooth already */
+        for (int k = 0; k < 4; k++) out[k] = centre[k];
+        return;
+    }
     uint32_t sum[3] = {0, 0, 0}, total = 0;
     for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) {

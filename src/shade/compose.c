@@ -8,6 +8,8 @@
 #include "gbuffer/edge_map.h"
 #include "shade/passes.h"
 
+#include <string.h>
+
 /* c + (edge - c) * strength, for all four channels; an edge's own alpha weakens it. */
 static void blend(uint8_t c[4], dp_color edge, float strength) {
     const float s = strength * (float)(edge & 0xff) / 255, under = (float)c[3] / 255, alpha = s + under * (1 - s);
@@ -74,27 +76,38 @@ static void mix_colors(const uint8_t a[4], const uint8_t b[4], uint32_t share, u
     out[3] = (uint8_t)((sum + 127) / 255);
 }
 
+/* All of the run as it is, then those pixels again that are shared. */
+static void resolve_run(const dp_shade_store *s, const uint8_t background[4], uint32_t x0, uint32_t x1, uint32_t y) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const dp_target *const target = &s->frame->target;
+    const uint8_t *const own = s->shown + 4 * (size_t)y * g->width;
+    uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride;
+    const uint8_t *const share = g->share + (size_t)y * g->stride;
+    memcpy(out + 4 * (size_t)x0, own + 4 * (size_t)x0, 4 * (size_t)(x1 - x0));
+    for (uint32_t x = x0; x < x1; x++) {
+        if (share[x] == 255) continue;
+        const size_t at = (size_t)y * g->stride + x;
+        const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
+        mix_colors(own + 4 * (size_t)x, on_paper ? background : other_color(s, s->shown, x, y, g->other[at]), share[x],
+                   out + 4 * (size_t)x);
+    }
+}
+
 void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
     const dp_gbuffer *const g = &s->gbuffer;
     const dp_target *const target = &s->frame->target;
     const dp_color paper = s->frame->styles[0].paper;
     const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16), (uint8_t)(paper >> 8), (uint8_t)paper};
-    const uint8_t *const colors = s->shown;
     const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;
     if (!target->rgba) return;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
         const uint32_t y = first + row;
-        for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits; bits &= bits - 1) {
-            const uint32_t x = tile_x + (uint32_t)__builtin_ctzll(bits);
-            const size_t at = (size_t)y * g->stride + x;
-            const uint8_t *const own = colors + 4 * ((size_t)y * g->width + x);
-            uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x;
-            if (g->share[at] == 255) {
-                for (int k = 0; k < 4; k++) out[k] = own[k];
-                continue;
-            }
-            const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
-            mix_colors(own, on_paper ? background : other_color(s, colors, x, y, g->other[at]), g->share[at], out);
+        for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits;) { /* runs of covered pixels */
+            const uint32_t from = (uint32_t)__builtin_ctzll(bits);
+            const uint64_t gaps = ~bits & ~(((uint64_t)1 << from) - 1);
+            const uint32_t to = gaps ? (uint32_t)__builtin_ctzll(gaps) : 64;
+            bits = to == 64 ? 0 : bits & ~(((uint64_t)1 << to) - 1);
+            resolve_run(s, background, tile_x + from, tile_x + to, y);
         }
     }
 }

@@ -40,19 +40,21 @@ static bool is_shaded(const dp_frame *frame) {
     return shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER;
 }
 
-static bool wants_colors(const dp_frame *frame) {
+static bool wants_colors(const dp_frame *frame, bool mirror) {
     const dp_edge_map *const map = &frame->styles[0].edge_map;
-    return frame->target.rgba && (is_shaded(frame) || (map->detector && !map->hidden));
+    return frame->target.rgba && (is_shaded(frame) || mirror || (map->detector && !map->hidden));
 }
 
-static bool is_active(const dp_frame *frame) {
-    const dp_target *const t = &frame->target;
-    return wants_colors(frame) || t->eye_normal || t->distance || t->id || t->edge_map;
+static bool wants_planes(const dp_target *t) { return t->eye_normal || t->distance || t->id; }
+
+static bool is_active(const dp_frame *frame, bool mirror) {
+    return wants_colors(frame, mirror) || wants_planes(&frame->target) || frame->target.edge_map;
 }
 
-bool dp_shade_needs_normals(const dp_frame *frame) {
+bool dp_shade_needs_normals(const dp_shade_store *s) {
+    const dp_frame *const frame = s->frame;
     const dp_normals normals = frame->styles[0].shade.normals;
-    return is_active(frame) && (normals == DP_NORMALS_SMOOTH || (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
+    return s->active && (normals == DP_NORMALS_SMOOTH || (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
 }
 
 static bool make_texture(uint8_t **values, void (*make)(uint8_t *), const dp_allocator *memory) {
@@ -136,8 +138,8 @@ static void set_up(dp_shade_store *s, const dp_frame *frame) {
 
 bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
     s->frame = frame;
-    s->active = is_active(frame);
-    s->colored = wants_colors(frame);
+    s->active = is_active(frame, s->mirrored);
+    s->colored = wants_colors(frame, s->mirrored);
     if (!s->active) return true;
     const size_t pixels = (size_t)frame->target.width * frame->target.height;
     set_up(s, frame);
@@ -161,34 +163,48 @@ static dp_color surface_of(const dp_frame *frame, uint16_t id) {
     return c & 0xff ? c : frame->styles[0].paper;
 }
 
-static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1, dp_shade_run *run) {
-    const dp_gbuffer *const g = &s->gbuffer;
-    const size_t at = (size_t)y * g->stride + x0;
-    *run = (dp_shade_run){.nx = g->nx + at, .ny = g->ny + at, .nz = g->nz + at, .distance = g->distance + at,
-                          .u = g->u ? g->u + at : NULL, .v = g->v ? g->v + at : NULL, .id = g->id + at,
-                          .stride = g->stride, .x = x0, .y = y, .n = x1 - x0};
-    dp_color c = 0;
-    float rgba[4] = {0, 0, 0, 0};
-    for (uint32_t i = 0, last = UINT32_MAX; i < run->n; i++) {
-        if (!run->id[i]) continue;
-        if (run->id[i] != last) {
-            c = surface_of(s->frame, run->id[i]);
-            for (int k = 0; k < 4; k++) rgba[k] = (float)(c >> (24 - 8 * k) & 0xff) / 255;
-            last = run->id[i];
-        }
-        for (int k = 0; k < 3; k++) run->color[k][i] = rgba[k];
+static void fill_color(dp_shade_run *run, uint32_t from, uint32_t to, dp_color c) {
+    float rgba[4];
+    for (int k = 0; k < 4; k++) rgba[k] = (float)(c >> (24 - 8 * k) & 0xff) / 255;
+    for (uint32_t i = from; i < to; i++) {
+        run->color[0][i] = rgba[0], run->color[1][i] = rgba[1], run->color[2][i] = rgba[2];
         run->alpha[i] = rgba[3];
     }
 }
 
-static uint8_t to_byte(float v) { return (uint8_t)(dp_minf(dp_maxf(v, 0), 1) * 255 + 0.5f); }
-
-static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
-    uint8_t *out = s->color + 4 * ((size_t)run->y * s->gbuffer.width + run->x);
-    for (uint32_t i = 0; i < run->n; i++, out += 4) {
-        for (int k = 0; k < 3; k++) out[k] = to_byte(run->color[k][i]);
-        out[3] = to_byte(run->alpha[i]);
+static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1, dp_shade_run *run) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const size_t at = (size_t)y * g->stride + x0;
+    run->nx = g->nx + at, run->ny = g->ny + at, run->nz = g->nz + at, run->distance = g->distance + at;
+    run->u = g->u ? g->u + at : NULL, run->v = g->v ? g->v + at : NULL, run->id = g->id + at;
+    run->stride = g->stride, run->x = x0, run->y = y, run->n = x1 - x0;
+    if (s->frame->style_count == 1) {
+        fill_color(run, 0, run->n, surface_of(s->frame, 1));
+        return;
     }
+    for (uint32_t i = 0, end; i < run->n; i = end) {
+        for (end = i + 1; end < run->n && run->id[end] == run->id[i]; end++) {}
+        fill_color(run, i, end, run->id[i] ? surface_of(s->frame, run->id[i]) : 0);
+    }
+}
+
+static inline uint32_t to_byte(float v) { return (uint32_t)(int32_t)(dp_minf(dp_maxf(v, 0), 1) * 255 + 0.5f); }
+
+/* Pixels as words, which compilers make vectors of; the first byte is red. */
+static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
+    enum { BIG = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__, R = BIG ? 24 : 0, G = BIG ? 16 : 8, B = BIG ? 8 : 16, A = BIG ? 0 : 24 };
+    const float *restrict const red = run->color[0], *restrict const green = run->color[1], *restrict const blue = run->color[2];
+    uint32_t words[DP_TILE];
+    for (uint32_t i = 0; i < run->n; i++)
+        words[i] = to_byte(red[i]) << R | to_byte(green[i]) << G | to_byte(blue[i]) << B | to_byte(run->alpha[i]) << A;
+    memcpy(s->color + 4 * ((size_t)run->y * s->gbuffer.width + run->x), words, 4 * (size_t)run->n);
+}
+
+/* The mirror shows the picture of the reflected scene: its pixels are its stencil. */
+static void put_mirror(const dp_shade_store *s, const dp_shade_run *run) {
+    const size_t at = (size_t)run->y * s->gbuffer.width + run->x;
+    for (uint32_t i = 0; i < run->n; i++)
+        if (run->id[i] == 1 + DP_MIRROR_GROUP) memcpy(s->color + 4 * (at + i), s->mirrored + 4 * (at + i), 4);
 }
 
 static void shade_tile(dp_shade_store *s, uint32_t tile) {
@@ -204,6 +220,7 @@ static void shade_tile(dp_shade_store *s, uint32_t tile) {
         begin_run(s, first + row, x0, x1, &run);
         if (operators[s->setup.shade.shading]) operators[s->setup.shade.shading](&s->setup, &run);
         end_run(s, &run);
+        if (s->mirrored) put_mirror(s, &run);
     }
 }
 
@@ -269,7 +286,7 @@ void dp_shade_pass(dp_shade_store *s, int pass, uint32_t tile) {
     case EDGES: dp_edges_tile(s, tile); break;
     default:
         if (s->colored) dp_resolve_tile(s, tile);
-        put_outputs(s, tile);
+        if (wants_planes(&s->frame->target)) put_outputs(s, tile);
         break;
     }
 }

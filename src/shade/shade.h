@@ -70,6 +70,7 @@ typedef struct dp_shade_store {
     bool colored;             /* … and colours */
     dp_shading_setup setup;
     const dp_frame *frame;
+    const uint8_t *mirrored;  /* [height][width][4] what pixels of DP_MIRROR_GROUP show, borrowed; NULL: no mirror */
 } dp_shade_store;
 
 void dp_shade_store_free(dp_shade_store *store, const dp_allocator *memory);
@@ -78,7 +79,7 @@ void dp_shade_store_free(dp_shade_store *store, const dp_allocator *memory);
 bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);
 
 /* Do this frame's normals have to be made? */
-bool dp_shade_needs_normals(const dp_frame *frame);
+bool dp_shade_needs_normals(const dp_shade_store *store);
 
 /* Once polygons are gathered: the pencil's vertex stage. False when memory is out. */
 bool dp_shade_vertices(dp_shade_store *store);

@@ -6,7 +6,7 @@
  * far apart and every later one falls between; each is broken into strokes of uneven length that
  * waver a little. The second direction joins in for dark tones, the third for the darkest. Across a stroke the
  * priority falls off: it begins thin and grows as it gets darker.
- * Dots: the cosine screen; how high a texel lies in it is how early it is inked. */
+ * Dots: the cosine screen, turned by 22.6 degrees; how high a texel lies in it is how early it is inked. */
 #include "shade/shade.h"
 
 #include <string.h>
@@ -75,11 +75,11 @@ void dp_make_hatching(uint8_t *values) {
 }
 
 void dp_make_halftone(uint8_t *values) {
-    enum { DOTS = 32 }; /* per side */
+    enum { A = 24, B = 10 }; /* waves per side, so that the lattice of dots, 26 per side, wraps around */
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
-            const double step = 2 * 3.14159265358979323846 * DOTS / SIZE;
-            const double height = 0.5 + 0.25 * (cos(step * x) + cos(step * y));
+            const double step = 2 * 3.14159265358979323846 / SIZE;
+            const double height = 0.5 + 0.25 * (cos(step * (A * x + B * y)) + cos(step * (A * y - B * x)));
             values[y * SIZE + x] = (uint8_t)(4 + 247 * height + 0.5);
         }
 }

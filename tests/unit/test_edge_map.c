@@ -98,14 +98,14 @@ static void slopes_are_no_steps(void **state) {
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) z[y][x] = x > 2 ? -0.5f : 0;
     dp_diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
-    assert_near(i_z[0], 0.75 * 0.75 * 0.75 * 0.75);
+    assert_near(i_z[0], 0.875 * 0.875 * 0.875 * 0.875); /* 3/2 of a half, less 1/2: a quarter */
     dp_diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &m, 1, 1, i_n, i_z); /* the further one has not */
     assert_near(i_z[0], 1);
     const dp_depth_measure both = {.scale = 1, .both_sides = true};
     dp_diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &both, 1, 1, i_n, i_z);
-    assert_near(i_z[0], 0.75 * 0.75 * 0.75 * 0.75);
-    /* half a step: normals (here 0: at right angles) count half */
-    assert_near(i_n[0], 1 - 0.5 * (0.5 + 0.5));
+    assert_near(i_z[0], 0.875 * 0.875 * 0.875 * 0.875); /* 3/2 of a half, less 1/2: a quarter */
+    /* a quarter of a step: normals (here 0: at right angles) count three quarters */
+    assert_near(i_n[0], 1 - 0.5 * (0.75 + 0.75));
     float slope[1] = {0}, sum[1] = {0};
     for (int pass = 0; pass < 3; pass++) dp_c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
     assert_near(sum[0], 0.5 * 4 / 8);

@@ -1,0 +1,358 @@
+/* shade: operators by hand, composition in the paper's order, shared pixels, the mirror, bad input. */
+#include "scene.h"
+#include "shade/shade.h"
+
+#include <drypoint/io.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* ------- operators ------- */
+
+enum { N = 3 };
+
+typedef struct bench {
+    dp_gbuffer g;
+    dp_shading_setup setup;
+    dp_shade_run run;
+    float nx[N], ny[N], nz[N], distance[N];
+} bench;
+
+/* Three pixels: towards the light (the eye), across, away; the surface is (0.8, 0.4, 0.2). */
+static void begin(bench *b) {
+    memset(b, 0, sizeof *b);
+    b->setup.g = &b->g;
+    b->g.fx = b->g.fy = 100;
+    b->setup.shade.light[2] = 1;
+    b->run = (dp_shade_run){.nx = b->nx, .ny = b->ny, .nz = b->nz, .distance = b->distance, .n = N};
+    b->nz[0] = 1, b->nx[1] = 1, b->nz[2] = -1;
+    for (int i = 0; i < N; i++) {
+        static const float surface[3] = {0.8f, 0.4f, 0.2f};
+        for (int k = 0; k < 3; k++) b->run.color[k][i] = surface[k];
+        b->distance[i] = 1;
+    }
+}
+
+static void assert_color(const bench *b, int i, double red, double green, double blue) {
+    const double expected[3] = {red, green, blue};
+    for (int k = 0; k < 3; k++)
+        if (fabs((double)b->run.color[k][i] - expected[k]) > 1e-6)
+            fail_msg("pixel %d, channel %d: %g is not %g", i, k, (double)b->run.color[k][i], expected[k]);
+}
+
+static void lambert_is_the_cosine(void **state) {
+    (void)state;
+    bench b;
+    begin(&b);
+    dp_shade_lambert(&b.setup, &b.run);
+    assert_color(&b, 0, 0.8, 0.4, 0.2);
+    assert_color(&b, 1, 0.8 * 0.3, 0.4 * 0.3, 0.2 * 0.3);
+    assert_color(&b, 2, 0.8 * 0.3, 0.4 * 0.3, 0.2 * 0.3);
+}
+
+/* cool = (0, 0, b) + alpha k_d, warm = (y, y, 0) + beta k_d, half way where N·L is 0 */
+static void gooch_is_cool_to_warm(void **state) {
+    (void)state;
+    bench b;
+    begin(&b);
+    b.setup.shade.gooch_blue = 0.4f, b.setup.shade.gooch_yellow = 0.3f;
+    b.setup.shade.gooch_alpha = 0.25f, b.setup.shade.gooch_beta = 0.5f;
+    dp_shade_gooch(&b.setup, &b.run);
+    assert_color(&b, 0, 0.3 + 0.4, 0.3 + 0.2, 0.1);
+    assert_color(&b, 2, 0.2, 0.1, 0.4 + 0.05);
+    assert_color(&b, 1, (0.7 + 0.2) / 2, (0.5 + 0.1) / 2, (0.1 + 0.45) / 2);
+    begin(&b);
+    b.setup.shade.gooch_blue = 0.4f, b.setup.shade.gooch_yellow = 0.3f;
+    b.setup.shade.gooch_alpha = 0.25f, b.setup.shade.gooch_beta = 0.5f;
+    b.setup.shade.gooch_plain = true;
+    dp_shade_gooch(&b.setup, &b.run);
+    assert_color(&b, 0, 0.3 + 0.25, 0.3 + 0.25, 0.25);
+}
+
+static void highlights_lie_where_the_light_is_reflected(void **state) {
+    (void)state;
+    bench b;
+    begin(&b);
+    b.setup.shade.highlight = 0.5f;
+    dp_shade_highlight(&b.setup, &b.run);
+    assert_color(&b, 0, 0.9, 0.7, 0.6);
+    assert_color(&b, 1, 0.8, 0.4, 0.2);
+    assert_color(&b, 2, 0.8, 0.4, 0.2);
+}
+
+static void toon_looks_up_the_nearest_shade(void **state) {
+    (void)state;
+    static const uint8_t shades[4][4] = {{0, 0, 0, 255}, {51, 51, 51, 255}, {102, 102, 102, 255}, {255, 255, 255, 255}};
+    bench b;
+    begin(&b);
+    b.setup.shades = shades[0], b.setup.shade_count = 4;
+    dp_shade_toon(&b.setup, &b.run);
+    assert_color(&b, 0, 0.8, 0.4, 0.2);
+    assert_color(&b, 1, 0.8 * 0.4, 0.4 * 0.4, 0.2 * 0.4); /* a half begins the third quarter */
+    assert_color(&b, 2, 0, 0, 0);
+}
+
+/* ink = clamp(1/2 + 5 (priority - tone)) */
+static void hatching_is_a_smooth_threshold(void **state) {
+    (void)state;
+    static const uint8_t levels[4] = {0, 100, 200, 255};
+    for (int level = 0; level < 4; level++) {
+        const uint8_t values[4] = {levels[level], levels[level], levels[level], levels[level]};
+        bench b;
+        begin(&b);
+        b.setup.shade.stroke_scale = 1;
+        b.setup.strokes = (dp_strokes_texture){values, 2, 2};
+        b.setup.ink[0] = 0.1f;
+        dp_shade_hatch(&b.setup, &b.run);
+        const double tones[N] = {1.1776, 0.1976, 0.08}, priority = levels[level] / 255.0;
+        for (int i = 0; i < N; i++) {
+            const double ink = priority > 0 ? fmin(fmax(0.5 + 5 * (priority - tones[i]), 0), 1) : 0;
+            assert_color(&b, i, 0.8 + (0.1 - 0.8) * ink, 0.4 - 0.4 * ink, 0.2 - 0.2 * ink);
+        }
+    }
+}
+
+static double mean_of(const uint8_t *values, int threshold) {
+    int inked = 0;
+    for (int i = 0; i < DP_STROKES_SIZE * DP_STROKES_SIZE; i++) inked += values[i] > threshold;
+    return (double)inked / (DP_STROKES_SIZE * DP_STROKES_SIZE);
+}
+
+/* Built-in strokes: the same every time; the darker the tone the more ink, in small steps. */
+static void built_in_strokes_grow_with_darkness(void **state) {
+    (void)state;
+    static uint8_t values[2][DP_STROKES_SIZE * DP_STROKES_SIZE], again[DP_STROKES_SIZE * DP_STROKES_SIZE];
+    dp_make_hatching(values[0]);
+    dp_make_halftone(values[1]);
+    dp_make_hatching(again);
+    assert_memory_equal(values[0], again, sizeof again);
+    for (int t = 0; t < 2; t++) {
+        double before = 0;
+        for (int tone = 250; tone >= 0; tone -= 10) {
+            const double ink = mean_of(values[t], tone);
+            if (!(ink >= before && ink - before < 0.15)) fail_msg("texture %d, tone %d: %g after %g", t, tone, ink, before);
+            before = ink;
+        }
+        assert_true(before > 0.6);
+    }
+}
+
+/* ------- pictures ------- */
+
+enum { W = SCENE_WIDTH, H = SCENE_HEIGHT };
+typedef uint8_t pixels[H][W][4];
+
+static dp_result draw_batch(const dp_batch *batch, const dp_camera *camera, const dp_style *style, pixels out,
+                            uint16_t *ids, dp_diag *diag) {
+    dp_context *context = NULL;
+    dp_source *source = NULL;
+    assert_int_equal(dp_context_create(NULL, &context, NULL), DP_OK);
+    assert_int_equal(dp_source_from_arrays(batch, NULL, &source, NULL), DP_OK);
+    const dp_target target = {.width = W, .height = H, .rgba = out[0][0], .id = ids};
+    const dp_result result = dp_draw(context, source, camera, style, &target, diag);
+    dp_source_destroy(source);
+    dp_context_destroy(context);
+    return result;
+}
+
+/* Section 5: inner edges first, then profile edges over them, each in its own colour. */
+static void profile_edges_lie_over_inner_ones(void **state) {
+    (void)state;
+    static scene s;
+    static pixels p;
+    memset(&s, 0, sizeof s);
+    scene_roof(&s, 80, 30);
+    const dp_batch batch = scene_batch(&s);
+    const dp_camera camera = scene_flat_camera();
+    const dp_style style = {.lines = DP_NO_LINES, .surface = DP_RGB(10, 200, 30),
+                            .shade = {.normals = DP_NORMALS_FACET},
+                            .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL, .inner = DP_RGB(255, 0, 0), .profile = DP_RGB(0, 0, 255)}};
+    assert_int_equal(draw_batch(&batch, &camera, &style, p, NULL, NULL), DP_OK);
+    if (p[H / 2][W / 2][0] != 255 || p[H / 2][W / 2][2]) fail_msg("%d %d %d", p[H / 2][W / 2][0], p[H / 2][W / 2][1], p[H / 2][W / 2][2]);
+    int top = 0;
+    while (p[top][W / 2][2] == 255 && p[top][W / 2][0] == 255) top++; /* paper */
+    assert_true(p[top][W / 2][0] == 0 && p[top][W / 2][2] == 255);    /* the fold's end: profile over inner */
+    assert_true(p[H / 2][W / 2 + 8][1] == 200);
+}
+
+/* A pixel that two surfaces share has a colour between theirs, whichever it is mostly of. */
+static void shared_pixels_are_mixed(void **state) {
+    (void)state;
+    static scene s;
+    static pixels p;
+    memset(&s, 0, sizeof s);
+    const float wall[4][3] = {{-90, -50, -20}, {90, -50, -20}, {90, 50, -20}, {-90, 50, -20}};
+    const float tilted[4][3] = {{-40, -21.3f, 10}, {40.5f, -9, 10}, {40.5f, 21, 10}, {-40, 8.7f, 10}};
+    scene_polygon(&s, 4, wall);
+    scene_polygon(&s, 4, tilted);
+    dp_batch batch = scene_batch(&s);
+    static const float normals[8][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1, 0.2f}, {0, 1, 0.2f}, {0, 1, 0.2f}, {0, 1, 0.2f}};
+    batch.normals = (dp_attribute){.values = normals[0], .count = 8};
+    const dp_camera camera = scene_flat_camera();
+    const dp_style style = {.lines = DP_NO_LINES, .shade = {.shading = DP_SHADING_LAMBERT, .light = {0, 0, 1}}};
+    assert_int_equal(draw_batch(&batch, &camera, &style, p, NULL, NULL), DP_OK);
+    const int far = 255, near = p[H / 2][W / 2][0];
+    int mixed = 0;
+    assert_true(near < 130);
+    for (int x = W / 2 - 30; x < W / 2 + 30; x++) {
+        int between = 0;
+        for (int y = 1; y < H - 1; y++) {
+            const int c = p[y][x][0];
+            if (p[y][x][0] == 255) continue;
+            assert_true(c >= near - 1 && c <= far);
+            between += c > near + 4 && c < far - 4;
+        }
+        mixed += between;
+        assert_true(between <= 4);
+    }
+    assert_true(mixed > 40); /* about three of four columns, at both borders */
+}
+
+/* ------- the mirror ------- */
+
+/* A small scene before the plane x = -20. */
+static void make_rooms(scene *s, bool mirrored) {
+    const float box[2][3] = {{-10, -25, -10}, {25, 5, 20}};
+    memset(s, 0, sizeof *s);
+    scene_box(s, box[0], box[1]);
+    const float sheet[4][3] = {{30, -30, 25}, {60, -30, -20}, {60, 20, -20}, {30, 20, 25}};
+    scene_polygon(s, 4, sheet);
+    if (!mirrored) return;
+    for (size_t c = 0; c < s->corners; c++) s->positions[c][0] = -40 - s->positions[c][0];
+    for (size_t f = 0; f < s->polygons; f++) /* fronts stay fronts */
+        for (uint32_t i = s->firsts[f], k = s->firsts[f + 1] - 1; i < k; i++, k--) {
+            float swap[3];
+            memcpy(swap, s->positions[i], sizeof swap);
+            memcpy(s->positions[i], s->positions[k], sizeof swap);
+            memcpy(s->positions[k], swap, sizeof swap);
+        }
+}
+
+static void a_mirror_shows_the_mirrored_scene(void **state) {
+    (void)state;
+    static scene s, image;
+    static pixels seen, expected;
+    static uint16_t ids[H][W];
+    make_rooms(&s, false);
+    make_rooms(&image, true);
+    const dp_batch batch = scene_batch(&s), image_batch = scene_batch(&image);
+    const dp_camera camera = scene_camera(70, 20, 90, -15, -5, 0);
+    for (int shading = 0; shading < DP_SHADING_COUNT; shading++)
+        for (int edges = 0; edges < 2; edges++) {
+            if (shading == DP_SHADING_PENCIL) continue; /* strokes are not mirrored: a hand draws them again */
+            dp_style style = {.surface = DP_RGB(200, 150, 90),
+                              .lines = edges ? DP_NO_LINES : DP_ALL_LINES,
+                              .shade = {.shading = (dp_shading)shading, .light = {0, 0.6f, 0.8f}, .highlight = 0.4f},
+                              .edge_map = {.detector = edges ? DP_EDGE_MAP_DIAGONAL : DP_EDGE_MAP_OFF},
+                              .mirror = {.normal = {2, 0, 0}, .offset = -20, .center = {0, -5, 0}, .size = 300}};
+            assert_int_equal(draw_batch(&batch, &camera, &style, seen, ids[0], NULL), DP_OK);
+            style.mirror = (dp_mirror){0};
+            /* the light's image, in the camera's axes */
+            const double *v = camera.view;
+            const double world = v[1] * 0.6 + v[2] * 0.8; /* x of the light in world space */
+            for (int k = 0; k < 3; k++) style.shade.light[k] -= (float)(2 * world * v[k]);
+            assert_int_equal(draw_batch(&image_batch, &camera, &style, expected, NULL, NULL), DP_OK);
+            /* where a shade jumps, rounding may take one side in one picture and the other in the other */
+            const bool jumps = shading >= DP_SHADING_TOON;
+            int compared = 0, drawn = 0, off = 0;
+            for (int y = 3; y < H - 3; y++)
+                for (int x = 3; x < W - 3; x++) {
+                    bool inside = true; /* lines of what stands before the mirror reach into it */
+                    for (int i = -3; i <= 3; i++)
+                        for (int k = -3; k <= 3; k++) inside &= ids[y + i][x + k] == 1 + DP_MIRROR_GROUP;
+                    if (!inside) continue;
+                    compared++;
+                    drawn += expected[y][x][0] != 255;
+                    for (int k = 0; k < 4; k++)
+                        if (abs(seen[y][x][k] - expected[y][x][k]) > 1 && !(jumps && ++off <= 12))
+                            fail_msg("%s, edges %d, (%d, %d): %d instead of %d", dp_shading_name((dp_shading)shading), edges, x, y,
+                                     seen[y][x][k], expected[y][x][k]);
+                }
+            assert_true(compared > W * H / 8 && drawn > 50);
+        }
+}
+
+/* What stands behind the mirror is not in it, and what crosses it is cut. */
+static void mirrors_cut_what_they_cross(void **state) {
+    (void)state;
+    static scene s;
+    static pixels seen;
+    static uint16_t ids[H][W];
+    memset(&s, 0, sizeof s);
+    const float box[2][3] = {{-10, -10, -30}, {10, 10, 30}}, behind[2][3] = {{-40, -20, -80}, {40, 20, -60}};
+    scene_box(&s, box[0], box[1]);
+    scene_box(&s, behind[0], behind[1]);
+    const dp_batch batch = scene_batch(&s);
+    const dp_camera camera = scene_camera(60, 40, 120, 0, 0, 0);
+    const dp_style style = {.surface = DP_RGB(90, 90, 90), .lines = DP_NO_LINES,
+                            .mirror = {.normal = {0, 0, 1}, .size = 200, .tint = DP_RGB(0, 0, 255), .tint_share = 0.5f}};
+    assert_int_equal(draw_batch(&batch, &camera, &style, seen, ids[0], NULL), DP_OK);
+    int box_px = 0, image_px = 0, paper_px = 0;
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            box_px += ids[y][x] == 1;
+            image_px += ids[y][x] == 1 + DP_MIRROR_GROUP && seen[y][x][0] < 80;
+            paper_px += seen[y][x][0] >= 127 && seen[y][x][0] <= 128 && seen[y][x][2] == 255;
+        }
+    assert_true(box_px > 300 && image_px > 100 && image_px < box_px); /* the image of 30 units, seen from further away */
+    assert_true(paper_px > 1000); /* half tinted */
+}
+
+static void bad_mirrors_are_refused(void **state) {
+    (void)state;
+    static const dp_mirror bad[] = {{.size = 1}, {.normal = {NAN, 0, 1}, .size = 1}, {.normal = {0, 1, 0}, .size = -1},
+                                    {.normal = {0, 1, 0}, .size = 1, .fade = -1}, {.normal = {0, 1, 0}, .size = 1, .offset = INFINITY},
+                                    {.normal = {0, 1, 0}, .size = 1, .tint_share = 2}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        const dp_style style = {.mirror = bad[i]};
+        dp_style resolved;
+        assert_int_equal(dp_style_resolve(&style, &resolved, NULL), DP_ERR_ARGUMENT);
+    }
+}
+
+/* Textures of one texel, of odd sizes; strokes on surfaces with and without texture coordinates. */
+static void any_texture_will_do(void **state) {
+    (void)state;
+    static scene s;
+    static pixels p;
+    make_rooms(&s, false);
+    dp_batch batch = scene_batch(&s);
+    static float uv[SCENE_CORNERS][2];
+    static uint8_t values[7 * 3] = {255, 0, 128, 3, 77, 200, 1, 90}, shades[5][4] = {{0}, {0, 0, 0, 255}, {9, 9, 9, 9}};
+    for (size_t c = 0; c < s.corners; c++) uv[c][0] = c % 7 ? (float)c * 1e3f : NAN, uv[c][1] = -(float)c;
+    const dp_camera camera = scene_camera(70, 20, 90, 0, 0, 0);
+    for (int with_uv = 0; with_uv < 2; with_uv++)
+        for (uint32_t size = 1; size <= 7; size += 6) {
+            if (with_uv) batch.texcoords = (dp_attribute){.values = uv[0], .count = s.corners};
+            dp_style style = {.shade = {.shading = DP_SHADING_HATCH, .object_space = true, .strokes = {values, size, size == 1 ? 1 : 3}}};
+            assert_int_equal(draw_batch(&batch, &camera, &style, p, NULL, NULL), DP_OK);
+            style = (dp_style){.shade = {.shading = DP_SHADING_TOON, .shades = {shades[0], size == 1 ? 1 : 5, 1}}};
+            assert_int_equal(draw_batch(&batch, &camera, &style, p, NULL, NULL), DP_OK);
+        }
+    const dp_style empty = {.shade = {.shading = DP_SHADING_HATCH, .strokes = {values, 0, 3}}};
+    assert_int_equal(draw_batch(&batch, &camera, &empty, p, NULL, NULL), DP_ERR_ARGUMENT);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lambert_is_the_cosine),
+        cmocka_unit_test(gooch_is_cool_to_warm),
+        cmocka_unit_test(highlights_lie_where_the_light_is_reflected),
+        cmocka_unit_test(toon_looks_up_the_nearest_shade),
+        cmocka_unit_test(hatching_is_a_smooth_threshold),
+        cmocka_unit_test(built_in_strokes_grow_with_darkness),
+        cmocka_unit_test(profile_edges_lie_over_inner_ones),
+        cmocka_unit_test(shared_pixels_are_mixed),
+        cmocka_unit_test(a_mirror_shows_the_mirrored_scene),
+        cmocka_unit_test(mirrors_cut_what_they_cross),
+        cmocka_unit_test(bad_mirrors_are_refused),
+        cmocka_unit_test(any_texture_will_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
