@@ -42,7 +42,7 @@ static size_t count_corners(const dp_tile_worker *w) {
 
 static bool clear_table(dp_tile_worker *w) {
     const size_t corners = count_corners(w);
-    const size_t slots = corners + corners / 4 + 64;
+    const size_t slots = 2 * corners + 64;
     w->edge_count = w->meeting_count = 0;
     w->slot_count = (uint32_t)slots;
     if (slots >= DP_SLOT_FLAT || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
@@ -162,14 +162,15 @@ static bool is_simple(const dp_tile_polygon *p, const dp_vertex *at) {
 static inline void insert_quick(dp_tile_worker *w, const dp_polygons *polygons, uint32_t polygon, uint32_t edge,
                                 const uint32_t c[3], uint32_t hash) {
     static const uint8_t NEXT[3] = {1, 2, 0};
-    const uint32_t s = place_of(hash, w->slot_count);
+    uint32_t s = place_of(hash, w->slot_count);
+    while (w->edge_slots[s].a && w->edge_slots[s].hash != hash) s = s + 1 == w->slot_count ? 0 : s + 1;
     dp_edge_slot *const slot = &w->edge_slots[s];
     if (!slot->a) {
         *slot = (dp_edge_slot){hash, polygon + 1, 0, (uint16_t)edge, 0};
         w->edges[w->edge_count++] = s;
         return;
     }
-    if (slot->hash == hash && !slot->b) {
+    if (!slot->b) {
         const uint32_t first = 3 * w->polygons[slot->a - 1].id;
         if (dp_corner_vertex(polygons, first + slot->edge_a) == c[NEXT[edge]] &&
             dp_corner_vertex(polygons, first + NEXT[slot->edge_a]) == c[edge]) {
