@@ -13,6 +13,7 @@
 
 #include "base/hostile.h"
 #include "base/vec.h"
+#include "mesh/fingerprint.h"
 #include "mesh/places.h"
 #include <drypoint/adjacency.h>
 
@@ -22,7 +23,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { BLOCK = DP_TUNED(16384, 5), HASHED = DP_TUNED(65536, 11), LARGEST_FAN = 64 };
+enum { BLOCK = DP_TUNED(16384, 5), LARGEST_FAN = 64 };
 
 typedef struct builder {
     dp_adjacency *out;
@@ -36,63 +37,18 @@ void dp_adjacency_free(dp_adjacency *a, const dp_allocator *memory) {
     dp_free(memory, a->across);
     dp_free(memory, a->polygon_of);
     dp_free(memory, a->twins);
+    dp_free(memory, a->odd);
     *a = (dp_adjacency){0};
 }
 
 uint64_t dp_adjacency_bytes(const dp_adjacency *a) {
-    return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of + a->twins_cap * sizeof *a->twins;
+    return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of + a->twins_cap * sizeof *a->twins +
+           a->odd_cap;
 }
 
-/* ------- topology's key ------- */
-
-typedef struct hashing {
-    const uint32_t *words;
-    size_t count;
-    uint64_t *blocks;
-} hashing;
-
-static uint64_t mix(uint64_t h) {
-    h ^= h >> 32;
-    h *= 0xd6e8feb86659fd93u;
-    h ^= h >> 32;
-    h *= 0xd6e8feb86659fd93u;
-    return h ^ h >> 32;
-}
-
-/* Four sums side by side, so that they overlap in the processor. */
-static void hash_block(void *arg, uint32_t index, uint32_t worker) {
-    const hashing *const h = arg;
-    (void)worker;
-    const size_t first = (size_t)index * HASHED, end = h->count - first < HASHED ? h->count : first + HASHED;
-    uint64_t sums[4] = {1, 2, 3, 4};
-    size_t i = first;
-    for (; i + 4 <= end; i += 4)
-        for (int k = 0; k < 4; k++) sums[k] = (sums[k] ^ h->words[i + (size_t)k]) * 0x9e3779b97f4a7c15u;
-    for (; i < end; i++) sums[0] = (sums[0] ^ h->words[i]) * 0x9e3779b97f4a7c15u;
-    h->blocks[index] = mix(sums[0] ^ mix(sums[1] ^ mix(sums[2] ^ mix(sums[3]))));
-}
-
-/* False when memory is out. */
-static bool hash_words(const uint32_t *words, size_t count, dp_threads *threads, const dp_allocator *memory,
-                       uint64_t *key) {
-    const size_t blocks = count / HASHED + 1;
-    hashing h = {words, count, dp_alloc_array(memory, blocks, sizeof *h.blocks)};
-    if (!h.blocks) return false;
-    dp_parallel(threads, (uint32_t)blocks, hash_block, &h);
-    for (size_t i = 0; i < blocks; i++) *key = mix(*key * 31 + h.blocks[i]);
-    dp_free(memory, h.blocks);
-    return true;
-}
+/* ------- what was built from ------- */
 
 static uint32_t corner_total(const dp_polygons *p) { return p->firsts ? p->firsts[p->count] : 3 * p->count; }
-
-static bool topology_key(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, uint64_t *key) {
-    *key = mix(p->count + mix(p->vertex_count + mix((p->corners != NULL) + 2u * (p->firsts != NULL))));
-    if (p->corners && !hash_words(p->corners, corner_total(p), threads, memory, key)) return false;
-    if (p->firsts && !hash_words(p->firsts, (size_t)p->count + 1, threads, memory, key)) return false;
-    if (!*key) *key = 1;
-    return true;
-}
 
 static bool same_place(const float *p, const float *q) { return p[0] == q[0] && p[1] == q[1] && p[2] == q[2]; }
 
@@ -326,6 +282,17 @@ static bool match(const builder *b, dp_threads *threads, const dp_allocator *mem
     return sound;
 }
 
+/* Polygons with an edge that is open, or whose neighbour is wound the other way. */
+static void note_odd(const builder *b) {
+    for (uint32_t i = 0; i < b->polygons->count; i++) {
+        const uint32_t first = dp_first_corner(b->polygons, i), n = dp_corner_count(b->polygons, i);
+        b->out->odd[i] = false;
+        for (uint32_t c = first; c < first + n; c++)
+            if (b->out->across[c] == DP_ACROSS_OPEN || (dp_is_across(b->out->across[c]) && b->out->across[c] & DP_ACROSS_FLIPPED))
+                b->out->odd[i] = true;
+    }
+}
+
 /* ------- the whole ------- */
 
 static bool build(builder *b, dp_threads *threads, const dp_allocator *memory) {
@@ -337,11 +304,15 @@ static bool build(builder *b, dp_threads *threads, const dp_allocator *memory) {
         a->polygon_of = NULL, a->polygon_cap = 0;
     } else if (!dp_reserve(memory, &a->polygon_of, &a->polygon_cap, (size_t)a->corners + 1, sizeof *a->polygon_of))
         return false;
-    if (!dp_reserve(memory, &a->across, &a->across_cap, (size_t)a->corners + 1, sizeof *a->across)) return false;
+    if (!dp_reserve(memory, &a->across, &a->across_cap, (size_t)a->corners + 1, sizeof *a->across) ||
+        !dp_reserve(memory, &a->odd, &a->odd_cap, (size_t)p->count + 1, 1))
+        return false;
     name_polygons(b);
     if (!weld(b, memory)) return false;
     fill_buckets(b);
-    return match(b, threads, memory);
+    if (!match(b, threads, memory)) return false;
+    note_odd(b);
+    return true;
 }
 
 static double now_ms(void) {
@@ -355,7 +326,7 @@ bool dp_adjacency_update(dp_adjacency *a, const dp_polygons *p, dp_threads *thre
     uint64_t key;
     const double start = now_ms();
     if (built) *built = false;
-    if (!topology_key(p, threads, memory, &key)) return false;
+    if (!dp_topology_fingerprint(p, threads, memory, &key)) return false;
     if (a->key == key && twins_hold(a, p)) return true;
     builder b = {.out = a, .polygons = p};
     a->key = 0;

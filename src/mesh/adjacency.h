@@ -16,7 +16,8 @@ typedef struct dp_adjacency {
     uint32_t *across;     /* [corners] */
     uint32_t *polygon_of; /* [corners]; NULL with triangles: corner / 3 */
     uint32_t (*twins)[2]; /* vertices at the position of an earlier one, and that one */
-    size_t across_cap, polygon_cap, twins_cap, twin_count;
+    uint8_t *odd;         /* [polygons] has it an edge that is open, or a neighbour wound the other way? */
+    size_t across_cap, polygon_cap, twins_cap, odd_cap, twin_count;
     uint32_t corners, polygons, vertices;
     uint64_t key;  /* of what it was built from; 0: of nothing */
     double ms;     /* building took */

@@ -16,6 +16,7 @@
 
 #include "base/hostile.h"
 #include "base/vec.h"
+#include "mesh/fingerprint.h"
 #include "mesh/places.h"
 
 #include <string.h>
@@ -399,47 +400,6 @@ void dp_bend_store_free(dp_bend_store *store, const dp_allocator *memory) {
 
 /* ------- made once ------- */
 
-typedef struct keying {
-    const dp_polygons *polygons;
-    uint64_t *blocks;
-} keying;
-
-static uint64_t mixed(uint64_t h, uint64_t x) {
-    h = (h ^ x) * 0x9e3779b97f4a7c15u;
-    return h ^ h >> 29;
-}
-
-static void key_block(void *arg, uint32_t index, uint32_t worker) {
-    const keying *const k = arg;
-    const dp_polygons *const p = k->polygons;
-    const uint32_t first = index * BLOCK;
-    uint64_t h = index;
-    (void)worker;
-    for (uint32_t v = first; v < p->vertex_count && v < first + BLOCK; v++) {
-        uint32_t bits[3];
-        memcpy(bits, dp_vertex_position(p, v), sizeof bits);
-        h = mixed(h, bits[0] | (uint64_t)bits[1] << 32) + bits[2] * (uint64_t)0xc2b2ae3d27d4eb4f;
-    }
-    /* corners alongside, as evenly */
-    const uint64_t corners = p->firsts ? p->firsts[p->count] : 3 * (uint64_t)p->count;
-    const uint64_t blocks = p->vertex_count / BLOCK + 1, from = corners * index / blocks, to = corners * (index + 1) / blocks;
-    for (uint64_t c = from; p->corners && c < to; c++) h = (h ^ p->corners[c]) * 0x9e3779b97f4a7c15u;
-    k->blocks[index] = h;
-}
-
-static bool find_key(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, uint64_t *key) {
-    const uint32_t blocks = p->vertex_count / BLOCK + 1;
-    const keying k = {p, dp_alloc_array(memory, blocks, sizeof *k.blocks)};
-    if (!k.blocks) return false;
-    dp_parallel(threads, blocks, key_block, (void *)&k);
-    *key = mixed(p->count, p->vertex_count);
-    for (uint32_t i = 0; i < blocks; i++) *key = mixed(*key, k.blocks[i]);
-    for (uint32_t i = 0; p->firsts && i <= p->count; i++) *key = mixed(*key, p->firsts[i]);
-    if (!*key) *key = 1;
-    dp_free(memory, k.blocks);
-    return true;
-}
-
 static double now_ms(void) {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -449,7 +409,7 @@ static double now_ms(void) {
 bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads, const dp_allocator *memory) {
     uint64_t key;
     const double start = now_ms();
-    if (!find_key(polygons, threads, memory, &key)) return false;
+    if (!dp_shape_fingerprint(polygons, threads, memory, &key)) return false;
     store->ms = 0;
     if (store->key == key) return true;
     store->key = 0;

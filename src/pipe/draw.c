@@ -275,7 +275,7 @@ static bool find_adjacency(dp_context *c) {
 static bool may_stream(const dp_context *c) {
     const dp_style *const style = &c->frame.styles[0];
     return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && style->edges != DP_EDGES_ADJACENCY &&
-           !c->shade.active && !is_polar(&c->frame);
+           !c->shade.active && !is_polar(&c->frame) && !(style->stroke.light > 0);
 }
 
 /* Whether to stream is decided by the source's size where it tells, else while it is gathered. */

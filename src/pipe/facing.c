@@ -95,18 +95,33 @@ static bool is_outlined(const dp_frame *frame, uint32_t polygon) {
     return false;
 }
 
+/* A front with a neighbour that is none. A back draws nothing of its own, unless there is something odd about it. */
+static bool is_outlined_triangle(const dp_frame *frame, uint32_t t) {
+    const dp_adjacency *const a = frame->adjacency;
+    const uint8_t *const facing = frame->facing;
+    if (a->odd[t] || facing[t] & DP_FACING_NO_AREA) return is_outlined(frame, t);
+    if (!facing[t]) return frame->seen_through && is_outlined(frame, t); /* it may draw for a front without area */
+    const uint32_t *const across = a->across + 3 * (size_t)t;
+    return !(facing[across[0] / 3] & facing[across[1] / 3] & facing[across[2] / 3] & DP_FACING_FRONT);
+}
+
 static void outline_block(void *arg, uint32_t index, uint32_t worker) {
     dp_frame *const frame = arg;
     uint32_t first, last;
     (void)worker;
     block_range(frame, index, &first, &last);
-    for (uint32_t i = first; i < last; i++) frame->outlined[i] = is_outlined(frame, i);
+    const bool triangles = !frame->polygons.firsts;
+    for (uint32_t i = first; i < last; i++) frame->outlined[i] = triangles ? is_outlined_triangle(frame, i) : is_outlined(frame, i);
 }
 
 void dp_find_facing(dp_frame *frame) {
     const uint32_t count = frame->polygons.count, blocks = count / BLOCK + (count % BLOCK != 0);
     dp_parallel(frame->threads, blocks, face_block, frame);
-    for (uint32_t i = 0; i < count; i++)
-        if (frame->facing[i] & DP_FACING_NO_AREA) see_through(frame, i);
+    frame->seen_through = false;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(frame->facing[i] & DP_FACING_NO_AREA)) continue;
+        frame->seen_through = true;
+        see_through(frame, i);
+    }
     dp_parallel(frame->threads, blocks, outline_block, frame);
 }

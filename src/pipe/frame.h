@@ -68,6 +68,7 @@ typedef struct dp_frame {
     float fringe;      /* px that textured silhouettes reach beyond outlined polygons; 0: none */
     uint8_t *facing;   /* with adjacency, by polygon: pipe/adjacent.h */
     double centre[2], radius; /* px, polar stroke textures: pipe/normals.h */
+    bool seen_through; /* some polygons have no area */
     uint8_t *outlined; /* the same: has it an edge that dp_outline_of_edge says it draws? */
 
     float *depth;  /* [tile][cell sample], nearest surface; layout: samples.h */

@@ -20,15 +20,15 @@ static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
     return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
 }
 
-/* The polygon's normal times its angle at the corner. */
+/* The corner's cross product over the squares of its edges' lengths (Max 1999): right on a sphere. */
 static dp_vec3 share_of(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
     const dp_polygons *const p = &frame->polygons;
     const uint32_t n = dp_corner_count(p, polygon);
     const dp_vec3 at = corner_position(p, corner);
     const dp_vec3 u = dp_sub(corner_position(p, turned(p, polygon, corner, 1)), at);
     const dp_vec3 v = dp_sub(corner_position(p, turned(p, polygon, corner, n - 1)), at);
-    const double angle = atan2(dp_length(dp_cross(u, v)), dp_dot(u, v));
-    return dp_scale(dp_polygon_normal(frame, polygon), angle);
+    const double weight = dp_dot(u, u) * dp_dot(v, v);
+    return weight > 0 ? dp_scale(dp_cross(u, v), 1 / weight) : dp_v3(0, 0, 0);
 }
 
 /* Over the edge that starts at the corner, to the next polygon around its vertex; UINT32_MAX: there is none. */
@@ -86,19 +86,41 @@ bool dp_find_silhouette_edge(const dp_frame *frame, uint32_t polygon, uint32_t c
 
 /* ------- polar coordinates ------- */
 
-static void find_box(const dp_polygons *p, float min[3], float max[3]) {
-    for (int k = 0; k < 3; k++) min[k] = INFINITY, max[k] = -INFINITY;
-    for (uint32_t v = 0; v < p->vertex_count; v++) {
+enum { BOX_BLOCKS = 16 };
+
+typedef struct box {
+    const dp_polygons *polygons;
+    float min[BOX_BLOCKS][4], max[BOX_BLOCKS][4];
+} box;
+
+static void find_box_block(void *arg, uint32_t index, uint32_t worker) {
+    box *const b = arg;
+    const dp_polygons *const p = b->polygons;
+    (void)worker;
+    float min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
+    const uint32_t first = (uint32_t)((uint64_t)p->vertex_count * index / BOX_BLOCKS);
+    const uint32_t last = (uint32_t)((uint64_t)p->vertex_count * (index + 1) / BOX_BLOCKS);
+    for (uint32_t v = first; v < last; v++) {
         const float *const at = dp_vertex_position(p, v);
         if (!isfinite(at[0] + at[1] + at[2])) continue;
         for (int k = 0; k < 3; k++) min[k] = dp_minf(at[k], min[k]), max[k] = dp_maxf(at[k], max[k]);
+    }
+    for (int k = 0; k < 3; k++) b->min[index][k] = min[k], b->max[index][k] = max[k];
+}
+
+static void find_box(const dp_frame *frame, float min[3], float max[3]) {
+    box b = {.polygons = &frame->polygons};
+    dp_parallel(frame->threads, BOX_BLOCKS, find_box_block, &b);
+    for (int k = 0; k < 3; k++) {
+        min[k] = INFINITY, max[k] = -INFINITY;
+        for (int i = 0; i < BOX_BLOCKS; i++) min[k] = dp_minf(b.min[i][k], min[k]), max[k] = dp_maxf(b.max[i][k], max[k]);
     }
 }
 
 /* Points behind the eye are left out. */
 void dp_find_centre(dp_frame *frame) {
     float min[3], max[3];
-    find_box(&frame->polygons, min, max);
+    find_box(frame, min, max);
     frame->centre[0] = frame->view.width / 2, frame->centre[1] = frame->view.height / 2;
     frame->radius = frame->view.height / 2;
     if (!(min[0] <= max[0])) return;

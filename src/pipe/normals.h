@@ -12,7 +12,7 @@ bool dp_find_silhouette_edge(const dp_frame *frame, uint32_t polygon, uint32_t c
  * adjacency. */
 void dp_find_outside(const dp_frame *frame, uint32_t polygon, dp_pointd a, dp_pointd b, double out[2]);
 
-/* Normal of the vertex from which the edge at `corner` starts: the polygons around it weighed by their angles, found
+/* Normal of the vertex from which the edge at `corner` starts: the mean of the polygons around it, found
  * by walking round it from neighbour to neighbour. Unit; zero where it cannot be told. Needs adjacency. */
 dp_vec3 dp_vertex_normal(const dp_frame *frame, uint32_t corner);
 

@@ -32,6 +32,7 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
     dp_free(memory, s->polygon);
     dp_free(memory, s->graphite);
     dp_free(memory, s->tooth);
+    dp_free(memory, s->powers);
     *s = (dp_shade_store){0};
 }
 
@@ -82,6 +83,13 @@ static bool make_graphite(dp_shade_store *s, uint32_t tones, const dp_allocator 
         if (!s->tooth) return false;
         dp_make_tooth(s->tooth);
     }
+    const dp_shade *const shade = &s->setup.shade;
+    if (!s->powers || s->powers_of[0] != shade->pencil_s || s->powers_of[1] != shade->pencil_o) {
+        if (!s->powers) s->powers = dp_alloc(memory, 256 * 256);
+        if (!s->powers) return false;
+        dp_make_powers(s->powers, shade->pencil_s, shade->pencil_o);
+        s->powers_of[0] = shade->pencil_s, s->powers_of[1] = shade->pencil_o;
+    }
     if (s->graphite && s->graphite_tones == tones) return true;
     dp_free(memory, s->graphite);
     s->graphite = dp_alloc(memory, tones * one);
@@ -105,6 +113,7 @@ static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
     g->polygon = s->polygon;
     s->setup.frame = frame;
     s->setup.tooth = s->tooth;
+    s->setup.powers = s->powers;
     s->setup.tone_count = tones;
     for (uint32_t i = 0; i < tones; i++)
         s->setup.tones[i] = (dp_strokes_texture){s->graphite + i * (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE,
@@ -121,7 +130,7 @@ bool dp_shade_vertices(dp_shade_store *s) {
         !dp_reserve(frame->memory, &s->turns, &s->turns_cap, (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
         return false;
     dp_pencil_vertices(frame, (const float(*)[3])s->bends.along, s->turns);
-    s->setup.turns = (const float(*)[2])s->turns;
+    s->setup.turns = s->turns;
     return true;
 }
 

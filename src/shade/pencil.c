@@ -8,16 +8,17 @@
  *
  * As printed each pixel's coordinates are turned by its corners' exact angles. Far from the origin two angles that
  * hardly differ lead to different places in the texture, so that strokes break at every edge: on fine meshes they turn into
- * noise. Here angles are told apart in TURNS steps, and between two steps their textures are cross-faded: neighbours
+ * noise. Here angles are told apart in DP_TURNS steps, and between two steps their textures are cross-faded: neighbours
  * that agree have the same strokes. `pencil_printed` is as printed.
  *
+ * Brightness, light and tone are looked up in a table of bytes.
  * Tones (Lee et al.): a row of textures with more and more strokes instead of the power; two are mixed. */
 #include "shade/pencil.h"
 
 #include "base/hostile.h"
 #include "texture/graphite.h"
 
-enum { TURNS = 18, BLOCK = DP_TUNED(16384, 5) };
+enum { BLOCK = DP_TUNED(16384, 5) };
 static const float PI = 3.14159265f;
 static const float TOOTH = 0.8f; /* how much the paper's tooth takes or leaves */
 
@@ -25,10 +26,26 @@ static const float TOOTH = 0.8f; /* how much the paper's tooth takes or leaves *
 
 typedef struct turning {
     const float (*along)[3];
-    float (*turns)[2];
+    dp_turn *turns;
+    bool printed;
     float right[3], up[3];
     uint32_t count;
 } turning;
+
+/* An angle between two steps; mostly one of them, with a short cross-fade half way between. */
+static dp_turn to_steps(float angle) {
+    const float steps = angle * ((float)DP_TURNS / PI), low = floorf(steps);
+    const float t = dp_minf(dp_maxf((steps - low - 0.5f) * 2.5f + 0.5f, 0), 1);
+    return (dp_turn)((uint32_t)low % DP_TURNS << 8 | (uint32_t)(t * t * (3 - 2 * t) * 255 + 0.5f));
+}
+
+/* The angle of a direction without sign, [0, pi): an odd polynomial for the arc tangent of [0, 1], within 2e-5. */
+static float angle_of(float x, float y) {
+    const float ax = fabsf(x), ay = fabsf(y), most = dp_maxf(ax, ay), z = most > 0 ? dp_minf(ax, ay) / most : 0, z2 = z * z;
+    const float p = z * (0.99997726f + z2 * (-0.33262347f + z2 * (0.19354346f + z2 * (-0.11643287f + z2 * (0.05265332f - z2 * 0.01172120f)))));
+    const float quarter = ay > ax ? PI / 2 - p : p;
+    return x * y < 0 ? PI - quarter : quarter;
+}
 
 static void turn_block(void *arg, uint32_t index, uint32_t worker) {
     const turning *const t = arg;
@@ -38,15 +55,16 @@ static void turn_block(void *arg, uint32_t index, uint32_t worker) {
         const float *const d = t->along[v];
         const float x = t->right[0] * d[0] + t->right[1] * d[1] + t->right[2] * d[2];
         const float y = t->up[0] * d[0] + t->up[1] * d[1] + t->up[2] * d[2];
-        const float length2 = x * x + y * y, inverse = length2 > 1e-12f ? 1 / sqrtf(length2) : 0;
-        t->turns[v][0] = inverse > 0 ? x * inverse : 1, t->turns[v][1] = y * inverse;
+        const float angle = angle_of(x, y);
+        /* as printed: 16 bits of the angle; half a turn is the same */
+        t->turns[v] = t->printed ? (dp_turn)((uint32_t)(angle / PI * 65536) & 0xffff) : to_steps(angle);
     }
 }
 
-void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], float (*turns)[2]) {
+void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn *turns) {
     const dp_view *const view = &frame->view;
     const uint32_t count = frame->polygons.vertex_count;
-    turning t = {.along = along, .turns = turns, .count = count};
+    turning t = {.along = along, .turns = turns, .count = count, .printed = frame->styles[0].shade.pencil_printed};
     const dp_vec3 x = dp_v3(view->clip[0][0], view->clip[0][1], view->clip[0][2]);
     const dp_vec3 right = dp_unit(dp_sub(x, dp_scale(view->forward, dp_dot(x, view->forward))));
     const dp_vec3 up = dp_cross(right, view->forward);
@@ -59,17 +77,19 @@ void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], float (*
 
 /* Brightness at (x, y), texels, bilinear; repeats. Sizes need not be powers of two. */
 static float sample(const dp_strokes_texture *t, float x, float y) {
-    const float w = (float)t->width, h = (float)t->height;
-    const float u = x - w * floorf(x / w), v = y - h * floorf(y / h);
-    uint32_t x0 = (uint32_t)u, y0 = (uint32_t)v;
-    const float s = u - (float)x0, r = v - (float)y0;
-    if (x0 >= t->width) x0 = 0; /* by rounding */
-    if (y0 >= t->height) y0 = 0;
-    const uint32_t x1 = x0 + 1 < t->width ? x0 + 1 : 0, y1 = y0 + 1 < t->height ? y0 + 1 : 0;
-    const uint8_t *const top = t->values + (size_t)y0 * t->width, *const low = t->values + (size_t)y1 * t->width;
+    int32_t x0 = (int32_t)(x + 65536) - 65536, y0 = (int32_t)(y + 65536) - 65536; /* floor, without a call */
+    const float s = x - (float)x0, r = y - (float)y0;
+    const int32_t w = (int32_t)t->width, h = (int32_t)t->height;
+    if (w == DP_GRAPHITE_SIZE && h == DP_GRAPHITE_SIZE) {
+        x0 &= DP_GRAPHITE_SIZE - 1, y0 &= DP_GRAPHITE_SIZE - 1;
+    } else {
+        x0 = (x0 % w + w) % w, y0 = (y0 % h + h) % h;
+    }
+    const int32_t x1 = x0 + 1 < w ? x0 + 1 : 0, y1 = y0 + 1 < h ? y0 + 1 : 0;
+    const uint8_t *const top = t->values + (ptrdiff_t)y0 * w, *const low = t->values + (ptrdiff_t)y1 * w;
     const float a = (float)top[x0] + s * ((float)top[x1] - (float)top[x0]);
     const float b = (float)low[x0] + s * ((float)low[x1] - (float)low[x0]);
-    return (a + r * (b - a)) * (1 / 255.0f);
+    return a + r * (b - a); /* 0 to 255 */
 }
 
 /* A direction and how much of it there is in a pixel. */
@@ -79,13 +99,13 @@ typedef struct strand {
 
 typedef struct pencil {
     const dp_shading_setup *setup;
-    float c[TURNS], s[TURNS]; /* the steps */
-    float scale;              /* texels per px */
+    float c[DP_TURNS], s[DP_TURNS]; /* the steps */
+    float scale;                    /* texels per px */
 } pencil;
 
 static uint32_t add_step(strand *strands, uint32_t n, const pencil *p, uint32_t step, float weight) {
     for (uint32_t i = 0; i < n; i++)
-        if (strands[i].c == p->c[step] && strands[i].s == p->s[step]) {
+        if (strands[i].c == p->c[step]) { /* over half a turn no two cosines are equal */
             strands[i].weight += weight;
             return n;
         }
@@ -93,29 +113,26 @@ static uint32_t add_step(strand *strands, uint32_t n, const pencil *p, uint32_t 
     return n + 1;
 }
 
-/* The steps on either side of an angle; mostly one of them, with a short cross-fade half way between. */
-static uint32_t add_turn(strand *strands, uint32_t n, const pencil *p, const float turn[2]) {
-    const float angle = atan2f(turn[1], turn[0]), steps = (angle < 0 ? angle + PI : angle) * ((float)TURNS / PI);
-    const uint32_t low = (uint32_t)steps % TURNS, high = low + 1 < TURNS ? low + 1 : 0;
-    const float t = dp_minf(dp_maxf((steps - floorf(steps) - 0.5f) * 2.5f + 0.5f, 0), 1), weight = t * t * (3 - 2 * t);
-    if (weight < 1) n = add_step(strands, n, p, low, (1 - weight) / 3);
-    return weight > 0 ? add_step(strands, n, p, high, weight / 3) : n;
+static uint32_t add_turn(strand *strands, uint32_t n, const pencil *p, dp_turn turn) {
+    const uint32_t low = turn >> 8, part = turn & 0xff;
+    if (part < 255) n = add_step(strands, n, p, low, (float)(255 - part) / 765);
+    return part ? add_step(strands, n, p, low + 1 < DP_TURNS ? low + 1 : 0, (float)part / 765) : n;
 }
 
 /* The three directions of the pixel's polygon; of one with more corners, of three of them. */
 static uint32_t find_strands(const pencil *p, uint32_t polygon, strand strands[6]) {
     const dp_polygons *const polygons = &p->setup->frame->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), corners = dp_corner_count(polygons, polygon);
+    const uint32_t first = dp_first_corner(polygons, polygon), corners = polygons->firsts ? dp_corner_count(polygons, polygon) : 3;
     uint32_t n = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        const float *const turn = p->setup->turns[dp_corner_vertex(polygons, first + k * corners / 3)];
-        if (p->setup->shade.pencil_printed) strands[n++] = (strand){turn[0], turn[1], 1.0f / 3};
-        else n = add_turn(strands, n, p, turn);
+        const dp_turn turn = p->setup->turns[dp_corner_vertex(polygons, first + k * corners / 3)];
+        if (!p->setup->shade.pencil_printed) n = add_turn(strands, n, p, turn);
+        else strands[n++] = (strand){cosf((float)turn * (PI / 65536)), sinf((float)turn * (PI / 65536)), 1.0f / 3};
     }
     return n;
 }
 
-/* Brightness of one texture along all strands. y runs down, directions up. */
+/* Brightness of one texture along all strands, 0 to 255. y runs down, directions up. */
 static float blend(const strand *strands, uint32_t n, const dp_strokes_texture *texture, float x, float y) {
     float sum = 0;
     for (uint32_t i = 0; i < n; i++)
@@ -123,29 +140,38 @@ static float blend(const strand *strands, uint32_t n, const dp_strokes_texture *
     return sum;
 }
 
+void dp_make_powers(uint8_t *powers, float s, float o) {
+    for (uint32_t dark = 0; dark < 256; dark++)
+        for (uint32_t v = 0; v < 256; v++)
+            powers[256 * dark + v] = (uint8_t)(255 * powf((float)v / 255, (float)dark / 255 * s + dp_maxf(o, 0)) + 0.5f);
+}
+
 static float tone_of(const pencil *p, const strand *strands, uint32_t n, float dark, float x, float y) {
     const dp_shading_setup *const setup = p->setup;
     const uint32_t tones = setup->tone_count;
-    if (tones < 2) return powf(blend(strands, n, &setup->tones[0], x, y), dark * setup->shade.pencil_s + setup->shade.pencil_o);
+    if (tones < 2) {
+        const float value = blend(strands, n, &setup->tones[0], x, y);
+        return (float)setup->powers[256 * (uint32_t)(dark * 255 + 0.5f) + (uint32_t)(dp_minf(value, 255) + 0.5f)] * (1 / 255.0f);
+    }
     const float at = dp_minf(dark * (float)(tones - 1), (float)(tones - 1) - 0.001f);
     const uint32_t low = (uint32_t)at;
     const float a = blend(strands, n, &setup->tones[low], x, y), b = blend(strands, n, &setup->tones[low + 1], x, y);
-    return a + (b - a) * (at - (float)low);
+    return (a + (b - a) * (at - (float)low)) * (1 / 255.0f);
 }
 
 void dp_shade_pencil(const dp_shading_setup *setup, dp_shade_run *run) {
     const dp_shade *const shade = &setup->shade;
     const uint32_t *const polygons = setup->g->polygon + (size_t)run->y * setup->g->stride + run->x;
     pencil p = {.setup = setup, .scale = 1 / shade->stroke_scale};
-    for (uint32_t i = 0; i < TURNS; i++)
-        p.c[i] = cosf((float)i * PI / TURNS), p.s[i] = sinf((float)i * PI / TURNS);
+    for (uint32_t i = 0; i < DP_TURNS; i++)
+        p.c[i] = cosf((float)i * PI / DP_TURNS), p.s[i] = sinf((float)i * PI / DP_TURNS);
     for (uint32_t i = 0; i < run->n; i++) {
         if (!run->id[i]) continue;
         strand strands[6];
         const uint32_t n = find_strands(&p, polygons[i], strands), px = run->x + i;
         const float x = ((float)px + 0.5f) * p.scale, y = ((float)run->y + 0.5f) * p.scale;
         const float lit = run->nx[i] * shade->light[0] + run->ny[i] * shade->light[1] + run->nz[i] * shade->light[2];
-        const float value = tone_of(&p, strands, n, 1 - dp_maxf(lit, 0), x, y);
+        const float value = tone_of(&p, strands, n, 1 - dp_minf(dp_maxf(lit, 0), 1), x, y);
         const float tooth = (float)setup->tooth[(run->y % DP_GRAPHITE_SIZE) * DP_GRAPHITE_SIZE + px % DP_GRAPHITE_SIZE] / 127;
         const float graphite = dp_minf((1 - value) * (1 + TOOTH * tooth), 1);
         for (int k = 0; k < 3; k++) run->color[k][i] += (setup->ink[k] - run->color[k][i]) * graphite;

@@ -4,8 +4,11 @@
 
 #include "shade/shade.h"
 
-/* Vertex stage: directions of least curvature (world space, [vertices]) to unit directions on the screen, y up. */
-void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], float (*turns)[2]);
+/* Vertex stage: directions of least curvature (world space, [vertices]) to turns on the screen. */
+void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn *turns);
+
+/* (value / 255) ^ (dark / 255 S + O), powers[256][256] by dark, then value. */
+void dp_make_powers(uint8_t *powers, float s, float o);
 
 /* Pixel stage. */
 dp_shade_operator dp_shade_pencil;

@@ -22,6 +22,12 @@ typedef struct dp_strokes_texture {
     uint32_t width, height;
 } dp_strokes_texture;
 
+/* Half a turn is divided into so many steps. */
+enum { DP_TURNS = 18 };
+/* A direction on the screen, which has no sign: the step below it, and in the low byte how much of the next. With
+ * pencil_printed: half a turn in 65536 parts. */
+typedef uint16_t dp_turn;
+
 /* What an operator needs to know besides. */
 typedef struct dp_shading_setup {
     dp_shade shade;          /* resolved; light of length 1 */
@@ -32,7 +38,8 @@ typedef struct dp_shading_setup {
     float ink[3];
 
     const dp_frame *frame;        /* pencil: whose polygons */
-    const float (*turns)[2];      /* by vertex: cosine and sine of the direction on the screen */
+    const dp_turn *turns;         /* by vertex */
+    const uint8_t *powers;        /* [256][256] */
     dp_strokes_texture tones[8];
     uint32_t tone_count;
     const int8_t *tooth;          /* of the paper: texture/graphite.h */
@@ -60,7 +67,9 @@ typedef struct dp_shade_store {
     uint8_t *hatching, *halftone;
 
     dp_bend_store bends;      /* pencil: directions of least curvature */
-    float (*turns)[2];        /* the same on the screen */
+    dp_turn *turns;           /* the same on the screen */
+    uint8_t *powers;          /* of powers_of: S and O */
+    float powers_of[2];
     uint32_t *polygon;        /* the G-buffer's plane */
     uint8_t *graphite;        /* [graphite_tones] textures */
     int8_t *tooth;

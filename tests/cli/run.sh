@@ -440,7 +440,67 @@ progress_on_a_terminal() {
     silent err
 }
 
-tests="draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
+# ---- strokes, adjacency, pencil ----
+
+strokes() {
+    local small="--size 200x150"
+    run 0 shape:gear $small -o plain.png
+    for name in pencil brush charcoal ink dashes dots; do
+        run 0 shape:gear $small --stroke $name -o $name.png
+        cmp -s plain.png $name.png && fail "--stroke $name changes nothing"
+    done
+    run 0 shape:gear $small --stroke pencil --seed 0 -o same.png
+    cmp -s pencil.png same.png || fail "another picture with the same seed"
+    run 0 shape:gear $small --stroke pencil --seed 5 -o other.png
+    cmp -s pencil.png other.png && fail "the seed changes nothing"
+    run 0 shape:gear $small --stroke plain.png -o own.png # any PNG is a texture
+    is_png own.png
+    for option in "--taper 20" "--jitter 2" "--overshoot 8" "--repeats 3" "--width-by-depth 0.8" "--width-by-light 0.8"; do
+        run 0 shape:gear $small $option -o hand.png
+        cmp -s plain.png hand.png && fail "$option changes nothing"
+    done
+    run 0 shape:gear $small --stroke pencil --stroke-u polar --stroke-k 0.2 --stroke-scale 2 -o polar.png
+    cmp -s pencil.png polar.png && fail "--stroke-u polar changes nothing"
+}
+wrong_strokes() {
+    wrong shape:cube -o out.png --stroke pencl -- 'one of pencil, brush'
+    wrong shape:cube -o out.png --stroke-u spiral -- '--stroke-u'
+    wrong shape:cube -o out.png --width-by-depth 2 -- '--width-by-depth'
+    run 1 shape:cube -o out.png --stroke missing.png
+    one_line
+    says err 'missing.png'
+    echo 'no picture' >text.png
+    run 1 shape:cube -o out.png --stroke text.png
+    one_line
+    says err 'no PNG'
+    absent out.png
+}
+adjacency() {
+    local small="--size 200x150"
+    for shape in cube gear bolt; do
+        run 0 shape:$shape $small -o emergent.png
+        run 0 shape:$shape $small --edges adjacency --ink strokes -o adjacent.png --stats=json
+        cmp -s emergent.png adjacent.png || fail "$shape: lines by adjacency differ"
+        grep -q '"adjacency_bytes": [1-9]' out || fail "statistics: $(cat out)"
+    done
+    run 0 shape:bolt $small --edges adjacency --method paper --width 8 --stroke ink -o one.png
+    run 0 shape:bolt $small --edges adjacency --method paper --width 8 --stroke ink --passes 2 -o two.png
+    cmp -s one.png two.png || fail "one pass differs from two"
+}
+pencil() {
+    local small="--size 200x150"
+    run 0 shape:torus $small --style pencil -o pencil.png --stats=json
+    grep -q '"curvature_ms": [0-9]*\.[0-9]*[1-9]' out || fail "statistics: $(cat out)"
+    for option in "--pencil-s 5" "--pencil-o 1" "--pencil-tones 6" "--pencil-turns printed" "--strokes pencil.png"; do
+        run 0 shape:torus $small --style pencil $option -o other.png
+        cmp -s pencil.png other.png && fail "$option changes nothing"
+    done
+    run 0 shape:torus $small --preset pencil -o preset.png
+    is_png preset.png
+    wrong shape:cube -o out.png --pencil-tones 1 -- '--pencil-tones'
+}
+
+tests="strokes wrong_strokes adjacency pencil draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts dropped_are_counted old_file_stays_on_error full_disk devices unwritable_places

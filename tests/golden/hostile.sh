@@ -23,5 +23,9 @@ for shape in $("$reference" make --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
     "$reference" make "$shape" -o "$work/$shape.ply" --quiet 2>/dev/null || continue
     same "$shape" "$work/$shape.ply"
     same "$shape, 12 px, orthographic" "$work/$shape.ply" --width 12 --ortho 3
+    same "$shape, by adjacency" "$work/$shape.ply" --edges adjacency --ink strokes
+    same "$shape, extruded" "$work/$shape.ply" --edges adjacency --width 12 --stroke charcoal
+    same "$shape, extruded as printed" "$work/$shape.ply" --edges adjacency --method paper --width 12 --stroke dots
+    same "$shape, in pencil" "$work/$shape.ply" --preset pencil
 done
 exit $failed
