@@ -5,6 +5,7 @@
 #include "mesh/source.h"
 
 #include "base/diag.h"
+#include "base/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -135,7 +136,7 @@ static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *
             extent->bad_index++;
             return;
         }
-        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) {
+        if (p[0] - p[0] + (p[1] - p[1]) + (p[2] - p[2]) != 0) { /* 0, or NaN when any is not finite */
             extent->not_finite++;
             return;
         }
@@ -143,8 +144,8 @@ static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *
     for (size_t c = first; c < last; c++) {
         const float *const p = corner(batch, c);
         for (int k = 0; k < 3; k++) {
-            extent->min[k] = fminf(extent->min[k], p[k]);
-            extent->max[k] = fmaxf(extent->max[k], p[k]);
+            extent->min[k] = dp_minf(p[k], extent->min[k]);
+            extent->max[k] = dp_maxf(p[k], extent->max[k]);
         }
     }
 }

@@ -28,7 +28,7 @@ static bool reserve_pairs(const job *j, dp_bin_scratch *s, size_t need) {
 static dp_tile_rect clip(const job *j, dp_tile_rect r) {
     return (dp_tile_rect){r.x0 > 0 ? r.x0 : 0, r.y0 > 0 ? r.y0 : 0,
                           r.x1 < (int32_t)j->tiles_x ? r.x1 : (int16_t)j->tiles_x,
-                          r.y1 < (int32_t)j->tiles_y ? r.y1 : (int16_t)j->tiles_y, r.tag};
+                          r.y1 < (int32_t)j->tiles_y ? r.y1 : (int16_t)j->tiles_y, r.tag, 0};
 }
 
 /* Adds the pairs of an item that spans several tiles; false when memory is out. */
@@ -52,11 +52,11 @@ static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t
         return false;
     j->place(j->arg, first, n, s->rects, worker);
     for (uint32_t i = 0; i < n; i++) {
-        const dp_tile_rect r = clip(j, s->rects[i]);
-        if (r.x1 - r.x0 == 1 && r.y1 - r.y0 == 1) {
-            s->tiles[*count] = (uint32_t)r.y0 * j->tiles_x + (uint32_t)r.x0;
-            s->items[(*count)++] = (first + i) | r.tag;
-        } else if (!add_pairs(j, s, first + i, r, count, worker)) {
+        const dp_tile_rect *const r = &s->rects[i];
+        if (r->only) {
+            s->tiles[*count] = r->only - 1;
+            s->items[(*count)++] = (first + i) | r->tag;
+        } else if (!add_pairs(j, s, first + i, clip(j, *r), count, worker)) {
             return false;
         }
     }

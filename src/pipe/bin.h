@@ -8,7 +8,8 @@
 /* Tiles [x0, x1) x [y0, y1), not yet clipped to the picture; empty when x0 >= x1. */
 typedef struct dp_tile_rect {
     int16_t x0, y0, x1, y1;
-    uint32_t tag; /* 0 or DP_BIN_TAG: joins the item's number in the entries */
+    uint32_t tag;  /* 0 or DP_BIN_TAG: joins the item's number in the entries */
+    uint32_t only; /* 1 + the picture's tile where it is known to be the only one; 0: the rectangle tells */
 } dp_tile_rect;
 
 #define DP_BIN_TAG (1u << 31)

@@ -19,7 +19,7 @@ static float margin_of(const job *j, uint32_t polygon) {
 
 static dp_tile_rect rect_around(float margin, float x0, float y0, float x1, float y1) {
     return (dp_tile_rect){tile_of(x0 - margin), tile_of(y0 - margin), (int16_t)(tile_of(x1 + margin) + 1),
-                          (int16_t)(tile_of(y1 + margin) + 1), 0};
+                          (int16_t)(tile_of(y1 + margin) + 1), 0, 0};
 }
 
 static dp_tile_rect rect_of(float margin, const dp_outline *outline) {

@@ -48,7 +48,7 @@ void dp_tile_find_farthest(dp_tile_worker *w) {
 
 /* Pixels beyond the tile are not known: what is large and reaches its border is taken for seen, lest a line be
  * lost that runs along the border between its last samples and those of the next tile. */
-bool dp_tile_hides_box(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
+static inline bool hides(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
     const uint32_t last = DP_TILE - 1;
     const bool border = x0 < 1 || y0 < 1 || x1 > last - 1 || y1 > last - 1;
     if (border && (x1 - x0 > DP_CULL_SMALL || y1 - y0 > DP_CULL_SMALL)) return false;
@@ -65,11 +65,11 @@ bool dp_tile_hides_box(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32
 static uint32_t clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v; }
 
 bool dp_tile_hides(const dp_tile_worker *w, float x0, float y0, float x1, float y1, float nearest) {
-    return dp_tile_hides_box(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
+    return hides(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
 }
 
 static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
-    return dp_tile_hides_box(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
+    return hides(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
 }
 
 void dp_tile_faces(dp_tile_worker *w) {

@@ -209,9 +209,7 @@ void dp_tile_quads(dp_tile_worker *worker);
 #define DP_CULL_SLACK 6
 enum { DP_CULL_SMALL = 8 };
 
-/* Does the surface hide all that lies in these pixels, or in this box of tile space, `nearest` at the nearest
- * (cull.c)? */
-bool dp_tile_hides_box(const dp_tile_worker *worker, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest);
+/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
 bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);
 
 /* Sets the normal of a polygon that is too thin for float32 (edges.c). */

@@ -35,7 +35,7 @@ dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
     const float y0 = dp_minf(s->a.y, s->b.y) - r, y1 = dp_maxf(s->a.y, s->b.y) + r;
     if (!(x1 > x0 && y1 > y0)) return (dp_tile_rect){0};
     return (dp_tile_rect){(int16_t)floorf(x0 / DP_TILE), (int16_t)floorf(y0 / DP_TILE),
-                          (int16_t)(floorf(x1 / DP_TILE) + 1), (int16_t)(floorf(y1 / DP_TILE) + 1), 0};
+                          (int16_t)(floorf(x1 / DP_TILE) + 1), (int16_t)(floorf(y1 / DP_TILE) + 1), 0, 0};
 }
 
 static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {

@@ -109,7 +109,7 @@ static void equal_positions_have_equal_keys(void **state) {
 
 static bool same_rect(const dp_tile_rect *a, const dp_tile_rect *b) {
     if (a->x0 == DP_UNPLACED || b->x0 == DP_UNPLACED) return a->x0 == b->x0;
-    return a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1 && a->tag == b->tag;
+    return a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1 && a->tag == b->tag && a->only == b->only;
 }
 
 /* A batch with an index out of range is left to the general way as a whole: the widths differ in what they
@@ -121,7 +121,7 @@ static void places_agree(void **state) {
     const uint32_t count = dp_kernels_list(list);
     (void)state;
     for (int indexed = 0; indexed < 2; indexed++) {
-        dp_frame frame = {.view = make_view(false)};
+        dp_frame frame = {.view = make_view(false), .tiles_x = 19, .tiles_y = 13};
         frame.nearly_edge_on = dp_nearly_edge_on(&frame.view);
         frame.vertices = vertices;
         frame.polygons = (dp_polygons){.positions = positions[0], .stride = sizeof *positions, .vertex_count = VERTICES,
