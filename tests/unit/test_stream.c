@@ -9,6 +9,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -423,14 +424,14 @@ static void too_little_memory(void **state) {
 }
 
 /* An allocator that fails from the n-th call on. */
-static size_t calls_left;
+static atomic_long calls_left;
 static void *meagre_alloc(size_t size, void *user) {
     (void)user;
-    return calls_left ? calls_left--, malloc(size) : NULL;
+    return atomic_fetch_sub(&calls_left, 1) > 0 ? malloc(size) : NULL;
 }
 static void *meagre_realloc(void *block, size_t size, void *user) {
     (void)user;
-    return calls_left ? calls_left--, realloc(block, size) : NULL;
+    return atomic_fetch_sub(&calls_left, 1) > 0 ? realloc(block, size) : NULL;
 }
 static void meagre_free(void *block, void *user) {
     (void)user;
@@ -447,8 +448,8 @@ static void out_of_memory(void **state) {
     const dp_fit fit = {.min = {-1, -1, -1}, .max = {1, 1, 1}};
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     bool done = false;
-    for (size_t n = 0; !done; n += 1 + n / 8) {
-        calls_left = n;
+    for (long n = 0; !done; n += 1 + n / 8) {
+        atomic_store(&calls_left, n);
         dp_context *context;
         dp_diag diag = {0};
         const dp_context_desc desc = {.allocator = &meagre, .threads = 2};
@@ -456,7 +457,7 @@ static void out_of_memory(void **state) {
         if (dp_context_create(&desc, &context, &diag)) continue;
         context->limit = 1;
         const dp_result result = dp_draw(context, source, &camera, NULL, &target, &diag);
-        if (result && result != DP_ERR_MEMORY) fail_msg("%zu: %s", n, diag.message);
+        if (result && result != DP_ERR_MEMORY) fail_msg("%ld: %s", n, diag.message);
         done = !result;
         dp_context_destroy(context);
     }
