@@ -90,7 +90,7 @@ run_phase() {
     gcc) phase check-gcc "gcc, release, -Werror: all tests" all ;;
     clang) phase check-clang "clang, release, -Werror" all -L 'unit|golden|header|fuzz' ;;
     asan) phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy' ;;
-    tsan) phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context' ;;
+    tsan) phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context|stream$' ;;
     hostile)
         build check-gcc drypoint_tool >"$logs/reference.build" 2>&1 # whose pictures are compared
         phase check-hostile "hostile build: tiny batches, bins and tiles" all \

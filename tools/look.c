@@ -120,6 +120,7 @@ static void make_edge_map(const tool_settings *s, dp_edge_map *map) {
     map->as_printed = s->edge_measure == 2;
     map->eight_bits = s->precision == 2;
     map->radius = s->edge_radius;
+    map->c1_passes = s->c1_passes;
     map->inner_angle = (float)s->inner_angle;
     map->inner_softness = (float)s->inner_softness;
     map->profile_depth = (float)s->profile_depth;

@@ -154,6 +154,8 @@ const option option_table[] = {
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
      "How steps in the G-buffer are found: four diagonal samples, or the C1-discontinuity operator in three "
      "passes. Default: diagonal."},
+    {"c1-passes", 0, "N", OPTION_COUNT, GROUP_EDGE_MAP, PICTURE, AT(c1_passes), 0, 1, 3,
+     "With --edge-map c1: only the first passes, to look at them. Default: 3."},
     {"edge-measure", 0, "scaled|paper", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_measure), 0, 0, 0,
      "Measure steps in pixel sizes beyond what the slope explains, or as printed, between near and far and "
      "without thresholds. Default: scaled."},

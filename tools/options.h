@@ -78,7 +78,7 @@ typedef struct tool_settings {
     dp_color hatch_color;
 
     int edge_map, edge_measure, precision, edge_sides, group_edges; /* words */
-    uint32_t edge_radius;
+    uint32_t edge_radius, c1_passes;
     double inner_angle, inner_softness, profile_depth, profile_softness;
     dp_color inner_color, profile_color;
     const char *enhance;

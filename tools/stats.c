@@ -62,8 +62,7 @@ void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target)
 
 void warn_lost(const dp_stats *stats) {
     if (stats->edges_lost)
-        warn("the file names its triangles in no order: %llu edges or more could not be followed, and lines may be missing; "
-             "give more --memory", (unsigned long long)stats->edges_lost);
+        warn("%llu edges or more could not be followed within --memory, and lines may be missing; give more", (unsigned long long)stats->edges_lost);
 }
 
 void warn_dropped(const dp_stats *stats) {

@@ -73,9 +73,9 @@ typedef struct dp_target {
  * With DP_INK_STROKES a source that would take more memory than the context may use is streamed: read in
  * parts, once for surface and lines, once for what hides them, and more often where polygons that share an
  * edge are many and far apart; memory then depends on the picture and on its lines, not on the source's
- * length. The lines are the same, but for these: intersections are found between polygons of one part; an
- * edge of more than two polygons, or one that lies in the middle of another polygon, may be taken for a border;
- * beyond 64 readings edges are given up (dp_stats.edges_lost). Polygons of more than three corners are
+ * length. The lines are the same, but for these: an edge of more than two polygons, or one that lies in the
+ * middle of another polygon, may be taken for a border; with passes = 1, intersections are found between
+ * polygons of one part; beyond 64 readings edges are given up (dp_stats.edges_lost). Polygons of more than three corners are
  * streamed as triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
  * adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source is read once, and what hides lines is known only as finely as the picture's
  * samples. A source that can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1.
@@ -130,7 +130,8 @@ typedef struct dp_stats {
     uint64_t edges_emergent;   /* left to emerge */
     uint64_t open_edges;       /* edges met with one polygon; counted per tile */
     uint64_t added_polygons;   /* by the primitive shaders; counted per tile */
-    uint64_t edges_lost;       /* streamed: edges given up because too many waited for their polygons */
+    uint64_t edges_lost;       /* streamed: edges given up because too many waited for their polygons, and
+                                  polygons that may cross others, because too many did */
     uint64_t segments;
     uint64_t bytes;            /* scratch memory held by the context */
     uint64_t adjacency_bytes;  /* of it, adjacency (DP_EDGES_ADJACENCY) */

@@ -91,6 +91,7 @@ typedef struct dp_edge_map {
                                 surface's slope explains, in pixel sizes, so that neither distance nor
                                 grazing surfaces make false edges */
     bool eight_bits;         /* keep the G-buffer in 8 bits per channel, as the paper does */
+    uint32_t c1_passes;      /* C1: how many of its three passes, to look at them; 0 means all */
     uint32_t radius;         /* px from the pixel to the samples that are compared, 1 to 4; 0 means 1 */
     float inner_angle;       /* degrees between neighbours' normals at which an inner edge begins; 0 means 24 */
     float inner_softness;    /* how much of the scale 1 - I_N (0 to 2) from faint to full; 0 means 0.25 */

@@ -31,7 +31,7 @@ static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, ui
         dp_c1_slope(&rays, g->nx + at, g->ny + at, g->nz + at, x0, y, n, slope);
         for (uint32_t i = 0; i < n; i++) slope[i] *= 2 * (float)radius / map->profile_depth;
     }
-    for (int pass = 0; pass < 3; pass++) {
+    for (int pass = 0; pass < (int)map->c1_passes; pass++) {
         if (map->as_printed) dp_c1_printed(z, &m, pass, radius, n, i_z);
         else dp_c1_scaled(z, slope, &m, pass, radius, n, i_z);
     }

@@ -23,10 +23,13 @@ typedef struct fill {
     float step; /* change of depth over a pixel size, per depth (perspective) or as such */
 } fill;
 
-/* One row of the tile: normals in world space, not unit, 0 for the facet's; planes as gradients of depth. */
+/* One row of the tile, as its polygons give it. Zero where there is none. */
 typedef struct row {
-    float wx[DP_TILE], wy[DP_TILE], wz[DP_TILE];
-    float gx[DP_TILE], gy[DP_TILE], gd[DP_TILE]; /* gd: depth where the axis meets the screen */
+    float wx[DP_TILE], wy[DP_TILE], wz[DP_TILE]; /* normals in world space, not unit, 0 for the facet's */
+    float d0[DP_TILE], dx[DP_TILE], dy[DP_TILE]; /* planes; tile space */
+    float nearest[DP_TILE];                      /* depth that a polygon does not exceed */
+    float d[DP_TILE];                            /* depth where it was sampled; 0: no surface */
+    float in[DP_TILE];                           /* 1: there is a surface */
 } row;
 
 /* What a pixel shows. */
@@ -209,18 +212,15 @@ static void put_texcoord(const fill *f, const weights *at, size_t pixel) {
 
 /* ------- rows ------- */
 
-static float centre_depth(const fill *f, const dp_tile_polygon *p, const picked *pick, float x, float y) {
-    const float reach = REACH * step_at(f, pick->d), d = dp_plane_at(p, x, y);
-    return dp_minf(dp_maxf(d, pick->d - reach), dp_minf(pick->d + reach, dp_maxf(p->nearest, pick->d)));
+static uint16_t id_of(const dp_polygons *polygons, uint32_t polygon) {
+    const uint16_t group = polygons->groups ? polygons->groups[polygon] : 0;
+    return group < UINT16_MAX ? (uint16_t)(1 + group) : UINT16_MAX;
 }
 
-static void fill_pixel(const fill *f, uint32_t x, uint32_t y, const picked *pick, size_t pixel, row *r) {
+static inline void fill_pixel(const fill *f, uint32_t x, const picked *pick, size_t pixel, row *r) {
     const dp_tile_worker *const w = f->w;
     dp_gbuffer *const g = f->g;
     const dp_tile_polygon *const p = &w->polygons[pick->polygon];
-    const dp_polygons *const polygons = &w->frame->polygons;
-    r->gx[x] = p->dx, r->gy[x] = p->dy;
-    r->gd[x] = g->perspective ? dp_plane_at(p, g->cx - (float)w->tile_x, g->cy - (float)w->tile_y) : 1;
     float normal[3] = {0, 0, 0};
     if (!f->facets || g->textured) {
         weights at = {{0}, {0}};
@@ -231,45 +231,68 @@ static void fill_pixel(const fill *f, uint32_t x, uint32_t y, const picked *pick
         if (g->textured) put_texcoord(f, &at, pixel);
     }
     r->wx[x] = normal[0], r->wy[x] = normal[1], r->wz[x] = normal[2];
-    const float d = centre_depth(f, p, pick, (float)x + 0.5f, (float)y + 0.5f);
-    g->distance[pixel] = g->perspective ? 1 / d : -d;
-    g->depth[pixel] = d;
-    g->id[pixel] = (uint16_t)(1 + (polygons->groups ? (polygons->groups[p->id] < UINT16_MAX - 1 ? polygons->groups[p->id] : UINT16_MAX - 1) : 0));
-    g->share[pixel] = pick->share;
+    r->d0[x] = p->d0, r->dx[x] = p->dx, r->dy[x] = p->dy;
+    r->nearest[x] = p->nearest, r->d[x] = pick->d, r->in[x] = 1;
+    g->id[pixel] = id_of(&w->frame->polygons, p->id);
     if (g->polygon) g->polygon[pixel] = p->id;
-    if (pick->share == 255) return;
-    g->other[pixel] = pick->other <= DP_DEPTH_EMPTY ? DP_FAR : (float)dp_distance(&w->frame->view, pick->other);
-    if (pick->share >= 128 || g->other[pixel] < DP_FAR) return;
+    if (pick->share < 255) g->share[pixel] = pick->share;
+}
+
+/* Pixels that surfaces share: what lies beside, and which are fringes. After finish_row. */
+static void share_pixel(const fill *f, const picked *pick, size_t pixel) {
+    dp_gbuffer *const g = f->g;
+    const bool paper = pick->other <= DP_DEPTH_EMPTY;
+    g->other[pixel] = paper ? DP_FAR : (float)dp_distance(&f->w->frame->view, pick->other);
+    if (pick->share >= 128 || !paper) return;
     g->other[pixel] = g->distance[pixel]; /* fringe */
     g->distance[pixel] = DP_FAR;
     g->depth[pixel] = dp_gbuffer_empty_depth(g->perspective);
 }
 
-/* Planes apart, so that each is a run of stores. The normals of a row that also holds surfaces are written with them. */
-static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n, bool normals) {
+static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
     const float empty = dp_gbuffer_empty_depth(g->perspective);
     float *const distance = g->distance + pixel, *const depth = g->depth + pixel;
     for (uint32_t i = 0; i < n; i++) distance[i] = DP_FAR;
     for (uint32_t i = 0; i < n; i++) depth[i] = empty;
     memset(g->id + pixel, 0, n * sizeof *g->id);
     memset(g->share + pixel, 255, n);
-    if (!normals) return;
     memset(g->nx + pixel, 0, n * sizeof(float));
     memset(g->ny + pixel, 0, n * sizeof(float));
     memset(g->nz + pixel, 0, n * sizeof(float));
 }
 
+/* Depth of each polygon's plane at the pixels' centres, kept near what was sampled: a plane that is seen edge-on
+ * must not shoot away. */
+static void finish_depths(const fill *f, const row *r, uint32_t y, size_t pixel, uint32_t n) {
+    const dp_gbuffer *const g = f->g;
+    float *restrict const distance = g->distance + pixel, *restrict const depth = g->depth + pixel;
+    const float cy = (float)y + 0.5f, grows = g->perspective, still = 1 - grows, reach = REACH * f->step;
+    const float empty = dp_gbuffer_empty_depth(g->perspective);
+    for (uint32_t x = 0; x < n; x++) {
+        const float cx = (float)(int32_t)x + 0.5f, at = r->d[x], away = reach * (grows * at + still);
+        const float plane = r->d0[x] + r->dx[x] * cx + r->dy[x] * cy;
+        const float d = dp_minf(dp_maxf(plane, at - away), dp_minf(at + away, dp_maxf(r->nearest[x], at)));
+        depth[x] = r->in[x] > 0 ? d : empty;
+        distance[x] = r->in[x] > 0 ? grows / dp_maxf(d, still) - still * d : DP_FAR; /* 1 / d or -d */
+    }
+}
+
 /* World to camera space, unit length, and facing as the visible side of the polygon does. A normal that lies
- * clearly on the other side contradicts the winding: it is turned round. One that is missing is the polygon's. */
-static void finish_row(const dp_gbuffer *g, const row *r, size_t pixel, uint32_t n) {
-    float *const nx = g->nx + pixel, *const ny = g->ny + pixel, *const nz = g->nz + pixel;
+ * clearly on the other side contradicts the winding: it is turned round. One that is missing is the polygon's, from
+ * its plane's gradient. */
+static void finish_normals(const fill *f, const row *r, size_t pixel, uint32_t n) {
+    const dp_gbuffer *const g = f->g;
+    float *restrict const nx = g->nx + pixel, *restrict const ny = g->ny + pixel, *restrict const nz = g->nz + pixel;
+    const float cx = g->cx - (float)f->w->tile_x, cy = g->cy - (float)f->w->tile_y; /* where the axis meets the screen */
+    const float on = g->perspective, off = 1 - on;
     float m[3][3];
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) m[i][k] = (float)g->rotation[i][k];
     for (uint32_t x = 0; x < n; x++) {
         const float wx = r->wx[x], wy = r->wy[x], wz = r->wz[x];
         const float length2 = wx * wx + wy * wy + wz * wz;
-        const float fx = -g->fx * r->gx[x], fy = g->fy * r->gy[x], fz = r->gd[x];
+        const float fx = -g->fx * r->dx[x], fy = g->fy * r->dy[x];
+        const float fz = on * (r->d0[x] + r->dx[x] * cx + r->dy[x] * cy) + off * r->in[x];
         const float facet2 = fx * fx + fy * fy + fz * fz;
         const float facet = facet2 > 0 ? 1 / sqrtf(facet2) : 0;
         const float unit = length2 > 1e-30f && length2 < 1e30f ? 1 / sqrtf(length2) : 0;
@@ -302,17 +325,25 @@ static uint64_t fill_row(const fill *f, uint32_t y, uint32_t width) {
         mask |= (uint64_t)1 << x;
         prefetch_normals(f, &w->polygons[picks[x].polygon]);
     }
-    const bool whole = mask == ~(uint64_t)0 >> (64 - width);
-    if (!whole) {
-        fill_background(g, pixel, width, !mask);
-        if (!mask) return 0;
+    if (!mask) {
+        fill_background(g, pixel, width);
+        return 0;
+    }
+    if (mask != ~(uint64_t)0 >> (64 - width)) {
+        memset(g->id + pixel, 0, width * sizeof *g->id);
         memset(&r, 0, sizeof r);
     }
+    memset(g->share + pixel, 255, width);
     for (uint64_t bits = mask; bits; bits &= bits - 1) {
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
-        fill_pixel(f, x, y, &picks[x], pixel + x, &r);
+        fill_pixel(f, x, &picks[x], pixel + x, &r);
     }
-    finish_row(g, &r, pixel, width);
+    finish_depths(f, &r, y, pixel, width);
+    finish_normals(f, &r, pixel, width);
+    for (uint64_t bits = mask; bits; bits &= bits - 1) {
+        const uint32_t x = (uint32_t)__builtin_ctzll(bits);
+        if (picks[x].share < 255) share_pixel(f, &picks[x], pixel + x);
+    }
     return mask;
 }
 
@@ -327,7 +358,7 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals)
     memset(mask, 0, DP_TILE * sizeof *mask);
     if (bare && g->clean[w->tile]) return; /* it still holds background */
     for (uint32_t y = 0; y < height; y++) {
-        if (bare) fill_background(g, (size_t)(w->tile_y + y) * g->stride + w->tile_x, width, true);
+        if (bare) fill_background(g, (size_t)(w->tile_y + y) * g->stride + w->tile_x, width);
         else mask[y] = fill_row(&f, y, width);
     }
     g->clean[w->tile] = bare; /* the margin beside it is not yet */

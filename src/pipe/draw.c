@@ -297,8 +297,10 @@ static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag
 }
 
 static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
-    const dp_result result = dp_stream_find(c, source, stream, diag);
+    dp_result result = dp_stream_read_model(c, source, stream, diag);
     if (result) return result;
+    lap(&c->stats, DP_STAGE_GATHER, since);
+    if ((result = dp_stream_find(*stream, diag))) return result;
     lap(&c->stats, DP_STAGE_TILES, since);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->tile_workers[i].stats);
     return check_dropped(&c->stats, c->stats.polygons, diag);
@@ -309,6 +311,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     bool streams;
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
+    if (streams) return stream_lines(c, source, stream, since, diag);
     if (!dp_shade_vertices(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.bends.ms;
     if (dp_shade_needs_normals(&c->shade) &&
@@ -320,7 +323,6 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
         c->shade.gbuffer.normals = &c->normals.packed;
     }
     lap(&c->stats, DP_STAGE_GATHER, since);
-    if (streams) return stream_lines(c, source, stream, since, diag);
     if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);

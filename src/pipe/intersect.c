@@ -34,8 +34,18 @@ static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
     return shared;
 }
 
+/* What the sample holds is not among the tile's polygons: only which way it faces is known, not how steeply. */
+static void watch_unknown(dp_tile_worker *w, const dp_tile_polygon *p, size_t lane, float depth) {
+    const bool away = w->away[lane / 64] >> lane % 64 & 1, front = p->flags & DP_POLYGON_FRONT;
+    const size_t pixel = lane / w->sampling.samples;
+    if (away && !front) return;
+    if (fabsf(depth - w->depth[lane]) > fabsf(dp_depth_steps(w->frame, depth, DP_WATCH_GAP))) return;
+    w->suspects[away || !front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+}
+
 void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, float depth) {
     const uint32_t other = w->winner[lane];
+    if (other == UINT32_MAX && w->away) watch_unknown(w, &w->polygons[index], lane, depth);
     if (other == UINT32_MAX || other == index) return;
     const dp_tile_polygon *const p = &w->polygons[index], *const q = &w->polygons[other];
     const size_t pixel = lane / w->sampling.samples;
@@ -49,7 +59,7 @@ void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, float depth) 
 }
 
 /* Pixels and their neighbours. False when there are none. */
-static bool widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
+bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     uint64_t any = 0;
     for (int y = 0; y < DP_TILE; y++) {
         uint64_t r = pixels[y];
@@ -63,7 +73,7 @@ static bool widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
 
 /* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds of fine
  * meshes come close here and there. */
-static void drop_lone(uint64_t suspects[DP_TILE]) {
+void dp_drop_lone(uint64_t suspects[DP_TILE]) {
     uint64_t kept[DP_TILE];
     for (int y = 0; y < DP_TILE; y++) {
         const uint64_t above = y > 0 ? suspects[y - 1] : 0, below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
@@ -87,7 +97,7 @@ static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_T
         seen[pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
     }
     uint64_t near[DP_TILE];
-    widen(seen, near);
+    dp_widen(seen, near);
     for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
 }
 
@@ -194,10 +204,10 @@ void dp_tile_intersections(dp_tile_worker *w) {
     uint64_t front[DP_TILE], back[DP_TILE];
     uint32_t heads[DP_TILE][DP_TILE], count = 0;
     keep_seen_back_faces(w, w->suspects[1]);
-    const bool mixed = widen(w->suspects[1], back);
+    const bool mixed = dp_widen(w->suspects[1], back);
     for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
-    drop_lone(w->suspects[0]);
-    if (!widen(w->suspects[0], front)) return;
+    dp_drop_lone(w->suspects[0]);
+    if (!dp_widen(w->suspects[0], front)) return;
     memset(heads, 0xff, sizeof heads);
     if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
     w->pair_count = 0;

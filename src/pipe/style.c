@@ -136,6 +136,8 @@ static dp_result resolve_mirror(dp_mirror *m, dp_diag *diag) {
 static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
     if ((unsigned)m->detector > DP_EDGE_MAP_C1) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge detector is not one of its values");
     if (!m->radius) m->radius = 1;
+    if (!m->c1_passes) m->c1_passes = 3;
+    if (m->c1_passes > 3) return dp_fail(diag, DP_ERR_ARGUMENT, "C1 has three passes, not %u", m->c1_passes);
     if (m->radius > 4) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge map's radius is %u px; it must be 1 to 4", m->radius);
     dp_result result = resolve_number(&m->inner_angle, 24, 0.01f, 180, "angle of inner edges", diag);
     if (!result) result = resolve_number(&m->inner_softness, 0.25f, 1e-3f, 2, "softness of inner edges", diag);

@@ -12,6 +12,7 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->failed = false;
     worker->stats = (dp_stats){0};
     worker->piece_count = 0;
+    worker->away = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
     dp_sampling_init(&worker->sampling, frame->target.samples);
     dp_block_init(&worker->block, frame->target.samples);

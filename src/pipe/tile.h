@@ -121,6 +121,8 @@ struct dp_tile_worker {
     bool failed; /* out of memory: the tile is abandoned */
 
     bool watching; /* for intersections, while faces are drawn */
+    const uint64_t *away; /* a bit per sample that no polygon of this tile has won and that holds something all the
+                             same: does that face away? NULL: there are no such samples (src/stream/) */
     dp_block block; /* of samples that the kernels draw at once */
 
     uint32_t tile, tile_x, tile_y;
@@ -220,6 +222,11 @@ void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index);
 
 /* Called while `index` is rasterized and its depth lies close to what sample `lane` holds (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, float depth);
+
+/* Of suspects by rows of pixels (intersect.c): drops those that stand alone; adds the neighbours, false when
+ * there are none. */
+void dp_drop_lone(uint64_t suspects[DP_TILE]);
+bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]);
 
 /* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe and the final
  * k0, k1 are filled here (probes.c). */

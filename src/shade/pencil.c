@@ -20,7 +20,7 @@
 
 enum { BLOCK = DP_TUNED(16384, 5) };
 static const float PI = 3.14159265f;
-static const float TOOTH = 0.8f; /* how much the paper's tooth takes or leaves */
+static const float TOOTH = 0.55f; /* how much the paper's tooth takes or leaves */
 
 /* ------- vertex stage ------- */
 

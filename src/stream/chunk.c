@@ -172,19 +172,28 @@ static bool holds_sample(const box *b, const dp_sampling *s) {
     return false;
 }
 
-/* Does the box touch a pixel that is wanted? */
-static bool holds_wanted(const box *b, const dp_chunk_view *v) {
+/* Does the box touch one of the pixels? */
+static bool holds_pixel(const box *b, const dp_chunk_view *v, const uint64_t *pixels) {
     const float w = (float)(v->tiles_x * DP_TILE - 1), h = (float)(v->tiles_y * DP_TILE - 1);
     const uint32_t x0 = (uint32_t)dp_minf(dp_maxf(b->x0 - ROUNDING, 0), w), x1 = (uint32_t)dp_minf(dp_maxf(b->x1 + ROUNDING, 0), w);
     const uint32_t y0 = (uint32_t)dp_minf(dp_maxf(b->y0 - ROUNDING, 0), h), y1 = (uint32_t)dp_minf(dp_maxf(b->y1 + ROUNDING, 0), h);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t tile = x0 / DP_TILE; tile <= x1 / DP_TILE; tile++) {
-            const uint64_t row = v->wanted[((size_t)(y / DP_TILE) * v->tiles_x + tile) * DP_TILE + y % DP_TILE];
+            const uint64_t row = pixels[((size_t)(y / DP_TILE) * v->tiles_x + tile) * DP_TILE + y % DP_TILE];
             const uint32_t from = tile == x0 / DP_TILE ? x0 % DP_TILE : 0;
             const uint32_t to = tile == x1 / DP_TILE ? x1 % DP_TILE : DP_TILE - 1;
             if (row >> from & (~(uint64_t)0 >> (63 - (to - from)))) return true;
         }
     return false;
+}
+
+uint32_t dp_chunk_pixel(const dp_chunk *chunk, uint32_t t, const dp_chunk_view *view) {
+    const dp_point a = chunk->screen[chunk->corner[3 * t]], b = chunk->screen[chunk->corner[3 * t + 1]];
+    const dp_point c = chunk->screen[chunk->corner[3 * t + 2]];
+    const box at = box_of(a, b, c);
+    const uint32_t x = (uint32_t)dp_minf(dp_maxf(at.x0, 0), (float)(view->tiles_x * DP_TILE - 1)); /* NaN gives 0 */
+    const uint32_t y = (uint32_t)dp_minf(dp_maxf(at.y0, 0), (float)(view->tiles_y * DP_TILE - 1));
+    return ((y / DP_TILE * view->tiles_x + x / DP_TILE) * DP_TILE + y % DP_TILE) * DP_TILE + x % DP_TILE;
 }
 
 void dp_chunk_sift(dp_chunk *chunk, const dp_chunk_view *view, dp_stats *stats) {
@@ -200,7 +209,8 @@ void dp_chunk_sift(dp_chunk *chunk, const dp_chunk_view *view, dp_stats *stats) 
         const box at = box_of(chunk->screen[a], chunk->screen[b], chunk->screen[c]);
         if (!any && (is_outside(&at, view->view) || is_hidden(&at, view))) continue;
         if (view->wanted) {
-            if (any || holds_wanted(&at, view)) chunk->state[t] = DP_TRIANGLE_LIVE | DP_TRIANGLE_COVERS;
+            if (any || holds_pixel(&at, view, view->wanted)) chunk->state[t] = DP_TRIANGLE_COVERS;
+            if (any || holds_pixel(&at, view, view->crowded)) chunk->state[t] |= DP_TRIANGLE_CROWD;
             continue;
         }
         uint8_t facing;

@@ -16,6 +16,7 @@ enum {
     DP_TRIANGLE_COVERS = 2, /* it may cover a sample */
     DP_TRIANGLE_FRONT = 4,  /* surely faces the eye */
     DP_TRIANGLE_BACK = 8,   /* surely faces away; neither: seen edge-on */
+    DP_TRIANGLE_CROWD = 16  /* touches a pixel where faces may cross */
 };
 
 typedef struct dp_chunk_edge {
@@ -53,6 +54,7 @@ typedef struct dp_chunk_view {
     uint32_t tiles_x, tiles_y;
     const float *farthest;  /* [tile][DP_BLOCKS][DP_BLOCKS] */
     const uint64_t *wanted; /* [tile][DP_TILE] rows of pixels; NULL: every sample is wanted */
+    const uint64_t *crowded; /* the same: where faces may cross; only with `wanted` */
     float flat_cosine;      /* dp_frame; below 0: folds are no lines */
 } dp_chunk_view;
 
@@ -73,6 +75,9 @@ void dp_chunk_sift(dp_chunk *chunk, const dp_chunk_view *view, dp_stats *stats);
 
 /* Sets `lines` and `alone`: edges between triangles of the chunk. */
 void dp_chunk_edges(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view);
+
+/* The pixel in which a triangle's box begins, as an index of [tile][DP_TILE][DP_TILE]; the picture's nearest. */
+uint32_t dp_chunk_pixel(const dp_chunk *chunk, uint32_t triangle, const dp_chunk_view *view);
 
 /* Is an edge between two triangles of this state and normal surely no line? */
 bool dp_edge_is_plain(uint8_t state_a, const float normal_a[4], uint8_t state_b, const float normal_b[4],

@@ -14,22 +14,19 @@ typedef struct dp_chunk_rest {
     uint32_t first;      /* where they go in the drawing's list */
     dp_kept_triangle *kept; /* [DP_CHUNK] */
     uint32_t kept_count;
+    uint32_t *pixels; /* [DP_CHUNK] of the crowd: where they are counted */
     dp_result result;
     dp_diag diag;
 } dp_chunk_rest;
-
-/* Two triangles that cross. */
-typedef struct dp_crossing_pair {
-    uint32_t numbers[2];
-    float corners[2][9];
-} dp_crossing_pair;
 
 /* Scratch of one worker. */
 typedef struct dp_stream_worker {
     dp_chunk *chunk;
     uint8_t *buffer;
-    dp_crossing_pair *pairs;
-    size_t pairs_cap, pair_count;
+    dp_kept_triangle *crowd; /* one pass: triangles that cross others */
+    size_t crowd_cap, crowd_count;
+    float *depth; /* of a tile's samples, for crossings.c */
+    size_t depth_cap;
     dp_stats stats;
     bool failed;
 } dp_stream_worker;
@@ -55,17 +52,25 @@ struct dp_stream_draw {
     uint32_t covering;    /* how many */
 
     dp_kept kept;
-    float *positions;     /* frame->polygons, made of what is kept and of pairs that cross */
+    float *positions;     /* frame->polygons */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
-    dp_crossing_pair *pairs;
-    uint32_t pair_count, first_crossing; /* polygons from here on are pairs */
+    size_t positions_cap, flags_cap, numbers_cap, source_cap;
+    uint32_t mesh_count;  /* polygons: what is kept, then the crowd */
+
+    dp_kept_triangle *crowd; /* triangles where faces may cross; numbers ascend */
+    size_t crowd_cap, crowd_count, crowd_limit;
+    uint64_t *away;       /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
+    uint64_t (*suspects)[2][DP_TILE]; /* by tile, as in dp_tile_worker */
+    uint64_t *crowded;    /* dp_chunk_view */
+    uint8_t *crowd_counts; /* [tile][DP_TILE][DP_TILE] triangles of the crowd that begin in a pixel */
 
     float *farthest;      /* dp_chunk_view */
     uint64_t *wanted;
     dp_tile_lines *lines; /* by tile */
     uint64_t triangles;   /* in the stream */
     bool read_again;
+    double done;          /* share of the work, for progress */
 };
 
 /* What a reading is for. */
@@ -83,10 +88,23 @@ dp_result dp_stream_read(dp_stream_draw *stream, dp_reading reading, double from
 bool dp_stream_draw_faces(dp_stream_draw *stream);
 bool dp_stream_hide_probes(dp_stream_draw *stream);
 
-/* After the first reading: the target's surface, and the lines among what is kept. When the source is not
- * `read_again`, samples hide the lines' sample points (samples.c). */
-bool dp_stream_find_lines(dp_stream_draw *stream, bool read_again);
+/* After the first reading: the target's surface, and the lines among what is kept. When the source is
+ * not read again, samples hide the lines' sample points (samples.c). */
+bool dp_stream_find_lines(dp_stream_draw *stream);
 void dp_stream_hide_by_samples(dp_tile_worker *worker);
+/* Makes frame->polygons longer by triangles; false when memory is out. */
+bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *triangles, size_t count);
+
+/* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while the source
+ * is read again; at the end. */
+void dp_stream_note_suspects(dp_stream_draw *stream, dp_tile_worker *worker, dp_stream_worker *own);
+bool dp_stream_choose_crowded(dp_stream_draw *stream);
+bool dp_stream_find_crossings(dp_stream_draw *stream);
+
+/* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is out. */
+bool dp_stream_place_polygons(dp_stream_draw *stream);
+bool dp_stream_for_tiles(dp_stream_draw *stream, dp_task *task);
+
 /* At the end: visible pieces into the tile workers. */
 bool dp_stream_collect(dp_stream_draw *stream);
 

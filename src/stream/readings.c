@@ -43,6 +43,18 @@ static void leave_kept(const dp_stream_draw *stream, const dp_chunk *chunk, uint
     }
 }
 
+static void leave_crowd(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+                        dp_chunk_rest *rest) {
+    rest->kept_count = 0;
+    for (uint32_t t = 0; t < chunk->count; t++) {
+        if (!(chunk->state[t] & DP_TRIANGLE_CROWD)) continue;
+        rest->pixels[rest->kept_count] = dp_chunk_pixel(chunk, t, &stream->view);
+        dp_kept_triangle *const k = &rest->kept[rest->kept_count++];
+        *k = (dp_kept_triangle){.number = number + t, .polygon = dp_input_polygon(&stream->input, number + t)};
+        memcpy(k->corners, triangles->corners + t * triangles->stride, sizeof k->corners);
+    }
+}
+
 static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     dp_stream_draw *const s = j->stream;
@@ -56,6 +68,7 @@ static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_chunk_place(w->chunk, &triangles, &s->context->frame.view);
     dp_chunk_sift(w->chunk, &s->view, &w->stats);
     if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
+    if (j->reading == DP_READ_HIDERS) leave_crowd(s, w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS || !s->context->frame.lines) return;
     dp_chunk_edges(w->chunk, &triangles, &s->view);
     /* lines within the chunk are known since the first reading */
@@ -102,6 +115,26 @@ static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
     return dp_kept_join(kept, first);
 }
 
+/* Surfaces seen at a grazing angle put thousands of triangles into a pixel; what crosses there is no line
+ * that could be seen. */
+enum { CROWD_MOST = 128 };
+
+/* Beyond the limit crossings are given up. */
+static bool keep_crowd(dp_stream_draw *s, uint32_t chunks) {
+    for (uint32_t i = 0; i < chunks; i++) {
+        const dp_chunk_rest *const rest = &s->rests[i];
+        if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, s->crowd_count + rest->kept_count, sizeof *s->crowd)) return false;
+        for (uint32_t k = 0; k < rest->kept_count; k++) {
+            uint8_t *const counted = &s->crowd_counts[rest->pixels[k]];
+            if (*counted > CROWD_MOST) continue;
+            ++*counted;
+            if (s->crowd_count < s->crowd_limit) s->crowd[s->crowd_count++] = rest->kept[k];
+            else s->context->stats.edges_lost++;
+        }
+    }
+    return true;
+}
+
 static dp_result out_of_memory(dp_diag *diag) { return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing"); }
 
 static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag) {
@@ -113,7 +146,9 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
             if (diag) *diag = s->rests[i].diag;
             return s->rests[i].result;
         }
-    if (!list_covering(s, chunks, reading) || (reading != DP_READ_HIDERS && !keep_edges(s, chunks))) return out_of_memory(diag);
+    if (!list_covering(s, chunks, reading) ||
+        !(reading == DP_READ_HIDERS ? keep_crowd(s, chunks) : keep_edges(s, chunks)))
+        return out_of_memory(diag);
     return DP_OK;
 }
 
@@ -148,6 +183,10 @@ dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, dou
         result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
     }
     if (!result) result = read_all(s, reading, from, to, diag);
-    if (reading != DP_READ_FACES) c->stats = before;
+    if (reading != DP_READ_FACES) {
+        const uint64_t lost = c->stats.edges_lost;
+        c->stats = before;
+        c->stats.edges_lost = lost;
+    }
     return result;
 }

@@ -32,17 +32,19 @@ void dp_stream_free(dp_stream_draw *s) {
     for (uint32_t i = 0; s->workers && i < s->context->workers; i++) {
         dp_free(memory, s->workers[i].chunk);
         dp_free(memory, s->workers[i].buffer);
-        dp_free(memory, s->workers[i].pairs);
+        dp_free(memory, s->workers[i].crowd);
+        dp_free(memory, s->workers[i].depth);
     }
     for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
         dp_free(memory, s->rests[i].corners);
         dp_free(memory, s->rests[i].numbers);
         dp_free(memory, s->rests[i].kept);
+        dp_free(memory, s->rests[i].pixels);
     }
     for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++) dp_free(memory, s->lines[i].candidates);
     dp_kept_free(&s->kept);
     void *const blocks[] = {s->workers, s->rests, s->corners, s->numbers, s->positions, s->edge_flags, s->polygon_numbers,
-                            s->source_polygons, s->pairs, s->farthest, s->wanted, s->lines};
+                            s->source_polygons, s->crowd, s->away, s->suspects, s->crowded, s->crowd_counts, s->farthest, s->wanted, s->lines};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
     dp_free(memory, s);
 }
@@ -64,7 +66,8 @@ static bool make_rests(dp_stream_draw *s) {
         rest->corners = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->corners);
         rest->numbers = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->numbers);
         rest->kept = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->kept);
-        if (!rest->corners || !rest->numbers || !rest->kept) return false;
+        rest->pixels = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->pixels);
+        if (!rest->corners || !rest->numbers || !rest->kept || !rest->pixels) return false;
     }
     s->corners = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->corners);
     s->numbers = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->numbers);
@@ -79,6 +82,11 @@ static bool make_picture(dp_stream_draw *s) {
     s->wanted = dp_alloc_zeroed(s->memory, tiles * DP_TILE * sizeof *s->wanted);
     s->lines = dp_alloc_zeroed(s->memory, tiles * sizeof *s->lines);
     if (!s->farthest || !s->wanted || !s->lines) return false;
+    s->crowded = dp_alloc_zeroed(s->memory, tiles * DP_TILE * sizeof *s->crowded);
+    s->suspects = dp_alloc_zeroed(s->memory, tiles * sizeof *s->suspects);
+    s->away = dp_alloc_zeroed(s->memory, tiles * f->tile_samples / 8);
+    s->crowd_counts = dp_alloc_zeroed(s->memory, tiles * DP_TILE * DP_TILE);
+    if (!s->crowded || !s->suspects || !s->away || !s->crowd_counts) return false;
     for (size_t i = 0; i < blocks; i++) s->farthest[i] = DP_DEPTH_EMPTY;
     for (size_t i = 0; i < tiles * f->tile_samples; i++) f->depth[i] = DP_DEPTH_EMPTY;
     if (f->target.normal) memset(f->target.normal, 0, 3 * sizeof(float) * f->target.width * f->target.height);
@@ -98,6 +106,7 @@ static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s
     const size_t parts = (size_t)s->chunks * PER_CHUNK;
     s->kept.limit = (c->limit > parts ? c->limit - parts : 0) / PER_KEPT;
     if (s->kept.limit < KEPT_LEAST) s->kept.limit = KEPT_LEAST;
+    s->crowd_limit = s->kept.limit / 2;
     if (!make_workers(s) || !make_rests(s) || !make_picture(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
     s->view.farthest = s->farthest;
     return DP_OK;
@@ -128,28 +137,37 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
     return enough ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
 }
 
-static dp_result find(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
+/* First reading, and more where edges were put off. */
+static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
     dp_context *const c = s->context;
-    const bool again = c->frame.lines && c->frame.styles[0].passes != 1 && dp_source_rewindable(source);
-    double done = again ? 0.6 : 0.95;
+    s->read_again = c->frame.lines && c->frame.styles[0].passes != 1 && dp_source_rewindable(source);
+    s->done = s->read_again ? 0.6 : 0.95;
     dp_result result = open_stream(c, source, s, diag);
-    if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, done, diag);
+    if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);
     if (!result) add_stats(s);
-    if (!result && c->frame.lines) result = read_edges(s, again, &done, diag);
-    if (result) return result;
+    if (!result && c->frame.lines) result = read_edges(s, s->read_again, &s->done, diag);
     c->stats.edges_lost = s->kept.lost;
-    if (!dp_stream_find_lines(s, again)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
-    s->view.wanted = s->wanted;
-    if (again && (result = dp_stream_read(s, DP_READ_HIDERS, done, 0.95, diag))) return result;
-    if (c->frame.lines && !dp_stream_collect(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
-    return DP_OK;
+    return result;
 }
 
-dp_result dp_stream_find(dp_context *context, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
+dp_result dp_stream_read_model(dp_context *context, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
     dp_stream_draw *const s = dp_alloc_zeroed(&context->memory, sizeof *s);
     *stream = s;
     if (!s) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a streamed drawing");
     s->context = context;
     s->memory = &context->memory;
-    return find(s, source, diag);
+    return read_model(s, source, diag);
+}
+
+dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {
+    const bool lines = s->context->frame.lines;
+    if (!dp_stream_find_lines(s) || !dp_stream_choose_crowded(s))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
+    s->view.wanted = s->wanted;
+    s->view.crowded = s->crowded;
+    const dp_result result = s->read_again ? dp_stream_read(s, DP_READ_HIDERS, s->done, 0.95, diag) : DP_OK;
+    if (result) return result;
+    if (lines && (!dp_stream_find_crossings(s) || !dp_stream_collect(s)))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
+    return DP_OK;
 }

@@ -9,7 +9,6 @@
 #include "strokes/mark.h"
 
 #include "pipe/blend.h"
-#include "pipe/normals.h"
 #include "texture/texture.h"
 
 #include <string.h>
@@ -55,15 +54,18 @@ static float overlap(float x, float low, float high) {
     return clamp01(dp_minf(x + 0.5f, high) - dp_maxf(x - 0.5f, low));
 }
 
-static spot find_spot(const dp_mark *m, float x, float y) {
+/* False where it is out of the mark's reach. */
+static bool find_spot(const dp_mark *m, float x, float y, spot *s) {
     const dp_point a = m->stroke.a, b = m->stroke.b;
-    const float ex = b.x - a.x, ey = b.y - a.y, length2 = ex * ex + ey * ey;
-    spot s = {.along = length2 > 0 ? ((x - a.x) * ex + (y - a.y) * ey) / length2 : 0};
-    s.t = clamp01(s.along);
-    s.distance = hypotf(x - a.x - s.t * ex, y - a.y - s.t * ey);
+    const float ex = b.x - a.x, ey = b.y - a.y, length2 = m->length * m->length, reach = m->stroke.half_width + 0.5f;
+    s->along = length2 > 0 ? ((x - a.x) * ex + (y - a.y) * ey) / length2 : 0;
+    s->t = clamp01(s->along);
+    const float dx = x - a.x - s->t * ex, dy = y - a.y - s->t * ey, distance2 = dx * dx + dy * dy;
+    if (distance2 > reach * reach) return false;
+    s->distance = sqrtf(distance2);
     const float cross = ex * (y - a.y) - ey * (x - a.x);
-    s.across = cross < 0 ? -s.distance : s.distance;
-    return s;
+    s->across = cross < 0 ? -s->distance : s->distance;
+    return true;
 }
 
 static void cover_centred(const dp_mark *m, spot *s) {
@@ -75,17 +77,13 @@ static void cover_centred(const dp_mark *m, spot *s) {
 /* The sector at the joint with the mark before: beyond that one's end, before this one's start. */
 static bool in_joint(const dp_mark *m, float dx, float dy) {
     if (m->before[0] == 0 && m->before[1] == 0) return false;
-    if (m->before[0] * dx + m->before[1] * dy < -0.5f) return false;
-    const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y, e = hypotf(ex, ey);
-    const float side = m->outward[0] * -ey + m->outward[1] * ex < 0 ? -1 : 1; /* of the mark before, the same side */
-    const float mx = m->outward[0] - m->before[1] * side, my = m->outward[1] + m->before[0] * side;
-    return e > 0 && mx * dx + my * dy > 0;
+    return m->before[0] * dx + m->before[1] * dy >= -0.5f && m->length > 0 && m->middle[0] * dx + m->middle[1] * dy > 0;
 }
 
 static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
     const float width = m->half[0] + (m->half[1] - m->half[0]) * s->t;
     const float dx = x - m->stroke.a.x, dy = y - m->stroke.a.y;
-    const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y, length = hypotf(ex, ey);
+    const float length = m->length;
     const float out = m->outward[0] * dx + m->outward[1] * dy;
     s->cover = 0;
     const float past = (s->along - 1) * length, ahead = -s->along * length; /* px beyond the ends */
@@ -107,15 +105,10 @@ static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
 }
 
 /* u in repeats of the texture. It stands still around a joint and runs on beyond the ends. */
-static float u_at(const brush *b, const dp_mark *m, const spot *s) {
+static float u_at(const dp_mark *m, const spot *s) {
     const bool starts = m->before[0] == 0 && m->before[1] == 0;
     const float along = (s->along < 0 && starts) || (s->along > 1 && m->ends) ? s->along : s->t;
-    if (b->style->u == DP_STROKE_ARC) return m->arc[0] + (m->arc[1] - m->arc[0]) * along;
-    const dp_frame *const f = b->frame;
-    const double x = (double)(m->stroke.a.x + (m->stroke.b.x - m->stroke.a.x) * s->t) - f->centre[0];
-    const double y = f->centre[1] - (double)(m->stroke.a.y + (m->stroke.b.y - m->stroke.a.y) * s->t);
-    const double half = f->view.height / 2;
-    return (float)dp_stroke_polar(x / half, y / half, (double)b->style->k);
+    return m->arc[0] + (m->arc[1] - m->arc[0]) * along;
 }
 
 /* Share of the pixel's samples over which extruded ink shows: those that fall away behind the outline, by at least an
@@ -133,9 +126,10 @@ static float beyond_share(const brush *b, const dp_mark *m, const spot *s, uint3
     return (float)visible / (float)samples;
 }
 
-static void cover_pixel(const brush *b, const dp_mark *m, float repeats, uint32_t level, uint32_t x, uint32_t y) {
+static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32_t x, uint32_t y) {
     const float fx = (float)x + 0.5f, fy = (float)y + 0.5f;
-    spot s = find_spot(m, fx, fy);
+    spot s;
+    if (!find_spot(m, fx, fy, &s)) return;
     const uint32_t px = x - b->x0, py = y - b->y0;
     dp_ink_worker *const w = b->worker;
     const bool set = w->row[py] >> px & 1;
@@ -151,7 +145,7 @@ static void cover_pixel(const brush *b, const dp_mark *m, float repeats, uint32_
     if (!(s.cover > 0)) return;
     dp_color color = m->stroke.color;
     if (b->style->texture) {
-        const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(b, m, &s) * repeats, s.v);
+        const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(m, &s), s.v);
         if (t.ink < b->least) return;
         s.cover *= t.ink;
         if (b->style->texture->coloured)
@@ -172,13 +166,10 @@ static void cover(const brush *b, const dp_mark *m) {
     const float r = k->half_width + 1;
     const uint32_t y0 = clamp_to(dp_minf(k->a.y, k->b.y) - r, b->y0, b->y1), y1 = clamp_to(dp_maxf(k->a.y, k->b.y) + r + 1, b->y0, b->y1);
     const uint32_t x0 = clamp_to(dp_minf(k->a.x, k->b.x) - r, b->x0, b->x1), x1 = clamp_to(dp_maxf(k->a.x, k->b.x) + r + 1, b->x0, b->x1);
-    const float width = b->frame->styles[0].line[k->line].width;
     const dp_texture *const texture = b->style->texture;
-    const bool polar = texture && b->style->u == DP_STROKE_POLAR;
-    const float repeats = polar ? dp_polar_repeats(b->frame, b->style, width) : 1;
     const uint32_t level = texture ? dp_texture_level(texture, b->outside ? k->half_width : 2 * k->half_width) : 0;
     for (uint32_t y = y0; y < y1; y++)
-        for (uint32_t x = x0; x < x1; x++) cover_pixel(b, m, repeats, level, x, y);
+        for (uint32_t x = x0; x < x1; x++) cover_pixel(b, m, level, x, y);
 }
 
 static void flush(const brush *b, dp_line line) {

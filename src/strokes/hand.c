@@ -233,10 +233,20 @@ static float repeats_per_px(const hand *h, float width, float length, bool close
 
 static void set_directions(dp_mark *m, const hand_point *before, bool outside, float side) {
     const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y, e = hypotf(ex, ey);
+    m->length = e;
     if (outside && e > 0) m->outward[0] = -ey / e * side, m->outward[1] = ex / e * side;
     if (!before) return;
     const float bx = m->stroke.a.x - before->x, by = m->stroke.a.y - before->y, b = hypotf(bx, by);
     if (b > 0) m->before[0] = bx / b, m->before[1] = by / b;
+    m->middle[0] = m->outward[0] - m->before[1] * side, m->middle[1] = m->outward[1] + m->before[0] * side;
+}
+
+/* u by the polar formula at a point, in turns; whole turns are added so that it lies within half a turn of `near`. */
+static float polar_at(const hand *h, dp_point p, float near) {
+    const dp_frame *const f = h->frame;
+    const double half = f->view.height / 2;
+    const double u = dp_stroke_polar((p.x - f->centre[0]) / half, (f->centre[1] - p.y) / half, (double)h->style->k);
+    return (float)(u - floor(u - (double)near + 0.5));
 }
 
 /* Extruded ink is hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
@@ -251,6 +261,8 @@ static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_
     const float full = h->outside ? outside_width(2 * first->half_width, length) : first->half_width;
     const float per_px = repeats_per_px(h, 2 * first->half_width, length, chain->closed);
     const float start = h->style->jitter > 0 && !chain->closed ? 0.5f + 0.5f * random_at(7, seed) : 0;
+    const bool polar = h->style->texture && h->style->u == DP_STROKE_POLAR;
+    const float turns = polar ? dp_polar_repeats(h->frame, h->style, 2 * first->half_width) : 0;
     const float side = h->outside ? (float)(s->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
     for (size_t i = 0; i + 1 < n; i++) {
         const bool closed = chain->closed;
@@ -261,6 +273,11 @@ static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_
         m->half[1] = full * width_at(h, &p[i + 1], length, closed);
         m->stroke.half_width = dp_maxf(m->half[0], m->half[1]);
         m->arc[0] = start + p[i].arc * per_px, m->arc[1] = start + p[i + 1].arc * per_px;
+        if (polar) {
+            m->arc[0] = polar_at(h, m->stroke.a, 0.5f);
+            m->arc[1] = polar_at(h, m->stroke.b, m->arc[0]);
+            for (int k = 0; k < 2; k++) m->arc[k] *= turns;
+        }
         set_directions(m, i ? &p[i - 1] : chain->closed ? &p[n - 2] : NULL, h->outside, side);
     }
     return true;
@@ -271,7 +288,7 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
     const dp_link *const head = link_at(chain, 0);
     const dp_piece *const piece = &h->pieces[head->segment];
     const uint32_t seed = hash(hash(s->seed * 8 + repeat, piece->a), piece->edge * 4 + piece->line);
-    const float spacing = dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 2 : 5);
+    const float spacing = dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 4 : 5);
     size_t n;
     if (!take_points(h, chain, spacing, &n)) return false;
     hand_point *const p = h->store->points;

@@ -11,6 +11,8 @@ typedef struct dp_mark {
     float arc[2];           /* texture u at a and b, in repeats */
     float before[2];        /* direction of the mark before, unit; 0, 0 where the chain begins */
     float outward[2];       /* unit; lying outside only: the side that is drawn */
+    float middle[2];        /* at the joint with the mark before: between both outward directions */
+    float length;           /* px */
     uint32_t chain;         /* marks of one chain and repeat lie together */
     bool ends;              /* the chain ends at b */
 } dp_mark;

@@ -147,14 +147,21 @@ static void mix_in(dp_texel *sum, const uint8_t *p, float weight) {
     sum->r += ink * (float)p[0], sum->g += ink * (float)p[1], sum->b += ink * (float)p[2], sum->ink += ink;
 }
 
+/* floorf without a call, for what is far from the limits of int. */
+static int32_t floor_of(float x) {
+    const int32_t i = (int32_t)x;
+    return (float)i > x ? i - 1 : i;
+}
+
 dp_texel dp_texture_sample(const dp_texture *t, uint32_t level, float u, float v) {
     const int32_t w = (int32_t)t->width[level], h = (int32_t)t->height[level];
     const uint8_t *const pixels = t->pixels[level];
-    const float x = (u - floorf(u)) * (float)w - 0.5f, fx = floorf(x);
-    const float held = v > 0 ? v < 1 ? v : 1 : 0, y = held * (float)h - 0.5f, fy = floorf(y);
-    const int32_t x0 = ((int32_t)fx % w + w) % w, x1 = x0 + 1 < w ? x0 + 1 : 0;
-    const int32_t y0 = fy < 0 ? 0 : (int32_t)fy, y1 = fy + 1 < (float)h ? (int32_t)fy + 1 : h - 1;
-    const float ax = x - fx, ay = y - fy;
+    const float turns = u > -1e6f && u < 1e6f ? u : 0, x = (turns - (float)floor_of(turns)) * (float)w - 0.5f;
+    const float held = v > 0 ? v < 1 ? v : 1 : 0, y = held * (float)h - 0.5f;
+    const int32_t ix = floor_of(x), iy = floor_of(y);
+    const int32_t x0 = ix < 0 ? w - 1 : ix < w ? ix : 0, x1 = x0 + 1 < w ? x0 + 1 : 0;
+    const int32_t y0 = iy < 0 ? 0 : iy, y1 = iy + 1 < h ? iy + 1 : h - 1;
+    const float ax = x - (float)ix, ay = y - (float)iy;
     dp_texel sum = {0, 0, 0, 0};
     mix_in(&sum, pixels + 4 * ((size_t)y0 * (size_t)w + (size_t)x0), (1 - ax) * (1 - ay));
     mix_in(&sum, pixels + 4 * ((size_t)y0 * (size_t)w + (size_t)x1), ax * (1 - ay));

@@ -4,6 +4,11 @@
     tests/accuracy/oracle.py --build build            every model, view, class and width
     tests/accuracy/oracle.py --build build --quick    about two minutes: few views and widths
     tests/accuracy/oracle.py --models cow,fandisk --classes valley --widths 2,24
+    tests/accuracy/oracle.py --methods emergent,diagonal,c1 --quick --widths 2    the edge map beside
+
+With --methods lines are also drawn by the edge map: profile edges are scored as silhouettes, inner edges
+as ridges and as valleys (recall only: which is which they do not know), both together as "all", where the
+edge map's precision is told. Figures are not asked of it.
 
 Prints a Markdown table: for every model, class and width the worst and the median over the views;
 then one row per case that misses a figure, with the commands that repeat it (the oracle then
@@ -71,15 +76,29 @@ WIDTH_TOLERANCE = 0.03
 WIDTH_EDGES = 200  # truth samples per px of width below which a median width says nothing
 
 
+# method -> options of drypoint; by class what of the edge map is drawn.
+METHODS = {
+    "emergent": "",
+    "diagonal": "--edges map --edge-map diagonal",
+    "c1": "--edges map --edge-map c1",
+    "diagonal-printed": "--edges map --edge-map diagonal --edge-measure paper",
+    "c1-printed": "--edges map --edge-map c1 --edge-measure paper",
+}
+MAP_PARTS = {"silhouette": " --inner-color none", "ridge": " --profile-color none",
+             "valley": " --profile-color none", "all": ""}
+
+
 class Case:
-    def __init__(self, model, view, cls, width):
+    def __init__(self, model, view, cls, width, method="emergent"):
         self.model, self.view, self.cls, self.width = model, view, cls, width
+        self.method = method
         self.theta, self.phi = (120, 240) if cls == "all" else (140, 220)
         self.scores, self.error, self.missed = {}, None, []
 
     @property
     def name(self):
-        return "%s %s %s %g" % (self.model.stem, self.view, self.cls, self.width)
+        name = "%s %s %s %g" % (self.model.stem, self.view, self.cls, self.width)
+        return name if self.method == "emergent" else name + " " + self.method
 
 
 def camera_of(path, view, cache={}):
@@ -185,6 +204,8 @@ def draw_command(options, case, picture):
         "--lines", CLASSES[case.cls][0], "--width", "%g" % case.width,
         "--ridge-angle", str(case.theta), "--valley-angle", str(case.phi), "--ink", options.ink,
         "--method", options.method, "--edges", options.edges, "--quiet"]
+    if case.method != "emergent":
+        command += shlex.split(METHODS[case.method] + MAP_PARTS[case.cls])
     return command + shlex.split(options.extra)
 
 
@@ -234,6 +255,8 @@ def missed_figures(case, edges):
         recall = max(recall, freestyle[0] - 0.0005)
         precision = max(precision, freestyle[1] - 0.0005)
     missed = []
+    if case.method != "emergent":
+        return missed
     if s["recall"] < recall:
         missed.append("recall %.4f < %.4f" % (s["recall"], recall))
     if s["precision"] < precision:
@@ -255,6 +278,22 @@ def width_error(case):
         return None
     off = s["width_median"] / case.width - 1
     return None if off > 0 and s["width_spread"] > WIDTH_TOLERANCE * case.width else off
+
+
+def print_methods(cases):
+    """One row per class and method: the worst and the median over models and views."""
+    print("| class | method | pictures | recall worst / median | precision worst / median |")
+    print("|---|---|---|---|---|")
+    groups = {}
+    for case in cases:
+        if case.scores and case.scores["truth_samples"] >= 100:
+            groups.setdefault((case.cls, case.method), []).append(case.scores)
+    for (cls, method), scores in groups.items():
+        recall, precision = ([s[k] for s in scores] for k in ("recall", "precision"))
+        told = method == "emergent" or cls in ("silhouette", "all")
+        print("| %s | %s | %d | %.3f / %.3f | %s |" % (
+            cls, method, len(scores), min(recall), statistics.median(recall),
+            "%.3f / %.3f" % (min(precision), statistics.median(precision)) if told else "–"))
 
 
 def print_table(cases):
@@ -309,9 +348,10 @@ def make_cases(options, models):
     cases = []
     for model in models:
         for cls in options.classes:
-            for view in ["peers"] if cls == "all" else options.views:
+            for view in ["peers"] if cls == "all" and options.methods == ["emergent"] else options.views:
                 for width in [2.0] if cls == "all" else options.widths:
-                    cases.append(Case(model, view, cls, width))
+                    for method in options.methods:
+                        cases.append(Case(model, view, cls, width, method))
     return cases
 
 
@@ -331,6 +371,7 @@ def parse(arguments):
     parser.add_argument("--views", type=words)
     parser.add_argument("--classes", type=words, default=list(CLASSES))
     parser.add_argument("--widths", type=lambda t: [float(w) for w in words(t)])
+    parser.add_argument("--methods", type=words, default=["emergent"], help=", ".join(METHODS))
     parser.add_argument("--ink", default="strokes")
     parser.add_argument("--edges", default="emergent", help="adjacency: its own figures for silhouettes")
     parser.add_argument("--method", default="exact")
@@ -347,7 +388,7 @@ def parse(arguments):
                                         else SHARED + list(DRAGONS))
     options.views = options.views or (["peers", "left", "close"] if options.quick else list(VIEWS))
     options.widths = options.widths or ([2.0, 12.0, 24.0] if options.quick else [2.0, 3.0, 12.0, 24.0])
-    for what, known in (("views", VIEWS), ("classes", CLASSES)):
+    for what, known in (("views", VIEWS), ("classes", CLASSES), ("methods", METHODS)):
         for name in getattr(options, what):
             if name not in known:
                 parser.error("--%s: %s is none of %s" % (what, name, ", ".join(known)))
@@ -377,7 +418,10 @@ def main():
                 print("\r%d of %d  %-60s" % (done, len(cases), case.name), end="", file=sys.stderr)
     if sys.stderr.isatty():
         print("\r%80s\r" % "", end="", file=sys.stderr)
-    print_table(cases)
+    if options.methods == ["emergent"]:
+        print_table(cases)
+    else:
+        print_methods(cases)
     print_failures(options, oracle, cases)
     return 1 if any(case.missed or case.error for case in cases) else 0
 

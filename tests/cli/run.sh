@@ -500,7 +500,95 @@ pencil() {
     wrong shape:cube -o out.png --pencil-tones 1 -- '--pencil-tones'
 }
 
-tests="strokes wrong_strokes adjacency pencil draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
+# size_of FILE: bytes.
+size_of() { stat -c %s "$1"; }
+styles_and_edges() {
+    for style in paper flat lambert gooch toon hatch halftone; do
+        for edges in map emergent both none; do
+            run 0 shape:bolt -o $style-$edges.png --size 120x90 --style $style --edges $edges
+            silent err
+            is_png $style-$edges.png
+        done
+    done
+    cmp -s gooch-none.png toon-none.png && fail "gooch is toon"
+    cmp -s gooch-map.png gooch-emergent.png && fail "the map's edges are emergent lines"
+    run 0 shape:bolt -o c1.png --size 120x90 --edge-map c1
+    run 0 shape:bolt -o paper.png --size 120x90 --edge-map diagonal --edge-measure paper --precision 8
+    cmp -s c1.png paper.png && fail "C1 is the diagonal detector"
+    run 0 shape:torus -o jagged.png --size 120x90 --style toon --cartoon-map off
+    cmp -s jagged.png toon-emergent.png && fail "the cartoon map changes nothing"
+}
+outputs_beside() {
+    run 0 shape:gear -o out.png -o edge-map=map.png --output normals=n.png --output=depth=z.png -o id=id.png --size 90x60
+    for name in out map n z id; do
+        is_png $name.png
+        [ "$(png_size $name.png)" = 90x60 ] || fail "$name.png has another size"
+    done
+    cp out.png with.png
+    run 0 shape:gear -o out.png --size 90x60
+    cmp -s out.png with.png || fail "the outputs change the drawing"
+    rm -f out.png
+    run 1 shape:gear -o out.png -o normals=nowhere/n.png
+    one_line
+    says err nowhere
+    absent out.png
+    wrong shape:gear -o normals= -o out.png -- "a file is missing"
+}
+mirrors() {
+    run 0 shape:bolt -o floor.png --size 120x90 --mirror 0,1,0 --style toon
+    run 0 shape:bolt -o wall.png --size 120x90 --mirror 1,0,0,-2 --mirror-size 4 --mirror-tint '#88AACC' --mirror-fade 3
+    is_png floor.png
+    cmp -s floor.png wall.png && fail "the mirror stays where it is"
+    wrong shape:bolt -o out.png --mirror 0,1 -- "not a plane"
+    wrong shape:bolt -o out.png --mirror 0,0,0,1 -- "normal is zero"
+    wrong shape:bolt -o out.png --mirror 0,1,0,1,2 -- "not a plane"
+}
+presets() {
+    for preset in technical cartoon engraving blueprint sketch patent; do
+        run 0 shape:bolt -o $preset.png --size 120x90 --preset $preset
+        silent err
+        is_png $preset.png
+    done
+    run 0 shape:bolt -o changed.png --size 120x90 --preset=patent --style gooch
+    run 0 shape:bolt -o before.png --size 120x90 --style gooch --preset patent
+    cmp -s changed.png before.png || fail "the preset's place matters"
+    cmp -s changed.png patent.png && fail "options do not change presets"
+    wrong shape:bolt -o out.png --preset cartoons -- "did you mean cartoon?"
+}
+textures() {
+    run 0 shape:bolt -o strokes.png --size 64x64 --lines silhouette
+    run 0 shape:torus -o hatched.png --size 120x90 --style hatch --strokes strokes.png --hatch-space object
+    run 0 shape:torus -o shaded.png --size 120x90 --style toon --shade-texture strokes.png
+    echo "no picture" >text.png
+    run 1 shape:torus -o out.png --style hatch --strokes text.png
+    one_line
+    says err "give a PNG file"
+    run 1 shape:torus -o out.png --style toon --shade-texture missing.png
+    one_line
+    absent out.png
+}
+enhanced_objects() {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 2 1 0\no left\nf 1 2 3\no right\nusemtl red\nf 4 5 6\n' >two.obj
+    run 0 two.obj -o all.png --size 120x90 --edges map
+    run 0 two.obj -o left.png --size 120x90 --edges map --enhance left
+    run 0 two.obj -o right.png --size 120x90 --edges map --enhance red
+    run 0 two.obj -o both.png --size 120x90 --edges map --enhance left,right
+    cmp -s all.png both.png || fail "both are not all"
+    cmp -s left.png right.png && fail "left is right"
+    run 1 two.obj -o out.png --edges map --enhance middle
+    one_line
+    says err 'no object called "middle"; it has left, right/red'
+    absent out.png
+}
+absurd_thresholds() {
+    for option in "--inner-angle 0" "--inner-angle 181" "--profile-depth -1" "--edge-radius 5" "--profile-softness 2" \
+        "--crease-angle nan" "--light 10" "--light 0,91" "--highlight 1.5" "--hatch-scale 0"; do
+        # shellcheck disable=SC2086
+        wrong shape:bolt -o out.png --edges map $option -- "${option%% *}"
+    done
+}
+
+tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts dropped_are_counted old_file_stays_on_error full_disk devices unwritable_places

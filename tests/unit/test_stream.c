@@ -9,6 +9,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,7 +97,7 @@ static void all_shapes(void **state) {
     (void)state;
     for (uint32_t k = 0; k < dp_shape_count(); k++) {
         dp_source *const source = shape(dp_shape_name(k), DP_TUNED(30000, 1500));
-        expect_same_as_memory(source, (how){.style.lines = NO_CROSSINGS}, dp_shape_name(k));
+        expect_same_as_memory(source, (how){.samples = 4}, dp_shape_name(k));
         dp_source_destroy(source);
     }
 }
@@ -122,17 +123,6 @@ static void any_threads(void **state) {
         if (threads > 1) assert_memory_equal(first.rgba, stream_picture.rgba, sizeof first.rgba);
         if (threads > 1) assert_memory_equal(first.depth, stream_picture.depth, sizeof first.depth);
     }
-    dp_source_destroy(source);
-}
-
-/* In one part, also where two faces cross. */
-static void crossing_faces(void **state) {
-    (void)state;
-#ifdef DP_HOSTILE
-    skip(); /* each part holds six triangles */
-#endif
-    dp_source *const source = shape("boxes", 500);
-    expect_same_as_memory(source, (how){.samples = 4}, "boxes");
     dp_source_destroy(source);
 }
 
@@ -191,6 +181,26 @@ static void shuffle(soup *s) {
         memcpy(swap, s->corners[i], sizeof swap);
         memcpy(s->corners[i], s->corners[j], sizeof swap);
         memcpy(s->corners[j], swap, sizeof swap);
+    }
+}
+
+/* Where faces cross: large ones, ones below a sample, and in any order. Where a crossing leaves the pixels in
+ * which faces were seen to come close, samples hide it, so that a pixel or two may differ. */
+static void crossing_faces(void **state) {
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        soup s;
+        make_soup(&s, "boxes", k ? DP_TUNED(200000, 3000) : 500);
+        if (k == 2) shuffle(&s);
+        dp_source *const source = soup_source(&s);
+        how h = {.samples = k == 1 ? 1 : 4};
+        draw(source, &h, &memory_picture);
+        h.limit = 1;
+        draw(source, &h, &stream_picture);
+        const long different = different_pixels(&memory_picture, &stream_picture);
+        if (different > 6) fail_msg("%d: %ld pixels differ", k, different);
+        dp_source_destroy(source);
+        free(s.corners);
     }
 }
 
@@ -423,14 +433,14 @@ static void too_little_memory(void **state) {
 }
 
 /* An allocator that fails from the n-th call on. */
-static size_t calls_left;
+static atomic_long calls_left;
 static void *meagre_alloc(size_t size, void *user) {
     (void)user;
-    return calls_left ? calls_left--, malloc(size) : NULL;
+    return atomic_fetch_sub(&calls_left, 1) > 0 ? malloc(size) : NULL;
 }
 static void *meagre_realloc(void *block, size_t size, void *user) {
     (void)user;
-    return calls_left ? calls_left--, realloc(block, size) : NULL;
+    return atomic_fetch_sub(&calls_left, 1) > 0 ? realloc(block, size) : NULL;
 }
 static void meagre_free(void *block, void *user) {
     (void)user;
@@ -447,8 +457,8 @@ static void out_of_memory(void **state) {
     const dp_fit fit = {.min = {-1, -1, -1}, .max = {1, 1, 1}};
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     bool done = false;
-    for (size_t n = 0; !done; n += 1 + n / 8) {
-        calls_left = n;
+    for (long n = 0; !done; n += 1 + n / 8) {
+        atomic_store(&calls_left, n);
         dp_context *context;
         dp_diag diag = {0};
         const dp_context_desc desc = {.allocator = &meagre, .threads = 2};
@@ -456,7 +466,7 @@ static void out_of_memory(void **state) {
         if (dp_context_create(&desc, &context, &diag)) continue;
         context->limit = 1;
         const dp_result result = dp_draw(context, source, &camera, NULL, &target, &diag);
-        if (result && result != DP_ERR_MEMORY) fail_msg("%zu: %s", n, diag.message);
+        if (result && result != DP_ERR_MEMORY) fail_msg("%ld: %s", n, diag.message);
         done = !result;
         dp_context_destroy(context);
     }

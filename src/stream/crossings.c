@@ -1,0 +1,171 @@
+/* Intersections of a streamed model.
+ *
+ * While faces are drawn, pixels where two of them come close are noted for the whole picture, as in a tile
+ * (intersect.c); what a sample holds from earlier lists counts too, by the way it faces. In the second
+ * reading every triangle that touches such a pixel, or one beside it, and is not hidden joins the crowd. In
+ * the end the crowd is a mesh: in each tile its faces are drawn by themselves, into samples that start empty,
+ * so that suspects, pairs and crossings are found there as they would be among all triangles. Where there
+ * are suspects the crowd is all there is to be seen, so it hides what is hidden; elsewhere along a
+ * crossing the picture's samples do.
+ *
+ * In one pass nobody comes by again: the crowd are the pairs found within each list. */
+#include "stream/draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ------- first reading ------- */
+
+/* Which samples show a back face. */
+static void note_facing(const dp_tile_worker *w, uint64_t *away) {
+    for (size_t word = 0; word < w->frame->tile_samples / 64; word++) {
+        const uint32_t *const winner = w->winner + 64 * word;
+        uint64_t won = 0, back = 0;
+        for (uint32_t i = 0; i < 64; i++) {
+            if (winner[i] == UINT32_MAX) continue;
+            won |= (uint64_t)1 << i;
+            back |= (uint64_t)!(w->polygons[winner[i]].flags & DP_POLYGON_FRONT) << i;
+        }
+        away[word] = (away[word] & ~won) | back;
+    }
+}
+
+/* One pass: the triangles of a list that cross others. */
+static void note_pairs(const dp_stream_draw *s, const dp_tile_worker *w, dp_stream_worker *own) {
+    for (uint32_t i = 0; i < w->candidate_count; i++) {
+        const uint32_t ids[2] = {w->candidates[i].a, w->candidates[i].b};
+        if (own->crowd_count + 2 > s->crowd_limit) return;
+        if (!dp_reserve(s->memory, &own->crowd, &own->crowd_cap, own->crowd_count + 2, sizeof *own->crowd)) {
+            own->failed = true;
+            return;
+        }
+        for (int k = 0; k < 2; k++) {
+            dp_kept_triangle *const t = &own->crowd[own->crowd_count++];
+            *t = (dp_kept_triangle){.number = s->numbers[ids[k]], .polygon = s->numbers[ids[k]]};
+            memcpy(t->corners, s->corners[ids[k]], sizeof t->corners);
+        }
+    }
+}
+
+void dp_stream_note_suspects(dp_stream_draw *s, dp_tile_worker *w, dp_stream_worker *own) {
+    uint64_t(*const suspects)[DP_TILE] = s->suspects[w->tile];
+    for (int k = 0; k < 2; k++)
+        for (uint32_t y = 0; y < DP_TILE; y++) suspects[k][y] |= w->suspects[k][y];
+    note_facing(w, s->away + (size_t)w->tile * w->frame->tile_samples / 64);
+    if (s->read_again) return;
+    dp_tile_intersections(w);
+    note_pairs(s, w, own);
+}
+
+/* ------- between the readings ------- */
+
+/* Pixels that show nothing but back faces: on the outlines of fine meshes single samples do. */
+static void find_away(const dp_stream_draw *s, uint32_t tile, uint64_t rows[DP_TILE]) {
+    const dp_frame *const f = &s->context->frame;
+    const uint64_t *const away = s->away + (size_t)tile * f->tile_samples / 64;
+    memset(rows, 0xff, DP_TILE * sizeof *rows);
+    for (size_t i = 0; i < f->tile_samples; i++) {
+        const size_t pixel = i / f->target.samples;
+        if (!(away[i / 64] >> i % 64 & 1)) rows[pixel / DP_TILE] &= ~((uint64_t)1 << pixel % DP_TILE);
+    }
+    dp_drop_lone(rows);
+}
+
+static void choose_crowded(void *arg, uint32_t tile, uint32_t worker) {
+    dp_stream_draw *const s = arg;
+    uint64_t(*const suspects)[DP_TILE] = s->suspects[tile];
+    uint64_t away[DP_TILE], near[DP_TILE];
+    (void)worker;
+    find_away(s, tile, away);
+    dp_widen(away, near);
+    for (uint32_t y = 0; y < DP_TILE; y++) suspects[0][y] |= suspects[1][y] & near[y];
+    dp_drop_lone(suspects[0]);
+    dp_widen(suspects[0], s->crowded + (size_t)tile * DP_TILE);
+}
+
+static int by_number(const void *left, const void *right) {
+    const dp_kept_triangle *const l = left, *const r = right;
+    return (l->number > r->number) - (l->number < r->number);
+}
+
+/* All workers' triangles in order, each once. */
+static bool gather_pairs(dp_stream_draw *s) {
+    size_t count = 0;
+    for (uint32_t i = 0; i < s->context->workers; i++) count += s->workers[i].crowd_count;
+    if (!count) return true;
+    if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, count, sizeof *s->crowd)) return false;
+    count = 0;
+    for (uint32_t i = 0; i < s->context->workers; i++) {
+        const dp_stream_worker *const w = &s->workers[i];
+        if (w->crowd_count) memcpy(s->crowd + count, w->crowd, w->crowd_count * sizeof *w->crowd);
+        count += w->crowd_count;
+    }
+    qsort(s->crowd, count, sizeof *s->crowd, by_number);
+    for (size_t i = 0; i < count; i++)
+        if (!i || s->crowd[s->crowd_count - 1].number != s->crowd[i].number) s->crowd[s->crowd_count++] = s->crowd[i];
+    return true;
+}
+
+bool dp_stream_choose_crowded(dp_stream_draw *s) {
+    if (!(s->context->frame.lines & DP_INTERSECTION)) return true;
+    return dp_stream_for_tiles(s, choose_crowded) && (s->read_again || gather_pairs(s));
+}
+
+/* ------- at the end ------- */
+
+/* Adds a tile's crossings to the lines it has. */
+static bool add_lines(const dp_stream_draw *s, const dp_tile_worker *w, uint32_t first, dp_tile_lines *lines) {
+    const uint32_t candidates = lines->candidate_count + w->candidate_count, probes = lines->probe_count + w->probe_count;
+    const size_t head = candidates * sizeof *w->candidates;
+    uint8_t *const block = dp_alloc(s->memory, head + probes * sizeof *w->probes);
+    if (!block) return false;
+    const dp_tile_lines all = {(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head), candidates, probes};
+    if (lines->candidate_count) {
+        memcpy(all.candidates, lines->candidates, lines->candidate_count * sizeof *all.candidates);
+        memcpy(all.probes, lines->probes, lines->probe_count * sizeof *all.probes);
+    }
+    memcpy(all.candidates + lines->candidate_count, w->candidates, w->candidate_count * sizeof *all.candidates);
+    memcpy(all.probes + lines->probe_count, w->probes, w->probe_count * sizeof *all.probes);
+    for (uint32_t i = lines->candidate_count; i < candidates; i++) {
+        all.candidates[i].a += first, all.candidates[i].b += first;
+        all.candidates[i].probe += lines->probe_count;
+    }
+    dp_free(s->memory, lines->candidates);
+    *lines = all;
+    return true;
+}
+
+static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
+    dp_stream_draw *const s = arg;
+    dp_tile_worker *const w = &s->context->tile_workers[worker];
+    dp_stream_worker *const own = &s->workers[worker];
+    const uint64_t *const crowded = s->crowded + (size_t)tile * DP_TILE;
+    if (!dp_bins_tile_count(&w->frame->polygon_bins, tile)) return;
+    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->frame->tile_samples, sizeof *own->depth)) {
+        own->failed = true;
+        return;
+    }
+    dp_tile_open(w, tile);
+    w->depth = own->depth;
+    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
+    dp_tile_assemble(w);
+    dp_tile_faces(w);
+    for (uint32_t y = 0; y < DP_TILE; y++) w->suspects[0][y] &= crowded[y], w->suspects[1][y] &= crowded[y];
+    dp_tile_intersections(w);
+    if (!w->candidate_count) return;
+    dp_stream_hide_by_samples(w);
+    if (!add_lines(s, w, (uint32_t)(s->mesh_count - s->crowd_count), &s->lines[tile])) own->failed = true;
+}
+
+bool dp_stream_find_crossings(dp_stream_draw *s) {
+    dp_frame *const f = &s->context->frame;
+    const uint32_t first = s->mesh_count;
+    if (!s->crowd_count) return true;
+    if (!dp_stream_add_polygons(s, s->crowd, s->crowd_count)) return false;
+    const dp_polygons all = f->polygons;
+    f->polygons = (dp_polygons){.positions = s->positions + 9 * (size_t)first, .stride = 3 * sizeof(float),
+                                .vertex_count = (uint32_t)(3 * s->crowd_count), .count = (uint32_t)s->crowd_count};
+    const bool sound = dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_crossings);
+    f->polygons = all;
+    return sound;
+}
