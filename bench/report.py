@@ -138,6 +138,39 @@ def stage_table(rows):
     return table(["ms per stage"] + stages, body)
 
 
+def moved(row):
+    """Bytes that each stage has to read and write at the least, each datum once per pass over it."""
+    vertices, triangles, segments = row["vertices"], row["triangles"], row["segments"]
+    samples = row["width"] * row["height"] * row["samples"]
+    return {
+        "vertices": vertices * (12 + 16),            # positions; transformed vertices
+        "bin": triangles * (12 + 48 + 2 * 16 + 8),   # corners, vertices; rectangles; entries
+        # corners and vertices again, points and planes, a slot for each of three edges; depth and winner of
+        # samples: cleared, drawn, looked at; pixels
+        "tiles": triangles * (4 + 12 + 48 + 2 * 80 + 2 * 48) + samples * 3 * 8 + samples // row["samples"] * 4,
+        "segments": segments * (32 + 100 + 60),      # pieces; segments; strokes
+        "ink": segments * 60 + samples * 4 + samples // row["samples"] * 8,
+    }
+
+
+def bounds_table(rows, machine, instructions):
+    """What a frame of the main model is bound by: each stage beside what the machine can do."""
+    main = next((row for row in rows if row["main"] and row["group"] == "triangles"), None)
+    if not main or not main["own"] or not machine:
+        return ""
+    threads = machine[-1]
+    body = []
+    for stage, count in moved(main).items():
+        ms = main["own"]["stages"][stage]
+        rate = count / ms / 1e6 if ms > 0 else 0
+        executed = instructions.get(stage) if instructions else None
+        body.append([stage, f"{ms:.2f}", f"{count / 1e6:.0f}", f"{rate:.1f}", f"{rate / threads['triad_gb_s']:.2f}",
+                     f"{executed / 1e6:.0f}" if executed else "–",
+                     f"{executed / ms / 1e6 / threads['threads']:.1f}" if executed and ms > 0 else "–"])
+    return table(["stage", "ms", "MB moved, at the least", "GB/s", "of the triad",
+                  "million instructions (AVX2)", "of them per ns and core"], body)
+
+
 def start_table(starts):
     body = []
     for start in starts:
@@ -179,6 +212,8 @@ def markdown(report):
         if any(row["group"] == group for row in rows):
             text.append(f"## {heading}\n\n" + group_table(rows, group, column, main_place))
     text.append("## Stages\n\n" + stage_table(rows))
+    text.append("## What bounds a frame of the main model\n\n" +
+                bounds_table(rows, report["machine"], report["instructions"]))
     text.append("## File to picture, a new process\n\n" + start_table(report["starts"]))
     return "\n".join(text)
 
@@ -282,6 +317,7 @@ def main(folder):
         "processor": processor(),
         "peer": peer and f"{peer['renderer']}, {peer['version']}",
         "machine": read_json(os.path.join(folder, "machine.json")),
+        "instructions": read_json(os.path.join(folder, "instructions.json")),
         "rows": read_lines(os.path.join(folder, "rows.jsonl")),
         "starts": read_lines(os.path.join(folder, "starts.jsonl")),
     }

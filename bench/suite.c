@@ -230,10 +230,10 @@ static void print_row(const suite *s, const row *r) {
     const dp_stats *const stats = &s->stats;
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     printf("{\"group\": \"%s\", \"label\": \"%s\", \"model\": \"%s\", \"main\": %s, "
-           "\"triangles\": %llu, \"width\": %u, \"height\": %u, \"samples\": %u, \"threads\": %ld, "
+           "\"triangles\": %llu, \"vertices\": %llu, \"width\": %u, \"height\": %u, \"samples\": %u, \"threads\": %ld, "
            "\"line_width\": %g, \"segments\": %llu, \"added_polygons\": %llu, \"bytes\": %llu",
            r->group, r->label, name_of(s->model), s->model == s->main_model ? "true" : "false",
-           (unsigned long long)stats->triangles, s->target.width, s->target.height,
+           (unsigned long long)stats->triangles, (unsigned long long)s->extent.vertices, s->target.width, s->target.height,
            s->target.samples, r->threads ? (long)r->threads : processors,
            r->line_width > 0 ? (double)r->line_width : 2, (unsigned long long)stats->segments,
            (unsigned long long)stats->added_polygons, (unsigned long long)stats->bytes);

@@ -110,6 +110,25 @@ time_starts() {
     done >"$out/starts.jsonl"
 }
 
+# What one frame of the main model executes, by stage: callgrind counts it (with AVX2; it knows no AVX-512).
+count_instructions() {
+    command -v valgrind >/dev/null || { say "no valgrind: instructions are not counted"; return 0; }
+    command -v callgrind_annotate >/dev/null || return 0
+    say "counting the instructions of a frame"
+    # a first frame is drawn and not timed: two in all
+    valgrind --quiet --tool=callgrind --callgrind-out-file="$out/callgrind" "$program" bench "$models/$name-871k.ply" \
+        --size 1680x1050 --lines silhouette,ridge,valley,intersection --threads 1 --frames 1 \
+        >/dev/null 2>&1 || return 0
+    callgrind_annotate --inclusive=yes --threshold=100 "$out/callgrind" 2>/dev/null | tr -d ',' | awk '
+        match($0, /:(transform_block|bin_chunk|dp_tile_find|make_block|dp_ink_tile) /) {
+            n[substr($0, RSTART + 1, RLENGTH - 2)] += $1
+        }
+        END {
+            printf "{\"vertices\": %d, \"bin\": %d, \"tiles\": %d, \"segments\": %d, \"ink\": %d}\n", n["transform_block"] / 2,
+                   n["bin_chunk"] / 2, n["dp_tile_find"] / 2, n["make_block"] / 2, n["dp_ink_tile"] / 2
+        }' >"$out/instructions.json"
+}
+
 build_programs
 prepare_models
 peer=$(find_peer)
@@ -117,6 +136,8 @@ say "what the machine can do"
 "$bin/triad" >"$out/machine.json"
 time_frames
 time_starts
+rm -f "$out/instructions.json"
+count_instructions
 if command -v python3 >/dev/null; then
     python3 bench/report.py "$out"
     cat "$out/bench.md"
