@@ -19,7 +19,7 @@ static const float CORNER = 0.77f;   /* cosine: sharper turns than 40 degrees ar
 static const float TURN = -0.7f;     /* chains do not go on at turns above 135 degrees */
 static const float BREAK = 0.34f;    /* at corners of more than 70 degrees the pen is lifted */
 static const float SWELL = 0.4f;     /* px of width per px of an extruded outline's length */
-static const float CORE = 0.75f;     /* px, half the width of the edges themselves under extruded ink */
+static const float CORE = 0.6f;     /* px, half the width of the edges themselves under extruded ink */
 static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
 
 typedef struct dp_hand_point {
@@ -250,8 +250,8 @@ static float polar_at(const hand *h, dp_point p, float near) {
     return (float)(u - floor(u - (double)near + 0.5));
 }
 
-/* Extruded ink is hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
-static float outside_width(float full, float length) { return dp_minf(full, 1.5f + SWELL * length); }
+/* With its core, extruded ink is as wide as asked, and hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
+static float outside_width(float full, float length) { return dp_maxf(dp_minf(full, 1.5f + SWELL * length) - CORE, 0.25f); }
 
 static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_t id, uint32_t seed) {
     dp_mark_store *const s = h->store;
