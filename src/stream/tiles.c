@@ -144,14 +144,15 @@ static bool store_lines(const dp_stream_draw *s, const dp_tile_worker *w, dp_til
     return true;
 }
 
-/* An edge known to be a line whose other triangle is not there (thinned out, or hidden) does not emerge; nor does
- * any when edges were given up, because then the other triangle may be anywhere. */
+/* When lines were thinned, an edge known to be a line whose other triangle is not there does not emerge (else the
+ * other is hidden, and it does); nor does any other when edges were given up, because then its other triangle may
+ * be anywhere. */
 static void drop_halves(const dp_stream_draw *s, dp_tile_worker *w) {
     uint32_t left = 0;
     for (uint32_t i = 0; i < w->loose_count; i++) {
         const dp_loose_edge l = w->loose[i];
-        if (s->edge_flags[3 * (size_t)w->polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE && !s->waited_in_vain)
-            w->loose[left++] = l;
+        const bool alone = s->edge_flags[3 * (size_t)w->polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
+        if (!(alone ? s->waited_in_vain : s->thinned)) w->loose[left++] = l;
     }
     w->loose_count = left;
 }
