@@ -26,6 +26,7 @@ GROUPS = [  # group, heading, column heading, the main row's place in it
     ("threads", "Threads", "threads", (1, None)),
     ("lines", "Line classes", "classes", (5, "the paper's four")),
     ("method", "Ways to draw", "way", (0, "the default")),
+    ("shading", "Shading and edge map, without other lines, beside flat white", "look", (0, "lines alone")),
 ]
 
 

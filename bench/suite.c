@@ -32,6 +32,9 @@ typedef struct row {
     dp_ink ink;
     dp_method method;
     bool edge_table_off, cull;
+    dp_shading shading;
+    dp_edge_detector map;
+    bool object_space;
     bool quick; /* in the short run too */
 } row;
 
@@ -62,6 +65,13 @@ static const row rows[] = {
      .method = DP_METHOD_PAPER},
     {.group = "method", .label = "edge table off", .edge_table_off = true},
     {.group = "method", .label = "back faces culled", .cull = true, .quick = true},
+    {.group = "shading", .label = "edge map, diagonal", .lines = DP_NO_LINES, .map = DP_EDGE_MAP_DIAGONAL, .quick = true},
+    {.group = "shading", .label = "edge map, C1", .lines = DP_NO_LINES, .map = DP_EDGE_MAP_C1, .quick = true},
+    {.group = "shading", .label = "Gooch", .lines = DP_NO_LINES, .shading = DP_SHADING_GOOCH, .quick = true},
+    {.group = "shading", .label = "toon, cartoon map", .lines = DP_NO_LINES, .shading = DP_SHADING_TOON, .quick = true},
+    {.group = "shading", .label = "hatching on the screen", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .quick = true},
+    {.group = "shading", .label = "hatching on the object", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .object_space = true},
+    {.group = "shading", .label = "halftone", .lines = DP_NO_LINES, .shading = DP_SHADING_HALFTONE},
 };
 enum { ROW_COUNT = sizeof rows / sizeof *rows };
 static const row plain_row = {.group = "triangles", .label = "", .quick = true};
@@ -250,10 +260,14 @@ static void set_styles(suite *s, const row *r) {
                       .method = r->method,
                       .ink = r->ink,
                       .cull_back_faces = r->cull,
-                      .edge_table_off = r->edge_table_off};
+                      .edge_table_off = r->edge_table_off,
+                      .shade = {.shading = r->shading, .object_space = r->object_space},
+                      .edge_map = {.detector = r->map}};
     for (int k = 0; k < DP_LINE_COUNT; k++) style.line[k].width = r->line_width;
     s->styles[OWN] = s->styles[OWN_FLAT] = style;
     s->styles[OWN_FLAT].lines = DP_NO_LINES;
+    s->styles[OWN_FLAT].shade.shading = DP_SHADING_FLAT;
+    s->styles[OWN_FLAT].edge_map.detector = DP_EDGE_MAP_OFF;
 }
 
 static bool set_up(suite *s, const row *r) {

@@ -51,7 +51,7 @@ static bool set_plane(dp_added *out) {
     double nx = 0, ny = 0, nz = 0;
     out->nearest = p[0].d;
     for (uint32_t i = 1; i < out->count; i++) {
-        out->nearest = fmax(out->nearest, p[i].d);
+        out->nearest = dp_max(out->nearest, p[i].d);
         if (i + 1 == out->count) break;
         const double ax = p[i].x - p[0].x, ay = p[i].y - p[0].y, ad = p[i].d - p[0].d;
         const double bx = p[i + 1].x - p[0].x, by = p[i + 1].y - p[0].y, bd = p[i + 1].d - p[0].d;
@@ -59,7 +59,8 @@ static bool set_plane(dp_added *out) {
         ny += ad * bx - ax * bd;
         nz += ax * by - ay * bx;
     }
-    out->dx = -nx / nz, out->dy = -ny / nz;
+    const double inverse = -1 / nz;
+    out->dx = nx * inverse, out->dy = ny * inverse;
     out->d0 = p[0].d - out->dx * p[0].x - out->dy * p[0].y;
     return isfinite(out->d0);
 }
@@ -113,47 +114,78 @@ bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_v
 /* Shorter edges (px) have no direction to speak of. */
 static const double SHORTEST = 1.0 / 4096;
 
+/* How a point at `c`, on the edge, moves on the screen with a step along q; 1 / w² is given, as it is the same for
+ * any direction. */
+static dp_motion motion_of(const dp_view *view, const dp_screen_edge *edge, dp_clip_point c, double inverse2, dp_vec3 q) {
+    const double(*m)[4] = view->clip;
+    const double x = m[0][0] * q.x + m[0][1] * q.y + m[0][2] * q.z;
+    const double y = m[1][0] * q.x + m[1][1] * q.y + m[1][2] * q.z;
+    const double w = m[3][0] * q.x + m[3][1] * q.y + m[3][2] * q.z;
+    const double sx = 0.5 * view->width * (x * c.w - c.x * w) * inverse2;
+    const double sy = -0.5 * view->height * (y * c.w - c.y * w) * inverse2;
+    const double d = view->perspective ? -w * inverse2
+                                       : -(view->sight[0] * q.x + view->sight[1] * q.y + view->sight[2] * q.z);
+    const double out = sx * edge->nx + sy * edge->ny, along = sx * edge->tx + sy * edge->ty;
+    return (dp_motion){out, d - edge->along * along};
+}
+
+/* A plane's depth is affine on the screen, so that the edge's middle tells the slope everywhere. */
+static dp_lean lean_of(const dp_screen_edge *edge, dp_motion m) {
+    const bool outward = m.out > edge->edge_on;
+    return (dp_lean){outward, outward ? m.rise / m.out : m.rise > 0 ? INFINITY : -INFINITY};
+}
+
+/* Fills an edge whose ends on the screen are set. */
+static bool finish_edge(const dp_primitive *p, uint32_t edge, dp_clip_point ca, dp_clip_point cb, dp_screen_edge *out) {
+    const double x = out->b.x - out->a.x, y = out->b.y - out->a.y;
+    out->length = sqrt(x * x + y * y);
+    if (!(out->length > SHORTEST) || !isfinite(out->length + out->a.d + out->b.d)) return false;
+    const double inverse = 1 / out->length;
+    out->tx = x * inverse, out->ty = y * inverse;
+    /* a front-facing polygon has its inside to the left of its edges; the screen's y runs down */
+    out->nx = p->front ? -out->ty : out->ty;
+    out->ny = p->front ? out->tx : -out->tx;
+    out->along = (out->b.d - out->a.d) * inverse;
+    out->steep = dp_depth_step(p->view, dp_max(out->a.d, out->b.d), DP_STEEPEST);
+    const dp_clip_point middle = dp_clip_mix(ca, cb, 0.5);
+    const double inverse_w = 1 / middle.w, inverse2 = inverse_w * inverse_w;
+    out->edge_on = 1e-9 * p->view->focal * inverse_w;
+    const dp_vec3 o = dp_cross(dp_edge_direction(p, edge), p->normal);
+    out->outward = motion_of(p->view, out, middle, inverse2, o);
+    out->normal = motion_of(p->view, out, middle, inverse2, p->normal);
+    out->own = lean_of(out, out->outward).slope;
+    return true;
+}
+
 bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *out) {
     const dp_clip_point a = p->clip[edge], b = p->clip[edge + 1 == p->n ? 0 : edge + 1];
+    const int code_b = dp_outcode(p->view, b);
     double t0 = 0, t1 = 1;
-    if ((dp_outcode(p->view, a) | dp_outcode(p->view, b)) && !dp_clip_segment(p->view, a, b, &t0, &t1))
-        return false;
+    if ((dp_outcode(p->view, a) | code_b) && !dp_clip_segment(p->view, a, b, &t0, &t1)) return false;
     /* ends that are not clipped stay as they are, bit for bit: the polygon's own outline runs there */
     const dp_clip_point ca = t0 > 0 ? dp_clip_mix(a, b, t0) : a, cb = t1 < 1 ? dp_clip_mix(a, b, t1) : b;
     out->a = dp_to_screen(p->view, ca);
     out->b = dp_to_screen(p->view, cb);
-    out->middle = dp_clip_mix(ca, cb, 0.5);
-    const double x = out->b.x - out->a.x, y = out->b.y - out->a.y;
-    out->length = sqrt(x * x + y * y);
-    if (!(out->length > SHORTEST) || !isfinite(out->length + out->a.d + out->b.d)) return false;
-    out->tx = x / out->length, out->ty = y / out->length;
-    /* a front-facing polygon has its inside to the left of its edges; the screen's y runs down */
-    out->nx = p->front ? -out->ty : out->ty;
-    out->ny = p->front ? out->tx : -out->tx;
-    out->along = (out->b.d - out->a.d) / out->length;
-    out->steep = dp_depth_step(p->view, dp_max(out->a.d, out->b.d), DP_STEEPEST);
-    out->direction = dp_edge_direction(p, edge);
-    out->own = dp_lean_of(p->view, out, dp_cross(out->direction, p->normal)).slope;
-    return true;
+    out->ends_outside = code_b != 0;
+    return finish_edge(p, edge, ca, cb, out);
 }
 
-/* Differentiates the projection at the edge's middle; a plane's depth is affine on the screen, so that
- * one point tells the slope everywhere. */
-dp_lean dp_lean_of(const dp_view *view, const dp_screen_edge *edge, dp_vec3 q) {
-    const double(*m)[4] = view->clip;
-    const dp_clip_point c = edge->middle;
-    const double x = m[0][0] * q.x + m[0][1] * q.y + m[0][2] * q.z;
-    const double y = m[1][0] * q.x + m[1][1] * q.y + m[1][2] * q.z;
-    const double w = m[3][0] * q.x + m[3][1] * q.y + m[3][2] * q.z;
-    const double s = view->sight[0] * q.x + view->sight[1] * q.y + view->sight[2] * q.z;
-    const double sx = 0.5 * view->width * (x * c.w - c.x * w) / (c.w * c.w);
-    const double sy = -0.5 * view->height * (y * c.w - c.y * w) / (c.w * c.w);
-    const double d = view->perspective ? -w / (c.w * c.w) : -s;
-    const double out = sx * edge->nx + sy * edge->ny, along = sx * edge->tx + sy * edge->ty;
-    const double rise = d - edge->along * along;
-    const double edge_on = 1e-9 * view->focal / c.w; /* px per world unit */
-    const bool outward = out > edge_on;
-    return (dp_lean){outward, outward ? rise / out : rise > 0 ? INFINITY : -INFINITY};
+/* One after the other, and each corner is projected once. */
+void dp_screen_edges_make(const dp_primitive *p, dp_screen_edge *out) {
+    int codes = 0;
+    for (uint32_t i = 0; i < p->n; i++) codes |= dp_outcode(p->view, p->clip[i]);
+    if (codes) {
+        for (uint32_t i = 0; i < p->n; i++)
+            if (!dp_screen_edge_make(p, i, &out[i])) out[i].length = 0;
+        return;
+    }
+    for (uint32_t i = 0; i < p->n; i++) out[i].a = dp_to_screen(p->view, p->clip[i]);
+    for (uint32_t i = 0; i < p->n; i++) {
+        const uint32_t next = i + 1 == p->n ? 0 : i + 1;
+        out[i].b = out[next].a;
+        out[i].ends_outside = false;
+        if (!finish_edge(p, i, p->clip[i], p->clip[next], &out[i])) out[i].length = 0;
+    }
 }
 
 void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_added *out) {
@@ -168,11 +200,13 @@ void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_adde
     out->dx = e->along * e->tx + slope * e->nx;
     out->dy = e->along * e->ty + slope * e->ny;
     out->d0 = e->a.d - out->dx * e->a.x - out->dy * e->a.y;
-    out->nearest = fmax(e->a.d, e->b.d) + fmax(d, 0);
+    out->nearest = dp_max(e->a.d, e->b.d) + dp_max(d, 0);
 }
 
-dp_lean dp_quad_lean(const dp_primitive *p, const dp_screen_edge *edge, const dp_pen *pen) {
-    return dp_lean_of(p->view, edge, dp_quad_direction(edge->direction, p->normal, pen));
+/* Along Q (2.2): motions add up as directions do. */
+dp_lean dp_quad_lean(const dp_screen_edge *edge, const dp_pen *pen) {
+    const dp_motion o = edge->outward, n = edge->normal;
+    return lean_of(edge, (dp_motion){-pen->sine * n.out - pen->cosine * o.out, -pen->sine * n.rise - pen->cosine * o.rise});
 }
 
 /* Joints are made of triangles whose rims miss the circle by no more than this (px), or as many as there is
@@ -180,14 +214,35 @@ dp_lean dp_quad_lean(const dp_primitive *p, const dp_screen_edge *edge, const dp
 static const double SAGITTA = 0.3;
 enum { SPANS = DP_ADDED_MOST - 1 };
 
-static uint32_t spans_of(double angle, double reach) {
-    const double span = 2 * acos(1 - dp_min(SAGITTA / reach, 1));
-    return (uint32_t)dp_min(ceil(angle / span), SPANS);
+/* The turn between two unit normals, as cosine and sine: 0 to 180 degrees. */
+typedef struct turn {
+    double c, s;
+} turn;
+
+static turn turned(turn a, turn b) { return (turn){a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
+
+/* One span is 2 acos(1 - sagitta / radius); they are laid one after the other until `angle` is reached. */
+static uint32_t spans_of(turn angle, double reach) {
+    const double half = 1 - dp_min(SAGITTA / reach, 1), c = 2 * half * half - 1;
+    const turn span = {c, sqrt(dp_max(1 - c * c, 0))};
+    uint32_t count = 1;
+    for (turn sum = span; count < SPANS && sum.s > 0 && sum.c > angle.c; sum = turned(sum, span)) count++;
+    return count;
+}
+
+/* A share 1 / spans of the turn. */
+static turn share_of(turn angle, uint32_t spans) {
+    if (spans == 2) {
+        const double c = sqrt(0.5 * (1 + angle.c));
+        return (turn){c, angle.s / (2 * c)};
+    }
+    const double share = atan2(angle.s, angle.c) / spans;
+    return (turn){cos(share), sin(share)};
 }
 
 /* How much the quad at an edge rises over the polygon's own plane, depth per px. NaN: it faces away. */
-static double rise_of(const dp_primitive *p, const dp_screen_edge *e, const dp_pen *pen) {
-    const dp_lean lean = dp_quad_lean(p, e, pen);
+static double rise_of(const dp_screen_edge *e, const dp_pen *pen) {
+    const dp_lean lean = dp_quad_lean(e, pen);
     return lean.outward ? lean.slope - e->own : NAN;
 }
 
@@ -198,38 +253,39 @@ static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, doub
     return (dp_pointd){e->b.x + reach * x, e->b.y + reach * y, dp_min(d, e->b.d + reach * e->steep)};
 }
 
+/* The thin triangle from the corner where `e` ends to two points of the rim. */
+static bool set_thin(const dp_screen_edge *e, dp_pointd from, dp_pointd to, dp_added *out) {
+    out->points[0] = out->root[0] = out->root[1] = e->b;
+    out->points[1] = from, out->points[2] = to;
+    out->count = 3;
+    out->joint = true;
+    return set_plane(out);
+}
+
 uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen, double reach, bool folded,
                          dp_added *out) {
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
     dp_screen_edge rooms[2];
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &rooms[0]);
     const dp_screen_edge *const f = dp_screen_edge_of(p, next, &rooms[1]);
-    if (!e || !f || dp_outcode(p->view, p->clip[next])) return 0;
-    const double from_rise = folded ? rise_of(p, e, pen) : 0, to_rise = folded ? rise_of(p, f, pen) : 0;
+    if (!e || !f || e->ends_outside) return 0;
+    const double from_rise = folded ? rise_of(e, pen) : 0, to_rise = folded ? rise_of(f, pen) : 0;
     if (!isfinite(e->own) || !isfinite(from_rise + to_rise)) return 0;
     /* the corners of a convex polygon turn one way, or the other way when seen from behind */
     const double hand = p->front ? -1 : 1;
-    const double sine = hand * (e->nx * f->ny - e->ny * f->nx), cosine = e->nx * f->nx + e->ny * f->ny;
-    if (!(sine > 0) || cosine < -0.999) return 0;
-    const double angle = atan2(sine, cosine);
+    const turn angle = {e->nx * f->nx + e->ny * f->ny, hand * (e->nx * f->ny - e->ny * f->nx)};
+    if (!(angle.s > 0) || angle.c < -0.999) return 0;
     const uint32_t spans = spans_of(angle, reach);
+    const turn share = spans > 1 ? share_of(angle, spans) : angle;
+    const double step = (to_rise - from_rise) / spans;
     uint32_t count = 0;
     dp_pointd from = rim_point(e, reach, e->nx, e->ny, from_rise);
-    for (uint32_t i = 1; i <= spans; i++) {
-        const double share = (double)i / spans, up = from_rise + (to_rise - from_rise) * share;
-        double x = f->nx, y = f->ny;
-        if (i < spans) {
-            const double c = cos(angle * share), s = sin(hand * angle * share);
-            x = e->nx * c - e->ny * s, y = e->nx * s + e->ny * c;
-        }
-        const dp_pointd to = rim_point(e, reach, x, y, up);
-        dp_added *const a = &out[count];
-        a->points[0] = a->root[0] = a->root[1] = e->b;
-        a->points[1] = from, a->points[2] = to;
-        a->count = 3;
-        a->joint = true;
-        count += set_plane(a);
+    turn at = share;
+    for (uint32_t i = 1; i < spans; i++, at = turned(at, share)) {
+        const double s = hand * at.s, x = e->nx * at.c - e->ny * s, y = e->nx * s + e->ny * at.c;
+        const dp_pointd to = rim_point(e, reach, x, y, from_rise + step * i);
+        count += set_thin(e, from, to, &out[count]);
         from = to;
     }
-    return count;
+    return count + set_thin(e, from, rim_point(e, reach, f->nx, f->ny, to_rise), &out[count]);
 }

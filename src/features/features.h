@@ -20,17 +20,25 @@
 #include "pipe/view.h"
 #include <drypoint/style.h>
 
+/* What a step from the edge's middle along a direction of space does on the screen, per world unit. Linear in the
+ * direction, so that what is known of O and N tells it of any direction square to the edge. */
+typedef struct dp_motion {
+    double out;  /* px out of the polygon, square to the edge */
+    double rise; /* depth that it gains over a step along the edge */
+} dp_motion;
+
 /* An edge on the screen, clipped to the guarded frustum. */
 typedef struct dp_screen_edge {
     dp_pointd a, b;
-    dp_clip_point middle;
-    dp_vec3 direction; /* E, world space */
     double length;     /* px; 0: nothing of it is seen */
     double tx, ty;     /* along, unit */
     double nx, ny;     /* out of the polygon, unit */
     double along;      /* change of depth per px along */
     double own;        /* change of depth per px outward in the polygon's plane; infinite when edge-on */
     double steep;      /* the same at DP_STEEPEST */
+    double edge_on;    /* a plane that moves out by no more than this is seen edge-on */
+    dp_motion outward, normal; /* along O and N */
+    bool ends_outside; /* the corner where it ends lies outside the frustum */
 } dp_screen_edge;
 
 /* A polygon as primitive assembly hands it over. */
@@ -123,6 +131,9 @@ bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *point
 /* False where nothing of the edge is seen. */
 bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *out);
 
+/* All n edges at once; those of which nothing is seen get length 0. */
+void dp_screen_edges_make(const dp_primitive *p, dp_screen_edge *out);
+
 /* The same, looked up where the primitive brings its edges along and made in `room` where not. NULL:
  * nothing of the edge is seen. */
 static inline const dp_screen_edge *dp_screen_edge_of(const dp_primitive *p, uint32_t edge,
@@ -131,18 +142,17 @@ static inline const dp_screen_edge *dp_screen_edge_of(const dp_primitive *p, uin
     return dp_screen_edge_make(p, edge, room) ? room : NULL;
 }
 
-/* How the plane through the edge along `direction` (unit, world) lies to the eye. */
+/* How a plane through the edge lies to the eye. */
 typedef struct dp_lean {
-    bool outward; /* on the screen the direction leads out of the polygon: the plane's front is seen */
+    bool outward; /* on the screen it leads out of the polygon: the plane's front is seen */
     double slope; /* change of depth per px outward; infinite when the plane is seen edge-on */
 } dp_lean;
-dp_lean dp_lean_of(const dp_view *view, const dp_screen_edge *edge, dp_vec3 direction);
 
 /* The rectangle of `reach` px outside the edge, with a depth that changes by `slope` per px. */
 void dp_screen_quad(const dp_screen_edge *edge, double reach, double slope, dp_added *out);
 
 /* The plane of the quad at the pen's angle. */
-dp_lean dp_quad_lean(const dp_primitive *p, const dp_screen_edge *edge, const dp_pen *pen);
+dp_lean dp_quad_lean(const dp_screen_edge *edge, const dp_pen *pen);
 
 /* The round joint between that rectangle and the next edge's, around the corner where `edge` ends, in thin
  * triangles. It is a cone: as far over the polygon's own plane as the quads at the pen's angle are

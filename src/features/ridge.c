@@ -17,7 +17,7 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
     if (!e) return 0;
-    const dp_lean lean = dp_quad_lean(p, e, pen);
+    const dp_lean lean = dp_quad_lean(e, pen);
     if (!lean.outward && pen->angle <= 180) return 0;
     dp_screen_quad(e, pen->reach, lean.outward ? dp_min(lean.slope, e->steep) : e->steep, &out[0]);
     return 1 + dp_screen_joint(p, edge, pen, pen->reach, true, &out[1]);

@@ -18,7 +18,7 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
     if (!e) return 0;
-    const dp_lean lean = dp_quad_lean(p, e, pen);
+    const dp_lean lean = dp_quad_lean(e, pen);
     if (!lean.outward && pen->angle >= 180) return 0;
     const double slope = lean.outward ? lean.slope : -e->steep;
     const double reach = slope > e->steep ? pen->reach * e->steep / slope : pen->reach;

@@ -28,12 +28,12 @@ static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, ui
     float slope[DP_TILE];
     memset(i_z, 0, n * sizeof *i_z);
     if (!map->as_printed) {
-        dp_c1_slope(&rays, g->nx + at, g->ny + at, g->nz + at, x0, y, n, slope);
+        g->detectors->c1_slope(&rays, g->nx + at, g->ny + at, g->nz + at, x0, y, n, slope);
         for (uint32_t i = 0; i < n; i++) slope[i] *= 2 * (float)radius / map->profile_depth;
     }
     for (int pass = 0; pass < (int)map->c1_passes; pass++) {
-        if (map->as_printed) dp_c1_printed(z, &m, pass, radius, n, i_z);
-        else dp_c1_scaled(z, slope, &m, pass, radius, n, i_z);
+        if (map->as_printed) g->detectors->c1_printed(z, &m, pass, radius, n, i_z);
+        else g->detectors->c1_scaled(z, slope, &m, pass, radius, n, i_z);
     }
     const float whole = map->as_printed ? 1 : 2;
     for (uint32_t i = 0; i < n; i++) i_z[i] = 1 - dp_minf(whole * i_z[i], 1);
@@ -82,10 +82,10 @@ void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, ui
     const dp_rows nx = rows_of(g->nx, at, g->stride, radius), ny = rows_of(g->ny, at, g->stride, radius);
     const dp_rows nz = rows_of(g->nz, at, g->stride, radius);
     if (map->as_printed) {
-        dp_diagonal_normals(nx, ny, nz, radius, n, out->inner);
-        dp_diagonal_depth_printed(z, &m, radius, n, out->profile);
+        g->detectors->diagonal_normals(nx, ny, nz, radius, n, out->inner);
+        g->detectors->diagonal_depth_printed(z, &m, radius, n, out->profile);
     } else {
-        dp_diagonal_scaled(nx, ny, nz, z, &m, radius, n, out->inner, out->profile);
+        g->detectors->diagonal_scaled(nx, ny, nz, z, &m, radius, n, out->inner, out->profile);
     }
     if (map->detector == DP_EDGE_MAP_C1) detect_c1(g, map, z, x0, y, n, out->profile);
     const float angle = map->inner_angle * (float)(3.14159265358979323846 / 180);

@@ -3,6 +3,9 @@
  * All planes lie in one block, each (width + 2 margins) x (height + 2 margins), rows padded to 16 floats. */
 #include "gbuffer/gbuffer.h"
 
+#include "gbuffer/detect.h"
+#include "kernel/kernels.h"
+
 #include <string.h>
 
 void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
@@ -53,6 +56,7 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
                       g->perspective == frame->view.perspective;
     take_camera(g, frame);
     g->normals = NULL;
+    g->detectors = dp_detectors_for(dp_kernels_best()->lanes);
     if (same) return true;
     g->width = width, g->height = height, g->textured = textured;
     g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;

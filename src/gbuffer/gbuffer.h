@@ -41,6 +41,7 @@ typedef struct dp_gbuffer {
     float near_z, far_z;   /* of the enhanced groups (as printed, 8 bits) */
     uint32_t tiles_x, tiles_y;
 
+    const struct dp_detectors *detectors; /* for this processor (detect.h) */
     const dp_packed_normals *normals; /* of the frame's corners, borrowed; NULL: none */
 
     void *block;           /* all planes */

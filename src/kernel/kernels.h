@@ -13,6 +13,8 @@ struct dp_tile_polygon;
 struct dp_vertex;
 struct dp_frame;
 struct dp_tile_rect;
+struct dp_brush;
+struct dp_ink_shape;
 
 /* A rectangle's x0 where the kernel leaves the polygon to the general way. */
 #define DP_UNPLACED INT16_MIN
@@ -35,6 +37,8 @@ typedef struct dp_kernels {
     void (*normals)(struct dp_tile_worker *worker);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);
+    /* Inks with an added polygon, where the brush's test is true (ink.inc). */
+    void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
 } dp_kernels;
 
 extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;

@@ -38,12 +38,14 @@ void dp_adjacency_free(dp_adjacency *a, const dp_allocator *memory) {
     dp_free(memory, a->polygon_of);
     dp_free(memory, a->twins);
     dp_free(memory, a->odd);
+    dp_free(memory, a->fans);
+    dp_free(memory, a->fan_corners);
     *a = (dp_adjacency){0};
 }
 
 uint64_t dp_adjacency_bytes(const dp_adjacency *a) {
     return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of + a->twins_cap * sizeof *a->twins +
-           a->odd_cap;
+           a->odd_cap + a->fans_cap * sizeof *a->fans + a->fan_corners_cap * sizeof *a->fan_corners;
 }
 
 /* ------- what was built from ------- */
@@ -156,6 +158,7 @@ typedef struct flap {
 static int by_angle(const void *left, const void *right) {
     const flap *const l = left, *const r = right;
     if (l->angle != r->angle) return l->angle < r->angle ? -1 : 1;
+    if (l->forward != r->forward) return l->forward ? 1 : -1; /* two sides of a sheet: the inside lies between them */
     return (l->corner > r->corner) - (l->corner < r->corner);
 }
 
@@ -282,6 +285,46 @@ static bool match(const builder *b, dp_threads *threads, const dp_allocator *mem
     return sound;
 }
 
+static int by_corner(const void *left, const void *right) {
+    const dp_fan_corner *const l = left, *const r = right;
+    return (l->corner > r->corner) - (l->corner < r->corner);
+}
+
+static bool note_fan(const builder *b, const uint32_t *corners, uint32_t n, const dp_allocator *memory) {
+    dp_adjacency *const a = b->out;
+    if (!dp_reserve(memory, &a->fans, &a->fans_cap, a->fan_count + n, sizeof *a->fans) ||
+        !dp_reserve(memory, &a->fan_corners, &a->fan_corners_cap, a->fan_count + n, sizeof *a->fan_corners))
+        return false;
+    const uint32_t first = (uint32_t)a->fan_count;
+    for (uint32_t i = 0; i < n; i++) {
+        a->fans[first + i] = corners[i];
+        a->fan_corners[first + i] = (dp_fan_corner){corners[i], first, n};
+        a->odd[dp_polygon_of_corner(a, corners[i])] = true;
+    }
+    a->fan_count += n;
+    return true;
+}
+
+/* Runs of more than two in the buckets, which matching has sorted. */
+static bool note_fans(const builder *b, const dp_allocator *memory) {
+    b->out->fan_count = 0;
+    for (uint32_t v = 0; v < b->polygons->vertex_count; v++) {
+        const uint32_t end = b->first[v + 1];
+        for (uint32_t start = b->first[v], i = start; i < end; start = i) {
+            const uint32_t key = higher(edge_at(b, b->bucket[start]));
+            while (i < end && higher(edge_at(b, b->bucket[i])) == key) i++;
+            if (i - start > 2 && !note_fan(b, b->bucket + start, i - start, memory)) return false;
+        }
+    }
+    if (b->out->fan_count) qsort(b->out->fan_corners, b->out->fan_count, sizeof *b->out->fan_corners, by_corner);
+    return true;
+}
+
+const dp_fan_corner *dp_fan_at(const dp_adjacency *a, uint32_t corner) {
+    const dp_fan_corner key = {corner, 0, 0};
+    return a->fan_count ? bsearch(&key, a->fan_corners, a->fan_count, sizeof key, by_corner) : NULL;
+}
+
 /* Polygons with an edge that is open, or whose neighbour is wound the other way. */
 static void note_odd(const builder *b) {
     for (uint32_t i = 0; i < b->polygons->count; i++) {
@@ -312,7 +355,7 @@ static bool build(builder *b, dp_threads *threads, const dp_allocator *memory) {
     fill_buckets(b);
     if (!match(b, threads, memory)) return false;
     note_odd(b);
-    return true;
+    return note_fans(b, memory);
 }
 
 static double now_ms(void) {

@@ -16,8 +16,10 @@ typedef struct dp_adjacency {
     uint32_t *across;     /* [corners] */
     uint32_t *polygon_of; /* [corners]; NULL with triangles: corner / 3 */
     uint32_t (*twins)[2]; /* vertices at the position of an earlier one, and that one */
-    uint8_t *odd;         /* [polygons] has it an edge that is open, or a neighbour wound the other way? */
-    size_t across_cap, polygon_cap, twins_cap, odd_cap, twin_count;
+    uint8_t *odd;         /* [polygons] has it an edge that is open, shared by more than two, or with one wound the other way? */
+    uint32_t *fans;       /* corners at edges with more than two polygons, edge by edge */
+    struct dp_fan_corner *fan_corners; /* the same by corner */
+    size_t across_cap, polygon_cap, twins_cap, odd_cap, fans_cap, fan_corners_cap, twin_count, fan_count;
     uint32_t corners, polygons, vertices;
     uint64_t key;  /* of what it was built from; 0: of nothing */
     double ms;     /* building took */
@@ -33,6 +35,14 @@ uint64_t dp_adjacency_bytes(const dp_adjacency *adjacency);
 static inline uint32_t dp_polygon_of_corner(const dp_adjacency *adjacency, uint32_t corner) {
     return adjacency->polygon_of ? adjacency->polygon_of[corner] : corner / 3;
 }
+
+/* A corner at an edge with more than two polygons: all of them are fans[first] to fans[first + count - 1]. */
+typedef struct dp_fan_corner {
+    uint32_t corner, first, count;
+} dp_fan_corner;
+
+/* NULL where no more than two meet. */
+const dp_fan_corner *dp_fan_at(const dp_adjacency *adjacency, uint32_t corner);
 
 /* Is there a polygon across? */
 static inline bool dp_is_across(uint32_t across) { return across < DP_ACROSS_NONE; }

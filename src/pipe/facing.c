@@ -76,10 +76,39 @@ static void see_through(dp_frame *frame, uint32_t polygon) {
     }
 }
 
+static dp_clip_point corner_in_clip(const dp_frame *frame, uint32_t corner) {
+    const dp_polygons *const p = &frame->polygons;
+    return dp_to_clip(&frame->view, dp_v3f(dp_vertex_position(p, dp_corner_vertex(p, corner))));
+}
+
+/* More than two polygons at an edge: it is an outline when all of them lie on one side of it on the screen. Where some lie
+ * on either side, what the eye sees there is a crease. The first of them draws it. */
+static int outline_of_fan(const dp_frame *frame, const dp_fan_corner *fan, uint32_t corner) {
+    const dp_adjacency *const a = frame->adjacency;
+    const dp_polygons *const p = &frame->polygons;
+    const uint32_t *const corners = a->fans + fan->first;
+    if (corner != corners[0]) return -1;
+    bool any[2] = {false, false};
+    dp_pointd s = {0, 0, 0}, t = s;
+    for (uint32_t i = 0; i < fan->count; i++) {
+        const uint32_t polygon = dp_polygon_of_corner(a, corners[i]), first = dp_first_corner(p, polygon), n = dp_corner_count(p, polygon);
+        const uint32_t k = corners[i] - first;
+        const dp_clip_point from = corner_in_clip(frame, corners[i]), to = corner_in_clip(frame, first + (k + 1) % n);
+        const dp_clip_point far = corner_in_clip(frame, first + (k + 1 + n / 2) % n);
+        if (!(from.w > 0 && to.w > 0 && far.w > 0)) return -1;
+        if (i == 0) s = dp_to_screen(&frame->view, from), t = dp_to_screen(&frame->view, to);
+        const dp_pointd f = dp_to_screen(&frame->view, far);
+        any[(t.x - s.x) * (f.y - s.y) - (t.y - s.y) * (f.x - s.x) < 0] = true;
+    }
+    return any[0] && any[1] ? -1 : (int)DP_LINE_SILHOUETTE;
+}
+
 int dp_outline_of_edge(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
     const dp_adjacency *const a = frame->adjacency;
     const uint32_t across = a->across[corner];
     if (across == DP_ACROSS_NONE || frame->facing[polygon] & DP_FACING_NO_AREA) return -1;
+    const dp_fan_corner *const fan = a->odd[polygon] ? dp_fan_at(a, corner) : NULL;
+    if (fan) return outline_of_fan(frame, fan, corner);
     if (across == DP_ACROSS_OPEN) return DP_LINE_BORDER;
     const uint32_t other = dp_polygon_of_corner(a, dp_across_corner(across));
     const bool front = dp_faces_front(frame, polygon), flipped = across & DP_ACROSS_FLIPPED;

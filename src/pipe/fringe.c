@@ -5,8 +5,8 @@
  *   geometry stage   facing.c: which edges (Listing 2.1); here and features/extrude.c: what is added (2.2)
  *   pixel stage      here: (x, y, v) -> u by the polar formula, the texture, alpha test (2.3)
  *
- * One pass (2.3.4): each polygon of the tile is drawn and, right after it, what it adds; the pixel stage tells both
- * apart by v, which is 2 on the surface. Two passes: first all faces, then the tile's polygons once more. Ink keeps its
+ * One pass (2.3.4): one walk over the tile's polygons draws them (fronts already when they are assembled) and what they add;
+ * the pixel stage tells both apart by v, which is 2 on the surface. Two passes: first all faces, then the polygons once more. Ink keeps its
  * own depth, so both give the same picture, in any order of polygons.
  *
  * Data structure: per sample the ink's colour (0: none), depth and class; a fringe's triangles are made where they

@@ -207,12 +207,14 @@ void dp_chunk_sift(dp_chunk *chunk, const dp_chunk_view *view, dp_stats *stats) 
         }
         if (chunk->outcode[a] & chunk->outcode[b] & chunk->outcode[c]) continue;
         const box at = box_of(chunk->screen[a], chunk->screen[b], chunk->screen[c]);
-        if (!any && (is_outside(&at, view->view) || is_hidden(&at, view))) continue;
-        if (view->wanted) {
-            if (any || holds_pixel(&at, view, view->wanted)) chunk->state[t] = DP_TRIANGLE_COVERS;
-            if (any || holds_pixel(&at, view, view->crowded)) chunk->state[t] |= DP_TRIANGLE_CROWD;
+        if (!any && is_outside(&at, view->view)) continue;
+        if (view->wanted) { /* few pixels are: this is the sieve that counts then */
+            const uint8_t state = (any || holds_pixel(&at, view, view->wanted) ? DP_TRIANGLE_COVERS : 0) |
+                                  (any || holds_pixel(&at, view, view->crowded) ? DP_TRIANGLE_CROWD : 0);
+            if (state && (any || !is_hidden(&at, view))) chunk->state[t] = state;
             continue;
         }
+        if (!any && is_hidden(&at, view)) continue;
         uint8_t facing;
         if (!dp_triangle_facing(view->view, chunk->position[a], chunk->position[b], chunk->position[c], chunk->normal[t], &facing)) {
             stats->dropped_area++;

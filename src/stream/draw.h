@@ -70,6 +70,8 @@ struct dp_stream_draw {
     dp_tile_lines *lines; /* by tile */
     uint64_t triangles;   /* in the stream */
     bool read_again;
+    bool thinned;         /* lines were left out where there were too many */
+    bool waited_in_vain;  /* edges were given up whose other triangles may still have come */
     double done;          /* share of the work, for progress */
 };
 

@@ -13,7 +13,9 @@
  * may wait than `limit`: those are dropped that lie behind the surface as known so far, and then half of the
  * edges, by their hash, are put off to another reading of the source; and so on. So the lines are the
  * same for any order, and disorder costs time. Only after DP_SHARES_MOST readings are edges given up, the
- * oldest first, and counted. */
+ * oldest first, and counted. Where lines themselves are too many (a noisy scan whose triangles are far below
+ * a pixel), they are thinned: one to a pixel, then one to a square of pixels, as it takes; it is black there
+ * already. */
 #include "stream/kept.h"
 
 #include <stdlib.h>
@@ -26,6 +28,7 @@ void dp_kept_free(dp_kept *kept) {
     dp_free(kept->memory, kept->triangles);
     dp_free(kept->memory, kept->slots);
     dp_free(kept->memory, kept->earlier);
+    dp_free(kept->memory, kept->cells);
     *kept = (dp_kept){0};
 }
 
@@ -165,11 +168,6 @@ static void give_up_oldest(dp_kept *kept, size_t most) {
         }
         left -= !matters(t);
     }
-    for (size_t i = 0; i < kept->count && left > most; i++, left--) {
-        dp_kept_triangle *const t = &kept->triangles[i];
-        for (int e = 0; e < 3; e++) kept->lost += t->edges[e] != DP_EDGE_PLAIN;
-        memset(t->edges, DP_EDGE_PLAIN, sizeof t->edges);
-    }
 }
 
 static void drop_hidden(dp_kept *kept) {
@@ -197,12 +195,79 @@ static bool halve_share(dp_kept *kept) {
     return true;
 }
 
+static bool has_edge(const dp_kept_triangle *t, uint8_t state) {
+    return t->edges[0] == state || t->edges[1] == state || t->edges[2] == state;
+}
+
+static size_t count_lines(const dp_kept *kept) {
+    size_t count = 0;
+    for (size_t i = 0; i < kept->count; i++) count += has_edge(&kept->triangles[i], DP_EDGE_LINE);
+    return count;
+}
+
+/* The square of 2^shift pixels that holds the edge's middle, the picture's nearest; the same from both sides. */
+static size_t cell_of(const dp_kept *kept, const dp_kept_triangle *t, uint32_t edge, int shift) {
+    const dp_chunk_view *const v = kept->view;
+    const dp_vec3 middle = dp_scale(dp_add(dp_v3f(corner(t, edge)), dp_v3f(corner(t, edge + 1))), 0.5);
+    const dp_clip_point c = dp_to_clip(v->view, middle);
+    if (!(c.w > 0)) return 0;
+    const dp_pointd p = dp_to_screen(v->view, c);
+    const double w = v->tiles_x * DP_TILE - 1, h = v->tiles_y * DP_TILE - 1;
+    const size_t x = (size_t)dp_min(dp_max(p.x, 0), w), y = (size_t)dp_min(dp_max(p.y, 0), h);
+    return (y >> shift) * ((size_t)v->tiles_x * DP_TILE >> shift) + (x >> shift);
+}
+
+/* What comes late goes first, since what came early may be hidden by it; then the hash decides. Both triangles
+ * of an edge give it the same rank, if only they came close enough together. */
+static uint32_t rank_of(const dp_kept_triangle *t, uint32_t edge) {
+    const uint32_t age = ~(t->number >> 18) & 0x3fff;
+    return age << 18 | edge_hash(t, edge) >> 14;
+}
+
+enum { THINNING_MOST = 6 };
+
+/* Leaves one line to a square of 1, 2, 4, … px: the first in rank. An edge is left with both its triangles or with
+ * neither; those that are not, do not emerge (tiles.c). */
+static bool thin(dp_kept *kept) {
+    const dp_chunk_view *const v = kept->view;
+    const int shift = kept->thinning - 1;
+    const size_t cells = (size_t)v->tiles_x * v->tiles_y * DP_TILE * DP_TILE;
+    if (!dp_reserve(kept->memory, &kept->cells, &kept->cells_cap, cells, sizeof *kept->cells)) return false;
+    memset(kept->cells, 0xff, cells * sizeof *kept->cells);
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < kept->count; i++)
+            for (uint32_t e = 0; e < 3; e++) {
+                dp_kept_triangle *const t = &kept->triangles[i];
+                if (t->edges[e] != DP_EDGE_LINE) continue;
+                uint32_t *const first = &kept->cells[cell_of(kept, t, e, shift)];
+                const uint32_t rank = rank_of(t, e);
+                if (pass == 0 && rank < *first) *first = rank;
+                if (pass == 0 || rank == *first) continue;
+                t->edges[e] = DP_EDGE_PLAIN;
+                kept->thinned++;
+            }
+    drop_plain(kept, 0);
+    return true;
+}
+
+/* Until lines take no more than a third of the room. */
+static bool thin_lines(dp_kept *kept, size_t room) {
+    if (kept->thinning && !thin(kept)) return false;
+    while (count_lines(kept) > room / 3 && kept->thinning < THINNING_MOST) {
+        kept->thinning++;
+        if (!thin(kept)) return false;
+    }
+    return true;
+}
+
 /* Looks at all when many have come since the last time. */
 static bool settle(dp_kept *kept) {
-    const size_t room = kept->limit > kept->earlier_count + DP_TUNED(4096, 8) ? kept->limit - kept->earlier_count : DP_TUNED(4096, 8);
+    const size_t least = DP_TUNED(4096, 8) + kept->limit / 4;
+    const size_t room = kept->limit > kept->earlier_count + least ? kept->limit - kept->earlier_count : least;
     if (kept->count <= 2 * kept->settled + DP_TUNED(65536, 4) && kept->count <= room) return true;
     drop_plain(kept, 0);
     if (kept->count > room / 4 * 3) drop_hidden(kept);
+    if (kept->count > room / 4 * 3 && count_lines(kept) > room / 2 && !thin_lines(kept, room)) return false;
     if (kept->count > room / 8 * 7) while (kept->count > room / 2 && halve_share(kept)) continue;
     if (kept->count > room / 8 * 7) give_up_oldest(kept, room / 4 * 3);
     drop_plain(kept, 0);

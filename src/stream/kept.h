@@ -36,7 +36,11 @@ typedef struct dp_kept {
     uint32_t *slots; /* 2 * slot_count: hash and edge, triangle number */
     size_t slots_cap;
     uint32_t slot_count, slots_used; /* used: also by what was taken out */
-    uint64_t lost;  /* edges given up for want of memory */
+    uint64_t lost;    /* edges given up for want of memory while they waited */
+    uint64_t thinned; /* lines left out where there are too many, counted from both sides */
+    uint32_t *cells; /* by square of pixels, while lines are thinned */
+    size_t cells_cap;
+    int thinning;    /* one line to a square of 2^(thinning - 1) px; 0: not at all */
 } dp_kept;
 
 void dp_kept_free(dp_kept *kept);

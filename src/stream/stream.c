@@ -146,7 +146,9 @@ static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag)
     if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);
     if (!result) add_stats(s);
     if (!result && c->frame.lines) result = read_edges(s, s->read_again, &s->done, diag);
-    c->stats.edges_lost = s->kept.lost;
+    c->stats.edges_lost = s->kept.lost + s->kept.thinned;
+    s->thinned = s->kept.thinned > 0;
+    s->waited_in_vain = s->kept.lost > 0;
     return result;
 }
 

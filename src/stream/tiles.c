@@ -91,7 +91,7 @@ bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles
     for (size_t i = 0; i < count; i++) {
         const dp_kept_triangle *const t = &triangles[i];
         memcpy(s->positions + 9 * (first + i), t->corners, sizeof t->corners);
-        for (int e = 0; e < 3; e++) s->edge_flags[3 * (first + i) + (size_t)e] = t->edges[e] != DP_EDGE_PLAIN;
+        for (int e = 0; e < 3; e++) s->edge_flags[3 * (first + i) + (size_t)e] = t->edges[e];
         s->polygon_numbers[first + i] = t->number;
         s->source_polygons[first + i] = t->polygon;
     }
@@ -144,6 +144,19 @@ static bool store_lines(const dp_stream_draw *s, const dp_tile_worker *w, dp_til
     return true;
 }
 
+/* When lines were thinned, an edge known to be a line whose other triangle is not there does not emerge (else the
+ * other is hidden, and it does); nor does any other when edges were given up, because then its other triangle may
+ * be anywhere. */
+static void drop_halves(const dp_stream_draw *s, dp_tile_worker *w) {
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < w->loose_count; i++) {
+        const dp_loose_edge l = w->loose[i];
+        const bool alone = s->edge_flags[3 * (size_t)w->polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
+        if (!(alone ? s->waited_in_vain : s->thinned)) w->loose[left++] = l;
+    }
+    w->loose_count = left;
+}
+
 static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_tile_worker *const w = &s->context->tile_workers[worker];
@@ -153,6 +166,7 @@ static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_assemble(w);
     dp_tile_faces(w);
     dp_tile_edges(w);
+    drop_halves(s, w);
     dp_tile_emerge(w);
     if (!s->read_again) dp_stream_hide_by_samples(w);
     if (!store_lines(s, w, lines)) w->failed = true;

@@ -135,12 +135,13 @@ static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32
     const bool set = w->row[py] >> px & 1;
     const size_t at = py * DP_TILE + px;
     if (!b->outside && set && s.distance >= w->nearest[at]) return;
-    if (b->outside) cover_outside(m, &s, fx, fy);
+    if (b->outside && !m->core) cover_outside(m, &s, fx, fy);
     else cover_centred(m, &s);
     if (!(s.cover > 0)) return;
+    if (m->core) s.v = 0;
     const float rank = b->outside ? s.distance + 1000 * (1 - s.cover) : s.distance;
     if (set && rank >= w->nearest[at]) return;
-    s.cover *= b->outside ? beyond_share(b, m, &s, x, y)
+    s.cover *= b->outside && !m->core ? beyond_share(b, m, &s, x, y)
                           : dp_visible_share(b->frame, b->depth, b->x0, b->y0, &m->stroke, x, y, s.t, s.distance);
     if (!(s.cover > 0)) return;
     dp_color color = m->stroke.color;

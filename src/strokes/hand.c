@@ -19,6 +19,7 @@ static const float CORNER = 0.77f;   /* cosine: sharper turns than 40 degrees ar
 static const float TURN = -0.7f;     /* chains do not go on at turns above 135 degrees */
 static const float BREAK = 0.34f;    /* at corners of more than 70 degrees the pen is lifted */
 static const float SWELL = 0.4f;     /* px of width per px of an extruded outline's length */
+static const float CORE = 0.6f;     /* px, half the width of the edges themselves under extruded ink */
 static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
 
 typedef struct dp_hand_point {
@@ -249,8 +250,8 @@ static float polar_at(const hand *h, dp_point p, float near) {
     return (float)(u - floor(u - (double)near + 0.5));
 }
 
-/* Extruded ink is hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
-static float outside_width(float full, float length) { return dp_minf(full, 1.5f + SWELL * length); }
+/* With its core, extruded ink is as wide as asked, and hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
+static float outside_width(float full, float length) { return dp_maxf(dp_minf(full, 1.5f + SWELL * length) - CORE, 0.25f); }
 
 static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_t id, uint32_t seed) {
     dp_mark_store *const s = h->store;
@@ -283,14 +284,47 @@ static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_
     return true;
 }
 
+static float raw_length(const hand *h, const run *r) {
+    float sum = 0;
+    for (uint32_t i = 0; i < r->count; i++) {
+        const dp_stroke *const k = &h->frame->strokes[link_at(r, i)->segment];
+        sum += hypotf(k->b.x - k->a.x, k->b.y - k->a.y);
+    }
+    return sum;
+}
+
+/* Extruded ink lies beside points taken at a distance; the edges themselves are inked as they are, thinly, so that none is
+ * lost between two points or on a surface that hardly falls away. u is that of the marks, by the share of the length. */
+static bool add_core(hand *h, const run *r, size_t first_mark, uint32_t id) {
+    dp_mark_store *const s = h->store;
+    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + r->count, sizeof *s->marks)) return false;
+    const bool any = s->count > first_mark;
+    const float from = any ? s->marks[first_mark].arc[0] : 0, to = any ? s->marks[s->count - 1].arc[1] : 0;
+    const float total = raw_length(h, r);
+    float arc = 0;
+    for (uint32_t i = 0; i < r->count && total > 0; i++) {
+        const dp_link *const l = link_at(r, i);
+        dp_mark *const m = &s->marks[s->count++];
+        *m = (dp_mark){.stroke = h->frame->strokes[l->segment], .chain = id, .core = true, .half = {CORE, CORE}};
+        m->stroke.a = link_start(h->frame, l), m->stroke.b = link_end(h->frame, l);
+        m->stroke.half_width = CORE;
+        m->length = hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
+        m->arc[0] = from + (to - from) * (arc / total);
+        arc += m->length;
+        m->arc[1] = from + (to - from) * (arc / total);
+    }
+    return true;
+}
+
 static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
     const dp_stroke_style *const s = h->style;
     const dp_link *const head = link_at(chain, 0);
     const dp_piece *const piece = &h->pieces[head->segment];
     const uint32_t seed = hash(hash(s->seed * 8 + repeat, piece->a), piece->edge * 4 + piece->line);
     const float spacing = dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 4 : 5);
+    const float quarter = dp_maxf(raw_length(h, chain) / 4, 0.25f); /* a small ring is more than a point */
     size_t n;
-    if (!take_points(h, chain, spacing, &n)) return false;
+    if (!take_points(h, chain, dp_minf(spacing, quarter), &n)) return false;
     hand_point *const p = h->store->points;
     float length = measure(p, n);
     if (!h->outside) {
@@ -300,8 +334,11 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
         if (s->overshoot > 0 && !chain->closed) overshoot(p, n, s->overshoot * (repeat ? 1 + 0.5f * random_at(3, seed) : 1));
         length = measure(p, n);
     }
-    if (!(length > 0)) return true;
-    return add_marks(h, chain, n, length, (*id)++, seed);
+    const size_t first = h->store->count;
+    if (length > 0 && !add_marks(h, chain, n, length, *id, seed)) return false;
+    if (h->outside && !add_core(h, chain, first, *id)) return false;
+    ++*id;
+    return true;
 }
 
 /* Does the pen stop before link i? Where two segments that are long on the screen make a corner. What is short may
@@ -349,13 +386,18 @@ static bool look_at_segments(hand *h) {
     return true;
 }
 
+/* Thin extruded lines must not run over what no edge does. */
+static float gap_outside(const dp_frame *f) {
+    return dp_minf(GAP, f->styles[0].line[DP_LINE_SILHOUETTE].width / 4);
+}
+
 bool dp_make_marks(dp_frame *frame, const dp_piece *pieces, dp_mark_store *store) {
     hand h = {.frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke,
               .outside = dp_lies_outside(frame)};
     store->count = 0;
     if (!look_at_segments(&h)) return false;
     find_distances(&h);
-    const dp_chain_rule rule = {.sharpest = h.outside ? -2 : TURN, .side = h.outside ? store->sides : NULL, .gap = GAP,
+    const dp_chain_rule rule = {.sharpest = h.outside ? -2 : TURN, .side = h.outside ? store->sides : NULL, .gap = h.outside ? gap_outside(frame) : GAP,
                                 .step = (float)dp_depth_step(&frame->view, h.nearest_depth, 30)};
     if (!dp_make_chains(frame->strokes, (uint32_t)frame->segment_count, &rule, frame->memory, &store->chains)) return false;
     uint32_t id = 0;

@@ -15,6 +15,7 @@ typedef struct dp_mark {
     float length;           /* px */
     uint32_t chain;         /* marks of one chain and repeat lie together */
     bool ends;              /* the chain ends at b */
+    bool core;              /* lying outside: the edge itself, thin, on both sides of the spine */
 } dp_mark;
 
 typedef struct dp_mark_store {

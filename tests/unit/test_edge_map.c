@@ -1,5 +1,7 @@
 /* gbuffer: the detectors by hand on 5 x 5 pixels, and the G-buffer and edge map of whole pictures. */
 #include "gbuffer/detect.h"
+#include "gbuffer/gbuffer.h"
+#include "kernel/kernels.h"
 #include "scene.h"
 
 #include <math.h>
@@ -15,6 +17,8 @@
 
 enum { SIDE = 5 };
 
+static const dp_detectors *detectors = &dp_detectors_base;
+
 static dp_rows rows_at(float (*plane)[SIDE], int x, int y, int r) {
     return (dp_rows){&plane[y - r][x], &plane[y][x], &plane[y + r][x]};
 }
@@ -28,15 +32,15 @@ static void diagonal_normals_are_the_mean_of_two_cosines(void **state) {
     float nx[SIDE][SIDE] = {{0}}, ny[SIDE][SIDE] = {{0}}, nz[SIDE][SIDE], i_n[3];
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) nz[y][x] = 1;
-    dp_diagonal_normals(rows_at(nx, 1, 2, 1), rows_at(ny, 1, 2, 1), rows_at(nz, 1, 2, 1), 1, 3, i_n);
+    detectors->diagonal_normals(rows_at(nx, 1, 2, 1), rows_at(ny, 1, 2, 1), rows_at(nz, 1, 2, 1), 1, 3, i_n);
     for (int i = 0; i < 3; i++) assert_near(i_n[i], 1); /* all agree */
     /* A of (2, 2) is (1, 1): turned by 60 degrees; F is (1, 3): turned right round */
     nx[1][1] = sqrtf(0.75f), nz[1][1] = 0.5f, nz[3][1] = -1;
-    dp_diagonal_normals(rows_at(nx, 2, 2, 1), rows_at(ny, 2, 2, 1), rows_at(nz, 2, 2, 1), 1, 1, i_n);
+    detectors->diagonal_normals(rows_at(nx, 2, 2, 1), rows_at(ny, 2, 2, 1), rows_at(nz, 2, 2, 1), 1, 1, i_n);
     assert_near(i_n[0], 0.5 * (0.5 - 1));
     /* two px away: A is (0, 0) */
     nz[0][0] = 0, ny[0][0] = 1;
-    dp_diagonal_normals(rows_at(nx, 2, 2, 2), rows_at(ny, 2, 2, 2), rows_at(nz, 2, 2, 2), 2, 1, i_n);
+    detectors->diagonal_normals(rows_at(nx, 2, 2, 2), rows_at(ny, 2, 2, 2), rows_at(nz, 2, 2, 2), 2, 1, i_n);
     assert_near(i_n[0], 0.5 * (0 + 1));
 }
 
@@ -45,19 +49,19 @@ static void diagonal_depth_is_the_papers_product(void **state) {
     (void)state;
     float z[SIDE][SIDE] = {{0}}, i_z[1];
     const dp_depth_measure m = {.scale = 0.5f, .both_sides = true};
-    dp_diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
+    detectors->diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
     assert_near(i_z[0], 1);
     z[1][1] = 2; /* A: a whole step on one diagonal, 1/4 is left */
-    dp_diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
+    detectors->diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
     assert_near(i_z[0], 0.25);
     z[3][1] = 1; /* F: half a step on the other, (3/4)^2 */
-    dp_diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
+    detectors->diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
     assert_near(i_z[0], 0.25 * 0.5625);
     z[3][1] = 2; /* two whole steps: 1/16, the least there is */
-    dp_diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
+    detectors->diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
     assert_near(i_z[0], 0.0625);
     z[1][1] = 1e9f;
-    dp_diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
+    detectors->diagonal_depth_printed(rows_at(z, 2, 2, 1), &m, 1, 1, i_z);
     assert_near(i_z[0], 0.0625);
 }
 
@@ -70,7 +74,7 @@ static void c1_adds_eight_differences_in_three_passes(void **state) {
     z[2][2] = 2;
     for (int pass = 0; pass < 3; pass++) {
         const float before = i_z[0];
-        dp_c1_printed(rows_at(z, 2, 2, 1), &m, pass, 1, 1, i_z);
+        detectors->c1_printed(rows_at(z, 2, 2, 1), &m, pass, 1, 1, i_z);
         assert_near(i_z[0] - before, (double)parts[pass]);
     }
     assert_near(i_z[0], 1.5);
@@ -80,7 +84,7 @@ static void c1_adds_eight_differences_in_three_passes(void **state) {
             memset(z, 0, sizeof z);
             if (x != 1 || y != 1) z[1 + y][1 + x] = -0.5f; /* a quarter of a step */
             i_z[0] = 0;
-            for (int pass = 0; pass < 3; pass++) dp_c1_printed(rows_at(z, 2, 2, 1), &m, pass, 1, 1, i_z);
+            for (int pass = 0; pass < 3; pass++) detectors->c1_printed(rows_at(z, 2, 2, 1), &m, pass, 1, 1, i_z);
             assert_near(i_z[0], weights[y][x] / 8 / 4);
         }
 }
@@ -92,26 +96,70 @@ static void slopes_are_no_steps(void **state) {
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) z[y][x] = 100 * (float)x - 30 * (float)y; /* as steep as can be seen */
     const dp_rows n = rows_at(zero, 2, 2, 1);
-    dp_diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
+    detectors->diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
     assert_near(i_z[0], 1);
     /* a step of half a unit back from the middle to its right: the nearer side has it */
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) z[y][x] = x > 2 ? -0.5f : 0;
-    dp_diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
+    detectors->diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
     assert_near(i_z[0], 0.875 * 0.875 * 0.875 * 0.875); /* 3/2 of a half, less 1/2: a quarter */
-    dp_diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &m, 1, 1, i_n, i_z); /* the further one has not */
+    detectors->diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &m, 1, 1, i_n, i_z); /* the further one has not */
     assert_near(i_z[0], 1);
     const dp_depth_measure both = {.scale = 1, .both_sides = true};
-    dp_diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &both, 1, 1, i_n, i_z);
+    detectors->diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &both, 1, 1, i_n, i_z);
     assert_near(i_z[0], 0.875 * 0.875 * 0.875 * 0.875); /* 3/2 of a half, less 1/2: a quarter */
     /* a quarter of a step: normals (here 0: at right angles) count three quarters */
     assert_near(i_n[0], 1 - 0.5 * (0.75 + 0.75));
     float slope[1] = {0}, sum[1] = {0};
-    for (int pass = 0; pass < 3; pass++) dp_c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
+    for (int pass = 0; pass < 3; pass++) detectors->c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
     assert_near(sum[0], 0.5 * 4 / 8);
     slope[0] = 0.25f, sum[0] = 0;
-    for (int pass = 0; pass < 3; pass++) dp_c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
+    for (int pass = 0; pass < 3; pass++) detectors->c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
     assert_near(sum[0], 0.25 * 4 / 8);
+}
+
+/* Every processor's detectors give the bits of the plain ones. */
+static void wider_vectors_give_the_same_bits(void **state) {
+    (void)state;
+    enum { LENGTH = 61, ROW = LENGTH + 8 };
+    static float planes[4][9][ROW], slope[LENGTH];
+    const dp_kernels *list[DP_KERNELS_MAX];
+    uint32_t seed = 7;
+    for (int p = 0; p < 4; p++)
+        for (int y = 0; y < 9; y++)
+            for (int x = 0; x < ROW; x++) {
+                seed = seed * 1664525u + 1013904223u;
+                planes[p][y][x] = (float)(seed >> 8) / (1 << 24) * (p < 3 ? 2 : 9) - (p < 3 ? 1 : 0);
+                if (p == 3 && seed % 13 == 0) planes[p][y][x] = DP_FAR;
+            }
+    for (uint32_t k = 0, n = dp_kernels_list(list); k < n; k++) {
+        const dp_detectors *const wide = dp_detectors_for(list[k]->lanes), *const base = &dp_detectors_base;
+        for (int r = 1; r <= 4; r++)
+            for (int mode = 0; mode < 4; mode++) {
+                const dp_depth_measure m = {.scale = 0.7f, .perspective = mode & 1, .both_sides = mode & 2};
+                const dp_rays rays = {mode & 1, 20, 30, 40, 50};
+                dp_rows rows[4];
+                float a[2][LENGTH] = {{0}}, b[2][LENGTH] = {{0}};
+                for (int p = 0; p < 4; p++) rows[p] = (dp_rows){&planes[p][4 - r][4], &planes[p][4][4], &planes[p][4 + r][4]};
+                base->diagonal_scaled(rows[0], rows[1], rows[2], rows[3], &m, r, LENGTH, a[0], a[1]);
+                wide->diagonal_scaled(rows[0], rows[1], rows[2], rows[3], &m, r, LENGTH, b[0], b[1]);
+                assert_memory_equal(a, b, sizeof a);
+                base->diagonal_normals(rows[0], rows[1], rows[2], r, LENGTH, a[0]);
+                wide->diagonal_normals(rows[0], rows[1], rows[2], r, LENGTH, b[0]);
+                base->diagonal_depth_printed(rows[3], &m, r, LENGTH, a[1]);
+                wide->diagonal_depth_printed(rows[3], &m, r, LENGTH, b[1]);
+                base->c1_slope(&rays, rows[0].at, rows[1].at, rows[2].at, 3, 5, LENGTH, slope);
+                for (int pass = 0; pass < 3; pass++) {
+                    base->c1_scaled(rows[3], slope, &m, pass, r, LENGTH, a[0]);
+                    wide->c1_scaled(rows[3], slope, &m, pass, r, LENGTH, b[0]);
+                    base->c1_printed(rows[3], &m, pass, r, LENGTH, a[1]);
+                    wide->c1_printed(rows[3], &m, pass, r, LENGTH, b[1]);
+                }
+                wide->c1_slope(&rays, rows[0].at, rows[1].at, rows[2].at, 3, 5, LENGTH, b[0]);
+                assert_memory_equal(slope, b[0], sizeof slope);
+                assert_memory_equal(a[1], b[1], sizeof a[1]);
+            }
+    }
 }
 
 /* ------- whole pictures ------- */
@@ -430,6 +478,7 @@ int main(void) {
         cmocka_unit_test(diagonal_depth_is_the_papers_product),
         cmocka_unit_test(c1_adds_eight_differences_in_three_passes),
         cmocka_unit_test(slopes_are_no_steps),
+        cmocka_unit_test(wider_vectors_give_the_same_bits),
         cmocka_unit_test(a_box_face_on),
         cmocka_unit_test(distance_is_linear_whatever_near_and_far_are),
         cmocka_unit_test(slopes_make_no_false_edges),
