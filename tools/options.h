@@ -73,6 +73,7 @@ typedef struct tool_settings {
     int normals; /* word */
     double crease_angle, highlight, hatch_scale;
     bool gooch_plain;
+    int model_colors; /* word */
     int cartoon_map, hatch_space; /* words */
     const char *shade_texture, *strokes;
     dp_color hatch_color;

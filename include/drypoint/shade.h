@@ -49,6 +49,7 @@ typedef struct dp_shade {
     dp_shading shading;
     float light[3];       /* towards the light, camera space: x right, y up, z towards the eye; any length;
                              {0} means (-0.5, 0.7, 0.6). It stands still beside the camera. */
+    bool model_colors;    /* surfaces have the colours that the source gives their groups, where it does */
     dp_normals normals;
     float crease_angle;   /* degrees, up to 180: folds up to this are smoothed where normals are made;
                              0 means 40 */

@@ -58,6 +58,8 @@ typedef struct dp_source_callbacks {
     void (*destroy)(void *user);
     /* The name of group `group`, or NULL. Optional. */
     const char *(*group_name)(void *user, uint32_t group);
+    /* The colour of group `group`, 0xRRGGBBAA, or 0: none. Optional. May be called from several threads at once. */
+    uint32_t (*group_color)(void *user, uint32_t group);
 } dp_source_callbacks;
 
 /* Makes a source of one batch that the caller owns and keeps alive and unchanged while the source
@@ -104,6 +106,8 @@ DP_API bool dp_source_rewindable(const dp_source *source);
 
 /* The name of a group (OBJ group or object, say), borrowed; NULL where it has none. */
 DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);
+/* Its colour (that of its material, say), 0xRRGGBBAA; 0 where it has none. */
+DP_API uint32_t dp_source_group_color(const dp_source *source, uint32_t group);
 
 /* NULL allowed. */
 DP_API void dp_source_destroy(dp_source *source);

@@ -16,6 +16,7 @@
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/matrix4x4.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -122,14 +123,33 @@ static bool find_group(dp_builder *builder, const struct aiNode *node, const str
     return dp_groups_find(&builder->names, name, group);
 }
 
-static bool add_mesh(dp_builder *builder, const struct aiNode *node, const struct aiMesh *mesh,
-                     const transform *t) {
+static uint32_t to_byte(float v) { return v <= 0 ? 0 : v >= 1 ? 255 : (uint32_t)(v * 255 + 0.5f); }
+
+/* The material's colour, in the file's own encoding. Assimp gives files without materials a grey one. */
+static bool add_color(dp_builder *builder, const struct aiScene *scene, const struct aiMesh *mesh,
+                      uint16_t group) {
+    struct aiColor4D c;
+    struct aiString name;
+    if (mesh->mMaterialIndex >= scene->mNumMaterials) return true;
+    const struct aiMaterial *const material = scene->mMaterials[mesh->mMaterialIndex];
+    if (aiGetMaterialString(material, AI_MATKEY_NAME, &name) == aiReturn_SUCCESS &&
+        !strcmp(name.data, AI_DEFAULT_MATERIAL_NAME))
+        return true;
+    if (aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c) != aiReturn_SUCCESS) return true;
+    const uint32_t rgb = to_byte(c.r) << 24 | to_byte(c.g) << 16 | to_byte(c.b) << 8;
+    return dp_builder_color(builder, group, rgb | 255);
+}
+
+static bool add_mesh(dp_builder *builder, const struct aiScene *scene, const struct aiNode *node,
+                     const struct aiMesh *mesh, const transform *t) {
     const unsigned areas = aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON;
     if (mesh->mPrimitiveTypes && !(mesh->mPrimitiveTypes & areas)) return true;
     const size_t base = builder->vertex_count;
     const bool turned = mirrors(t);
     uint16_t group;
-    if (!find_group(builder, node, mesh, &group) || !add_vertices(builder, mesh, t)) return false;
+    if (!find_group(builder, node, mesh, &group) || !add_color(builder, scene, mesh, group) ||
+        !add_vertices(builder, mesh, t))
+        return false;
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
         if (!add_face(builder, &mesh->mFaces[i], base, turned, group)) return false;
     return true;
@@ -145,7 +165,7 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
     const transform t = compose(parent, &node->mTransformation);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < scene->mNumMeshes && scene->mMeshes[node->mMeshes[i]] &&
-            !add_mesh(builder, node, scene->mMeshes[node->mMeshes[i]], &t))
+            !add_mesh(builder, scene, node, scene->mMeshes[node->mMeshes[i]], &t))
             return dp_builder_fail(builder, diag);
     for (unsigned i = 0; i < node->mNumChildren; i++) {
         const dp_result result = add_node(builder, scene, node->mChildren[i], &t, depth + 1, diag);

@@ -20,6 +20,7 @@ void dp_builder_destroy(dp_builder *builder) {
     dp_free(&builder->allocator, builder->indices);
     dp_free(&builder->allocator, builder->firsts);
     dp_free(&builder->allocator, builder->groups);
+    dp_free(&builder->allocator, builder->colors);
     dp_free(&builder->allocator, builder->normals.values);
     dp_free(&builder->allocator, builder->normals.indices);
     dp_free(&builder->allocator, builder->texcoords.values);
@@ -83,6 +84,15 @@ bool dp_builder_close_unusual(dp_builder *builder, uint16_t group) {
     }
     builder->polygon_count++;
     builder->closed = builder->corner_count;
+    return true;
+}
+
+bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba) {
+    if (!dp_reserve(&builder->allocator, &builder->colors, &builder->color_capacity,
+                    (size_t)group + 1, sizeof *builder->colors))
+        return false;
+    while (builder->color_count <= group) builder->colors[builder->color_count++] = 0;
+    if (!builder->colors[group]) builder->colors[group] = rgba;
     return true;
 }
 
@@ -169,6 +179,11 @@ static const char *mesh_group_name(void *user, uint32_t group) {
     return dp_groups_name(&((mesh *)user)->built.names, group);
 }
 
+static uint32_t mesh_group_color(void *user, uint32_t group) {
+    const dp_builder *const built = &((mesh *)user)->built;
+    return group < built->color_count ? built->colors[group] : 0;
+}
+
 static void mesh_destroy(void *user) {
     mesh *const self = user;
     const dp_allocator memory = self->built.allocator;
@@ -217,7 +232,8 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
                                            .next = mesh_next,
                                            .rewind = mesh_rewind,
                                            .destroy = mesh_destroy,
-                                           .group_name = mesh_group_name};
+                                           .group_name = mesh_group_name,
+                                           .group_color = mesh_group_color};
     const dp_result result = dp_source_from_callbacks(&callbacks, &builder->allocator, out, diag);
     if (result)
         dp_free(&builder->allocator, self);

@@ -26,6 +26,8 @@ typedef struct dp_builder {
     size_t polygon_count;
     size_t closed; /* corners of the polygons that are closed */
     dp_groups names;
+    uint32_t *colors; /* [color_count] by group, 0xRRGGBBAA, 0: none */
+    size_t color_count, color_capacity;
     dp_builder_attribute normals, texcoords; /* 3 and 2 floats each */
 } dp_builder;
 
@@ -66,6 +68,9 @@ static inline bool dp_builder_close(dp_builder *builder, uint16_t group) {
     builder->closed += 3;
     return true;
 }
+
+/* The group's colour, where it has none yet. False: dp_builder_fail. */
+bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba);
 
 /* Room for one more value of `width` floats; NULL when memory is out. */
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);

@@ -159,6 +159,8 @@ static dp_result reflection_next(void *user, dp_batch *out, dp_diag *diag) {
 
 static dp_result reflection_rewind(void *user, dp_diag *diag) { return dp_source_rewind(((reflection *)user)->source, diag); }
 
+static uint32_t reflection_color(void *user, uint32_t group) { return dp_source_group_color(((reflection *)user)->source, group); }
+
 static void reflection_destroy(void *user) {
     reflection *const r = user;
     const dp_allocator memory = r->memory;
@@ -183,6 +185,7 @@ dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane, c
     r->plane = *plane;
     r->memory = *memory;
     const dp_source_callbacks callbacks = {.user = r, .next = reflection_next, .destroy = reflection_destroy,
+                                           .group_color = reflection_color,
                                            .rewind = dp_source_rewindable(source) ? reflection_rewind : NULL};
     const dp_result result = dp_source_from_callbacks(&callbacks, memory, out, diag);
     if (result) dp_free(memory, r);
@@ -221,6 +224,8 @@ static dp_result with_quad_rewind(void *user, dp_diag *diag) {
     return dp_source_rewind(q->source, diag);
 }
 
+static uint32_t with_quad_color(void *user, uint32_t group) { return dp_source_group_color(((with_quad *)user)->source, group); }
+
 static void with_quad_destroy(void *user) {
     with_quad *const q = user;
     const dp_allocator memory = q->memory;
@@ -236,6 +241,7 @@ dp_result dp_add_quad_source(dp_source *source, const float corners[4][3], uint1
     q->group[0] = group;
     memcpy(q->corners, corners, sizeof q->corners);
     const dp_source_callbacks callbacks = {.user = q, .next = with_quad_next, .destroy = with_quad_destroy,
+                                           .group_color = with_quad_color,
                                            .rewind = dp_source_rewindable(source) ? with_quad_rewind : NULL};
     const dp_result result = dp_source_from_callbacks(&callbacks, memory, out, diag);
     if (result) dp_free(memory, q);

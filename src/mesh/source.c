@@ -114,6 +114,11 @@ const char *dp_source_group_name(const dp_source *source, uint32_t group) {
     return source->callbacks.group_name(source->callbacks.user, group);
 }
 
+uint32_t dp_source_group_color(const dp_source *source, uint32_t group) {
+    if (!source || !source->callbacks.group_color) return 0;
+    return source->callbacks.group_color(source->callbacks.user, group);
+}
+
 void dp_source_destroy(dp_source *source) {
     if (!source) return;
     const dp_allocator memory = source->allocator;

@@ -367,6 +367,7 @@ static bool make_strokes(dp_context *c) {
 static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
     double since = now_ms();
     const double start = since;
+    c->shade.source = source;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, stream, &since, diag);
     if (result) return result;

@@ -38,7 +38,7 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
 
 static bool is_shaded(const dp_frame *frame) {
     const dp_shading shading = frame->styles[0].shade.shading;
-    return shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER;
+    return (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) || frame->styles[0].shade.model_colors;
 }
 
 static bool wants_colors(const dp_frame *frame, bool mirror) {
@@ -165,11 +165,12 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
 
 /* ------- shading ------- */
 
-static dp_color surface_of(const dp_frame *frame, uint16_t id) {
+static dp_color surface_of(const dp_shade_store *s, uint16_t id) {
     const uint32_t group = id - 1u;
-    const dp_style *const style = &frame->styles[group < frame->style_count ? group : 0];
-    const dp_color c = style->shade.shading == DP_SHADING_PAPER ? style->paper : style->surface;
-    return c & 0xff ? c : frame->styles[0].paper;
+    const dp_style *const styles = s->frame->styles, *const style = &styles[group < s->frame->style_count ? group : 0];
+    const dp_color own = s->setup.shade.model_colors && style->shade.shading != DP_SHADING_PAPER ? dp_source_group_color(s->source, group) : 0;
+    const dp_color c = own ? own : style->surface;
+    return c & 0xff ? c : styles[0].paper;
 }
 
 static void fill_color(dp_shade_run *run, uint32_t from, uint32_t to, dp_color c) {
@@ -187,13 +188,13 @@ static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t
     run->nx = g->nx + at, run->ny = g->ny + at, run->nz = g->nz + at, run->distance = g->distance + at;
     run->u = g->u ? g->u + at : NULL, run->v = g->v ? g->v + at : NULL, run->id = g->id + at;
     run->stride = g->stride, run->x = x0, run->y = y, run->n = x1 - x0;
-    if (s->frame->style_count == 1) {
-        fill_color(run, 0, run->n, surface_of(s->frame, 1));
+    if (s->frame->style_count == 1 && !s->setup.shade.model_colors) {
+        fill_color(run, 0, run->n, surface_of(s, 1));
         return;
     }
     for (uint32_t i = 0, end; i < run->n; i = end) {
         for (end = i + 1; end < run->n && run->id[end] == run->id[i]; end++) {}
-        fill_color(run, i, end, run->id[i] ? surface_of(s->frame, run->id[i]) : 0);
+        fill_color(run, i, end, run->id[i] ? surface_of(s, run->id[i]) : 0);
     }
 }
 

@@ -79,6 +79,7 @@ typedef struct dp_shade_store {
     bool colored;             /* … and colours */
     dp_shading_setup setup;
     const dp_frame *frame;
+    const dp_source *source;  /* whose groups' colours are shown; NULL: none */
     const uint8_t *mirrored;  /* [height][width][4] what pixels of DP_MIRROR_GROUP show, borrowed; NULL: no mirror */
 } dp_shade_store;
 

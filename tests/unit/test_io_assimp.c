@@ -43,6 +43,26 @@ static void scenes_are_transformed_and_named(void **state) {
     assert_true(end && !strstr(text, "line"));
 }
 
+static void materials_are_colours(void **state) {
+    (void)state;
+    static const char scene[] =
+        "AC3Db\nMATERIAL \"m\" rgb 1 0.5 0 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
+        "OBJECT world\nkids 1\nOBJECT poly\nname \"square\"\n" QUAD;
+    const char *const path = write_file(".ac", scene, strlen(scene));
+    dp_source *source = NULL;
+    dp_batch batch;
+    assert_int_equal(dp_io_open(path, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+    const uint32_t group = batch.groups ? batch.groups[0] : 0;
+    assert_int_equal(dp_source_group_color(source, group), 0xFF8000FFu);
+    assert_int_equal(dp_source_group_color(source, 77), 0);
+    dp_source_destroy(source);
+    unlink(path);
+    assert_int_equal(dp_io_open(DP_TESTS_DIR "/fuzz/corpus/obj/plain.obj", NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_source_group_color(source, 0), 0);
+    dp_source_destroy(source);
+}
+
 static void what_assimp_refuses_is_said_in_one_line(void **state) {
     (void)state;
     const char *const text = trace_file(".ac", "AC3Db rubbish \x01\n", NULL);
@@ -113,6 +133,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(own_formats_come_through_own_readers),
         cmocka_unit_test(scenes_are_transformed_and_named),
+        cmocka_unit_test(materials_are_colours),
         cmocka_unit_test(what_assimp_refuses_is_said_in_one_line),
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(reading_is_stopped),
