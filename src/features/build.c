@@ -253,13 +253,20 @@ static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, doub
     return (dp_pointd){e->b.x + reach * x, e->b.y + reach * y, dp_min(d, e->b.d + reach * e->steep)};
 }
 
-/* The thin triangle from the corner where `e` ends to two points of the rim. */
+/* The thin triangle from the corner where `e` ends to two points of the rim. False: it covers nothing. */
 static bool set_thin(const dp_screen_edge *e, dp_pointd from, dp_pointd to, dp_added *out) {
-    out->points[0] = out->root[0] = out->root[1] = e->b;
+    const dp_pointd o = e->b;
+    const double ax = from.x - o.x, ay = from.y - o.y, ad = from.d - o.d;
+    const double bx = to.x - o.x, by = to.y - o.y, bd = to.d - o.d;
+    const double inverse = -1 / (ax * by - ay * bx);
+    out->dx = (ay * bd - ad * by) * inverse, out->dy = (ad * bx - ax * bd) * inverse;
+    out->d0 = o.d - out->dx * o.x - out->dy * o.y;
+    out->nearest = dp_max(dp_max(o.d, from.d), to.d);
+    out->points[0] = out->root[0] = out->root[1] = o;
     out->points[1] = from, out->points[2] = to;
     out->count = 3;
     out->joint = true;
-    return set_plane(out);
+    return isfinite(out->d0);
 }
 
 uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen, double reach, bool folded,

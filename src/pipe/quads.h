@@ -14,7 +14,7 @@ typedef struct dp_step {
 /* What the kernel does with samples that are covered. */
 typedef enum dp_ink_test {
     DP_INK_NEAREST, /* inks what is nearer than surface and ink */
-    DP_INK_JOINT,   /* asks about the same (dp_quads_ask) */
+    DP_INK_JOINT,   /* asks about the same (dp_quads_ask); only of triangles */
     DP_INK_TRAPPED  /* asks about what lies behind another polygon's surface, but close to it */
 } dp_ink_test;
 
@@ -34,10 +34,11 @@ typedef struct dp_brush {
     bool meets;
 } dp_brush;
 
-/* A convex polygon of four corners, or three, ready to be filled: edges as in coverage.h; the box is inclusive. */
+/* A convex polygon of four corners, or three, ready to be filled: edges as in coverage.h; the box is px, inclusive. */
 typedef struct dp_ink_shape {
     dp_f4 a, b, c, threshold;
     uint8_t box[4];
+    uint32_t corners;
 } dp_ink_shape;
 
 /* Ink of an added polygon that is as good as a face: not trapped behind one. */

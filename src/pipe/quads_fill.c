@@ -121,8 +121,8 @@ DP_INLINED void count_up(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
 
 /* ------- rasterizing ------- */
 
-/* Edges from each corner to the next; a triangle's fourth leads from a corner to itself and leaves nothing out. All
- * as in dp_coverage_make, of which a quad is two. False: it lies beside the tile. */
+/* Edges from each corner to the next, four at a time; a triangle's fourth means nothing. All as in dp_coverage_make,
+ * of which a quad is two. False: it lies beside the tile. */
 static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
     const dp_point q = p[n == 4 ? 3 : 0];
     const float x0 = dp_minf(dp_minf(p[0].x, p[1].x), dp_minf(p[2].x, q.x));
@@ -140,9 +140,9 @@ static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
     const dp_f4 a = sy - dp_select(swap, py, qy), b = dp_select(swap, px, qx) - sx;
     const dp_f4 c = a * sx + b * sy;
     const dp_i4 turn = (swap ^ flip) & (dp_i4){sign, sign, sign, sign};
-    const dp_i4 real = {-1, -1, -1, n == 4 ? -1 : 0};
     out->a = (dp_f4)((dp_i4)a ^ turn), out->b = (dp_f4)((dp_i4)b ^ turn), out->c = (dp_f4)((dp_i4)-c ^ turn);
-    out->threshold = (dp_f4)((dp_i4)dp_splat(1.1754944e-38f) & (swap ^ flip) & real); /* the least above zero */
+    out->threshold = (dp_f4)((dp_i4)dp_splat(1.1754944e-38f) & (swap ^ flip)); /* the least above zero */
+    out->corners = n;
     out->box[0] = (uint8_t)dp_tile_px(x0), out->box[1] = (uint8_t)dp_tile_px(y0);
     out->box[2] = (uint8_t)dp_tile_px(x1), out->box[3] = (uint8_t)dp_tile_px(y1);
     return true;

@@ -208,13 +208,13 @@ static void check_kernels(dp_source *source, const dp_camera *camera, const dp_s
 
 static void every_kernel(void **state) {
     static const uint32_t samples[] = {1, 4, 8, 16};
-    const dp_style styles[] = {{0}, {.lines = DP_NO_LINES}, {.ink = DP_INK_QUADS}};
+    const dp_style styles[] = {{0}, {.lines = DP_NO_LINES}, {.ink = DP_INK_QUADS}, {.ink = DP_INK_QUADS, .method = DP_METHOD_PAPER}};
     (void)state;
     for (uint32_t i = 0; i < dp_shape_count(); i++) {
         dp_source *const source = new_shape(dp_shape_name(i), 20000);
-        for (uint32_t k = 0; k < 9; k++) {
-            const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k / 3 == 1, .zoom = k / 3 == 2 ? 30 : 1});
-            check_kernels(source, &camera, &styles[k % 3], samples[(i + k) % 4], dp_shape_name(i));
+        for (uint32_t k = 0; k < 12; k++) {
+            const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k / 4 == 1, .zoom = k / 4 == 2 ? 30 : 1});
+            check_kernels(source, &camera, &styles[k % 4], samples[(i + k) % 4], dp_shape_name(i));
         }
         dp_source_destroy(source);
     }
