@@ -73,14 +73,14 @@ typedef struct dp_target {
  * With DP_INK_STROKES a source that would take more memory than the context may use is streamed: read in
  * parts, once for surface and lines, once for what hides them, and more often where polygons that share an
  * edge are many and far apart; memory then depends on the picture and on its lines, not on the source's
- * length. The lines are the same, but for these: an edge of more than two polygons, or one that lies in the
- * middle of another polygon, may be taken for a border; with passes = 1, intersections are found between
- * polygons of one part; beyond 64 readings edges are given up, and where lines
- * alone do not fit they are thinned (dp_stats.edges_lost). Polygons of more than three corners are
- * streamed as triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
- * adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source is read once, and what hides lines is known only as finely as the picture's
- * samples. A source that can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1.
- * Sources of one stable batch are drawn from where they lie, whatever their size.
+ * length. The lines are the same, but for these: an edge that lies in the middle of another polygon may be
+ * taken for a border; with passes = 1 intersections are found between polygons of one part; beyond 64 readings
+ * edges are given up, and where lines alone do not fit they are thinned (dp_stats.edges_lost). Polygons of more
+ * than three corners are streamed as triangles, which dp_segment.edge then counts by. What needs all polygons
+ * at once (shading, adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source
+ * is read once, and what hides lines is known only as finely as the picture's samples. A source that can be
+ * read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1. Sources of one stable batch are
+ * drawn from where they lie, whatever their size.
  *
  * style NULL: all defaults. The picture is the same, bit for bit, for any number of threads.
  * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with; and

@@ -2,6 +2,7 @@
 #ifndef DP_STREAM_DRAW_H
 #define DP_STREAM_DRAW_H
 
+#include "pipe/classify.h"
 #include "stream/input.h"
 #include "stream/kept.h"
 #include "stream/stream.h"
@@ -19,12 +20,23 @@ typedef struct dp_chunk_rest {
     dp_diag diag;
 } dp_chunk_rest;
 
+typedef struct dp_fan dp_fan; /* fans.c */
+
+/* A triangle that has an edge which is thought to be a line. */
+typedef struct dp_mate {
+    uint32_t fan, number;
+    float corner[3];   /* not on the edge */
+    float triangle[9];
+} dp_mate;
+
 /* Scratch of one worker. */
 typedef struct dp_stream_worker {
     dp_chunk *chunk;
     uint8_t *buffer;
     dp_kept_triangle *crowd; /* one pass: triangles that cross others */
     size_t crowd_cap, crowd_count;
+    dp_mate *mates;          /* of the part at hand */
+    size_t mates_cap, mate_count;
     float *depth; /* of a tile's samples, for crossings.c */
     size_t depth_cap;
     dp_stats stats;
@@ -63,6 +75,9 @@ struct dp_stream_draw {
     uint64_t *away;       /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
     uint64_t (*suspects)[2][DP_TILE]; /* by tile, as in dp_tile_worker */
     uint64_t *crowded;    /* dp_chunk_view */
+    dp_fan *fans;         /* edges that are thought to be lines */
+    uint32_t *fan_slots;  /* [fan_slot_count] 1 + fan, 0: free */
+    uint32_t fan_count, fan_slot_count;
     uint8_t *crowd_counts; /* [tile][DP_TILE][DP_TILE] triangles of the crowd that begin in a pixel */
 
     float *farthest;      /* dp_chunk_view */
@@ -102,6 +117,14 @@ bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *tria
 void dp_stream_note_suspects(dp_stream_draw *stream, dp_tile_worker *worker, dp_stream_worker *own);
 bool dp_stream_choose_crowded(dp_stream_draw *stream);
 bool dp_stream_find_crossings(dp_stream_draw *stream);
+
+/* Edges that are thought to be lines (fans.c): a table of them; a triangle's edge from a to b,
+ * with its corner c beside it, is looked for there; what was found in a part is noted; a tile's lines. */
+bool dp_stream_make_fans(dp_stream_draw *stream);
+void dp_stream_look_for_fans(const dp_stream_draw *stream, const float *a, const float *b, const float *c,
+                             const float *triangle, uint32_t number, dp_stream_worker *own);
+bool dp_stream_join_fans(dp_stream_draw *stream);
+void dp_stream_settle_fans(const dp_stream_draw *stream, dp_tile_lines *lines);
 
 /* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is out. */
 bool dp_stream_place_polygons(dp_stream_draw *stream);

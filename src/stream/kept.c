@@ -46,10 +46,14 @@ static uint32_t position_hash(const float *p) {
     return (uint32_t)((h * 0xff51afd7ed558ccdu) >> 32);
 }
 
-/* The same from both sides; two bits are left free for the edge's number. */
-static uint32_t edge_hash(const dp_kept_triangle *t, uint32_t edge) {
-    const uint32_t sum = position_hash(corner(t, edge)) + position_hash(corner(t, edge + 1));
+/* Two bits are left free for the edge's number. */
+uint32_t dp_edge_hash_bits(const float *p, const float *q) {
+    const uint32_t sum = position_hash(p) + position_hash(q);
     return (sum ^ sum >> 15) * 0x9e3779b1u & ~(uint32_t)3;
+}
+
+static uint32_t edge_hash(const dp_kept_triangle *t, uint32_t edge) {
+    return dp_edge_hash_bits(corner(t, edge), corner(t, edge + 1));
 }
 
 static bool is_of_share(dp_kept_share share, uint32_t hash) { return (hash >> 20 & share.mask) == share.value; }

@@ -45,6 +45,11 @@ typedef struct dp_kept {
 
 void dp_kept_free(dp_kept *kept);
 
+/* The same from both sides of the edge from p to q; its two lowest bits are 0. */
+uint32_t dp_edge_hash_bits(const float *p, const float *q);
+/* One for a table of its own. */
+static inline uint32_t dp_edge_hash(const float *p, const float *q) { return dp_edge_hash_bits(p, q) >> 2; }
+
 /* Does this reading follow the edge of a triangle? */
 bool dp_kept_follows(const dp_kept *kept, const dp_kept_triangle *triangle, uint32_t edge);
 

@@ -55,6 +55,18 @@ static void leave_crowd(const dp_stream_draw *stream, const dp_chunk *chunk, uin
     }
 }
 
+static void look_for_fans(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+                          dp_stream_worker *own) {
+    for (uint32_t t = 0; stream->fan_count && t < chunk->count; t++) {
+        if (!(chunk->state[t] & DP_TRIANGLE_COVERS)) continue;
+        float corners[9];
+        for (uint32_t i = 0; i < 3; i++) memcpy(corners + 3 * i, chunk->position[chunk->corner[3 * t + i]], 3 * sizeof(float));
+        for (uint32_t e = 0; e < 3; e++)
+            if (!triangles->flags || triangles->flags[t] >> e & 1)
+                dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3), corners + 3 * ((e + 2) % 3), corners, number + t, own);
+    }
+}
+
 static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     dp_stream_draw *const s = j->stream;
@@ -69,6 +81,7 @@ static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_chunk_sift(w->chunk, &s->view, &w->stats);
     if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) leave_crowd(s, w->chunk, number, &triangles, rest);
+    if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
     if (j->reading == DP_READ_HIDERS || !s->context->frame.lines) return;
     dp_chunk_edges(w->chunk, &triangles, &s->view);
     /* lines within the chunk are known since the first reading */
@@ -147,7 +160,7 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
             return s->rests[i].result;
         }
     if (!list_covering(s, chunks, reading) ||
-        !(reading == DP_READ_HIDERS ? keep_crowd(s, chunks) : keep_edges(s, chunks)))
+        !(reading == DP_READ_HIDERS ? keep_crowd(s, chunks) && dp_stream_join_fans(s) : keep_edges(s, chunks)))
         return out_of_memory(diag);
     return DP_OK;
 }

@@ -34,6 +34,7 @@ void dp_stream_free(dp_stream_draw *s) {
         dp_free(memory, s->workers[i].buffer);
         dp_free(memory, s->workers[i].crowd);
         dp_free(memory, s->workers[i].depth);
+        dp_free(memory, s->workers[i].mates);
     }
     for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
         dp_free(memory, s->rests[i].corners);
@@ -44,7 +45,7 @@ void dp_stream_free(dp_stream_draw *s) {
     for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++) dp_free(memory, s->lines[i].candidates);
     dp_kept_free(&s->kept);
     void *const blocks[] = {s->workers, s->rests, s->corners, s->numbers, s->positions, s->edge_flags, s->polygon_numbers,
-                            s->source_polygons, s->crowd, s->away, s->suspects, s->crowded, s->crowd_counts, s->farthest, s->wanted, s->lines};
+                            s->source_polygons, s->crowd, s->away, s->suspects, s->crowded, s->crowd_counts, s->fans, s->fan_slots, s->farthest, s->wanted, s->lines};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
     dp_free(memory, s);
 }

@@ -180,7 +180,8 @@ bool dp_stream_find_lines(dp_stream_draw *s) {
     const bool painted = dp_stream_for_tiles(s, paint_surface);
     f->target.normal = normal;
     if (!painted || !f->lines) return painted;
-    return make_mesh(s) && dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_lines);
+    return make_mesh(s) && dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_lines) &&
+           (!s->read_again || dp_stream_make_fans(s));
 }
 
 /* ------- second reading ------- */
@@ -250,6 +251,7 @@ static void collect_tile(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_pieces *const out = &s->context->frame.tile_pieces[tile];
     *out = (dp_tile_pieces){.worker = worker, .first = w->piece_count};
     if (!s->lines[tile].candidate_count) return;
+    dp_stream_settle_fans(s, &s->lines[tile]);
     swap_lines(w, &s->lines[tile]);
     dp_tile_collect(w);
     swap_lines(w, &s->lines[tile]);

@@ -218,6 +218,26 @@ static void shuffled_soups(void **state) {
     }
 }
 
+/* Two triangles in one plane, and far behind in the file a third at their edge: behind them, or standing up. */
+static void fans_far_apart(void **state) {
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        soup s;
+        make_soup(&s, "sphere", DP_TUNED(20000, 300));
+        for (size_t i = 0; i < s.count; i++)
+            for (int c = 0; c < 9; c++) s.corners[i][c] = 0.2f * s.corners[i][c] + (c % 3 == 0 ? -3 : 0);
+        const float up = k % 2 ? 1 : -1, x = k < 2 ? 0.5f : -0.7f;
+        const float first[2][9] = {{0, 0, 1, 1, 0, 0, 0, 0, -1}, {0, 0, 1, 0, 0, -1, -1, 0, 0}}, third[9] = {0, 0, 1, x, up, 0, 0, 0, -1};
+        memcpy(s.corners[0], first[0], sizeof first[0]);
+        memcpy(s.corners[1], first[1], sizeof first[1]);
+        memcpy(s.corners[s.count - 1], third, sizeof third);
+        dp_source *const source = soup_source(&s);
+        expect_same_as_memory(source, (how){.style.lines = NO_CROSSINGS}, "a fan far apart");
+        dp_source_destroy(source);
+        free(s.corners);
+    }
+}
+
 /* Which edges of a soup are kept, in as many readings as it takes with `limit` triangles. */
 static void keep(const soup *s, const dp_chunk_view *view, size_t limit, dp_kept *kept) {
     static dp_allocator memory; /* outlives *kept */
@@ -477,7 +497,7 @@ static void out_of_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_shapes),      cmocka_unit_test(any_samples_and_cameras), cmocka_unit_test(any_threads),
-        cmocka_unit_test(crossing_faces),  cmocka_unit_test(shuffled_soups),          cmocka_unit_test(bad_triangles), cmocka_unit_test(kept_in_shares),
+        cmocka_unit_test(crossing_faces),  cmocka_unit_test(shuffled_soups),          cmocka_unit_test(bad_triangles), cmocka_unit_test(fans_far_apart), cmocka_unit_test(kept_in_shares),
         cmocka_unit_test(one_pass),        cmocka_unit_test(read_once),               cmocka_unit_test(records),
         cmocka_unit_test(can_be_stopped),  cmocka_unit_test(too_little_memory),       cmocka_unit_test(out_of_memory),
     };
