@@ -339,6 +339,59 @@ static void any_texture_will_do(void **state) {
     assert_int_equal(draw_batch(&batch, &camera, &empty, p, NULL, NULL), DP_ERR_ARGUMENT);
 }
 
+/* ------- memory ------- */
+
+static int allocations_left;
+static void *failing_realloc(void *block, size_t size, void *user) {
+    (void)user;
+    return allocations_left-- > 0 ? realloc(block, size) : NULL;
+}
+static void *failing_alloc(size_t size, void *user) { return failing_realloc(NULL, size, user); }
+static void failing_free(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+/* Whichever allocation fails, the call says so, nothing is lost, and the context can be used again. */
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    static scene s;
+    static pixels p, whole;
+    make_rooms(&s, false);
+    const dp_batch batch = scene_batch(&s);
+    const dp_camera camera = scene_camera(70, 20, 90, -15, -5, 0);
+    const dp_allocator memory = {failing_alloc, failing_realloc, failing_free, NULL};
+    const dp_context_desc desc = {.allocator = &memory, .threads = 1};
+    for (int shading = DP_SHADING_TOON; shading <= DP_SHADING_HATCH; shading++) {
+        const dp_style style = {.shade = {.shading = (dp_shading)shading, .object_space = true},
+                                .edge_map = {.detector = DP_EDGE_MAP_C1, .eight_bits = true},
+                                .mirror = {.normal = {1, 0, 0}, .offset = -20, .size = 300, .fade = 200}};
+        const dp_target target = {.width = W, .height = H, .rgba = p[0][0]};
+        int refused = 0;
+        assert_int_equal(draw_batch(&batch, &camera, &style, whole, NULL, NULL), DP_OK);
+        for (int left = 0; left < 400; left++) {
+            dp_context *context = NULL;
+            dp_source *source = NULL;
+            allocations_left = 1000000;
+            assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+            assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
+            allocations_left = left;
+            const dp_result result = dp_draw(context, source, &camera, &style, &target, NULL);
+            if (result) {
+                refused++;
+                assert_int_equal(result, DP_ERR_MEMORY);
+                allocations_left = 1000000;
+                assert_int_equal(dp_draw(context, source, &camera, &style, &target, NULL), DP_OK);
+            }
+            assert_memory_equal(p, whole, sizeof p);
+            dp_source_destroy(source);
+            dp_context_destroy(context);
+            if (!result) break;
+        }
+        assert_true(refused > 20 && refused < 399);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lambert_is_the_cosine),
@@ -353,6 +406,7 @@ int main(void) {
         cmocka_unit_test(mirrors_cut_what_they_cross),
         cmocka_unit_test(bad_mirrors_are_refused),
         cmocka_unit_test(any_texture_will_do),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
