@@ -34,13 +34,13 @@ typedef struct fragment {
     dp_tile_worker *w;
     const dp_texture *texture;
     uint32_t level;
-    float tx[3], ty[3], v[3]; /* affine on the screen: value at the tile's corner, change along x and y */
+    double tx[3], ty[3], v[3], d[3]; /* affine on the screen: value at its corner, change along x and y */
     float k, scale;
     dp_color color;
     uint8_t line;
 } fragment;
 
-static float affine(const float f[3], float x, float y) { return f[0] + f[1] * x + f[2] * y; }
+static double affine(const double f[3], double x, double y) { return f[0] + f[1] * x + f[2] * y; }
 
 static dp_color mixed(dp_color line, const dp_texture *texture, dp_texel t) {
     const float alpha = t.ink * (float)(line & 0xff);
@@ -49,36 +49,39 @@ static dp_color mixed(dp_color line, const dp_texture *texture, dp_texel t) {
 }
 
 /* The colour of a fragment; 0 where it is discarded. */
-static dp_color shade(const fragment *f, float x, float y) {
+static dp_color shade(const fragment *f, double x, double y) {
     if (!f->texture) return f->color;
     const dp_frame *const frame = f->w->frame;
     const double half = frame->view.height / 2;
-    const double px = (double)affine(f->tx, x, y) - frame->centre[0], py = frame->centre[1] - (double)affine(f->ty, x, y);
+    const double px = affine(f->tx, x, y) - frame->centre[0], py = frame->centre[1] - affine(f->ty, x, y);
     const float u = (float)dp_stroke_polar(px / half, py / half, (double)f->k) * f->scale;
-    const dp_texel t = dp_texture_sample(f->texture, f->level, u, affine(f->v, x, y));
+    const dp_texel t = dp_texture_sample(f->texture, f->level, u, (float)affine(f->v, x, y));
     return t.ink < LEAST_INK ? 0 : mixed(f->color, f->texture, t);
 }
 
-static void sample_at(const dp_sampling *s, size_t lane, float *x, float *y) {
+/* On the screen: what is computed from it must not depend on the tile. */
+static void sample_at(const dp_tile_worker *w, size_t lane, double *x, double *y) {
+    const dp_sampling *const s = &w->sampling;
     const size_t width = (size_t)4 * s->vectors, cell = lane / width, i = lane % width;
-    *x = (float)(cell % s->cells_x * s->cell_width) + s->x[i / 4][i % 4];
-    *y = (float)(cell / s->cells_x) + s->y[i / 4][i % 4];
+    *x = (double)(w->tile_x + cell % s->cells_x * s->cell_width) + (double)s->x[i / 4][i % 4];
+    *y = (double)(w->tile_y + cell / s->cells_x) + (double)s->y[i / 4][i % 4];
 }
 
-static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 nearest) {
     const fragment *const f = arg;
     dp_tile_worker *const w = f->w;
-    const dp_i4 nearer = in & (d > *(const dp_f4 *)(const void *)(w->ink_depth + lane)) &
-                         (d > *(const dp_f4 *)(const void *)(w->depth + lane));
-    if (!dp_any(nearer)) return;
+    (void)nearest;
+    if (!dp_any(in)) return;
     for (uint32_t i = 0; i < 4; i++) {
-        if (!nearer[i]) continue;
-        float x, y;
-        sample_at(&w->sampling, lane + i, &x, &y);
+        double x, y;
+        if (!in[i]) continue;
+        sample_at(w, lane + i, &x, &y);
+        const float d = (float)affine(f->d, x, y);
+        if (!(d > w->ink_depth[lane + i] && d > w->depth[lane + i])) continue;
         const dp_color color = shade(f, x, y);
         if (!color) continue;
         w->ink[lane + i] = color;
-        w->ink_depth[lane + i] = d[i];
+        w->ink_depth[lane + i] = d;
         w->stencil[lane + i] = f->line;
     }
 }
@@ -86,12 +89,12 @@ static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
 /* ------- geometry stage ------- */
 
 /* An affine function of the screen from its values at three points. */
-static void make_affine(const dp_point p[3], const double value[3], float out[3]) {
-    const double ax = (double)p[1].x - p[0].x, ay = (double)p[1].y - p[0].y, av = value[1] - value[0];
-    const double bx = (double)p[2].x - p[0].x, by = (double)p[2].y - p[0].y, bv = value[2] - value[0];
+static void make_affine(const dp_fringe_point p[3], const double value[3], double out[3]) {
+    const double ax = p[1].at.x - p[0].at.x, ay = p[1].at.y - p[0].at.y, av = value[1] - value[0];
+    const double bx = p[2].at.x - p[0].at.x, by = p[2].at.y - p[0].at.y, bv = value[2] - value[0];
     const double area = ax * by - ay * bx;
     const double dx = area != 0 ? (av * by - ay * bv) / area : 0, dy = area != 0 ? (ax * bv - av * bx) / area : 0;
-    out[0] = (float)(value[0] - dx * p[0].x - dy * p[0].y), out[1] = (float)dx, out[2] = (float)dy;
+    out[0] = value[0] - dx * p[0].at.x - dy * p[0].at.y, out[1] = dx, out[2] = dy;
 }
 
 static void fill_triangle(fragment *f, const dp_fringe_point *p) {
@@ -99,14 +102,13 @@ static void fill_triangle(fragment *f, const dp_fringe_point *p) {
     dp_point points[3];
     dp_coverage area;
     for (int i = 0; i < 3; i++)
-        points[i] = (dp_point){(float)(p[i].at.x - w->tile_x), (float)(p[i].at.y - w->tile_y), (float)p[i].at.d};
+        points[i] = (dp_point){(float)p[i].at.x - (float)w->tile_x, (float)p[i].at.y - (float)w->tile_y, (float)p[i].at.d};
     if (!dp_coverage_make(points[0], points[1], points[2], &area)) return;
-    float d[3];
-    make_affine(points, (const double[3]){p[0].tx, p[1].tx, p[2].tx}, f->tx);
-    make_affine(points, (const double[3]){p[0].ty, p[1].ty, p[2].ty}, f->ty);
-    make_affine(points, (const double[3]){p[0].v, p[1].v, p[2].v}, f->v);
-    make_affine(points, (const double[3]){p[0].at.d, p[1].at.d, p[2].at.d}, d);
-    const dp_plane plane = {d[0], d[1], d[2], dp_maxf(points[0].d, dp_maxf(points[1].d, points[2].d))};
+    make_affine(p, (const double[3]){p[0].tx, p[1].tx, p[2].tx}, f->tx);
+    make_affine(p, (const double[3]){p[0].ty, p[1].ty, p[2].ty}, f->ty);
+    make_affine(p, (const double[3]){p[0].v, p[1].v, p[2].v}, f->v);
+    make_affine(p, (const double[3]){p[0].at.d, p[1].at.d, p[2].at.d}, f->d);
+    const dp_plane plane = {0, 0, 0, 0}; /* depth is computed with the rest */
     dp_coverage_fill(&w->sampling, &area, &plane, w->sampling.vectors, cover, f);
 }
 

@@ -4,6 +4,7 @@
  * its run continues in the neighbour with the next number: such open pieces are sorted by edge and
  * joined. All others are segments as they are. The order (tile by tile, then the joined ones by polygon)
  * does not depend on threads. */
+#include "strokes/mark.h"
 #include "strokes/stroke.h"
 
 #include "base/hostile.h"
@@ -59,6 +60,8 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers, dp
             store->pieces[last - 1].k1 = store->pieces[i].k1;
         else store->pieces[last++] = store->pieces[i];
     }
+    /* chains begin and run by the order of their segments, which must not depend on tiles */
+    if (dp_is_by_hand(frame) && last) qsort(store->pieces, last, sizeof *store->pieces, by_edge);
     *count = last;
     return true;
 }

@@ -26,6 +26,6 @@ for shape in $("$reference" make --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
     same "$shape, by adjacency" "$work/$shape.ply" --edges adjacency --ink strokes
     same "$shape, extruded" "$work/$shape.ply" --edges adjacency --width 12 --stroke charcoal
     same "$shape, extruded as printed" "$work/$shape.ply" --edges adjacency --method paper --width 12 --stroke dots
-    same "$shape, in pencil" "$work/$shape.ply" --preset pencil
+    same "$shape, by hand" "$work/$shape.ply" --stroke pencil --repeats 2
 done
 exit $failed
