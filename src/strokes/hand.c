@@ -142,15 +142,18 @@ static float measure(hand_point *p, size_t n) {
     return arc;
 }
 
-static void smooth(hand_point *p, size_t n) {
+/* Where a ring closes is a point like any other. */
+static void smooth(hand_point *p, size_t n, bool closed) {
     for (int pass = 0; pass < SMOOTHINGS; pass++) {
         float x = p[0].x, y = p[0].y;
+        const float seam_x = (p[n - 2].x + 2 * x + p[1].x) / 4, seam_y = (p[n - 2].y + 2 * y + p[1].y) / 4;
         for (size_t i = 1; i + 1 < n; i++) {
             const float cx = p[i].x, cy = p[i].y, nx = p[i + 1].x, ny = p[i + 1].y;
             if (cosine(cx - x, cy - y, nx - cx, ny - cy) >= CORNER)
                 p[i].x = (x + 2 * cx + nx) / 4, p[i].y = (y + 2 * cy + ny) / 4;
             x = cx, y = cy;
         }
+        if (closed && n > 3) p[0].x = p[n - 1].x = seam_x, p[0].y = p[n - 1].y = seam_y;
     }
 }
 
@@ -328,7 +331,7 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
     hand_point *const p = h->store->points;
     float length = measure(p, n);
     if (!h->outside) {
-        smooth(p, n);
+        smooth(p, n, chain->closed);
         measure(p, n);
         sway(p, n, s->jitter + (repeat ? 0.8f : 0), seed, chain->closed);
         if (s->overshoot > 0 && !chain->closed) overshoot(p, n, s->overshoot * (repeat ? 1 + 0.5f * random_at(3, seed) : 1));
