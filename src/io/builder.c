@@ -8,6 +8,7 @@
 #include "io/builder.h"
 
 #include "base/diag.h"
+#include "mesh/source.h"
 
 #include <string.h>
 
@@ -237,7 +238,9 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
     const dp_result result = dp_source_from_callbacks(&callbacks, &builder->allocator, out, diag);
     if (result)
         dp_free(&builder->allocator, self);
-    else
+    else {
+        (*out)->constant = true;
         dp_builder_init(builder, &self->built.allocator);
+    }
     return result;
 }

@@ -105,7 +105,6 @@ static void hash_corners(void *arg, uint32_t index, uint32_t worker) {
 static uint64_t make_key(const job *j, dp_threads *threads) {
     const dp_polygons *const p = j->polygons;
     uint64_t h = mix(mix(p->count, j->corners), p->vertex_count);
-    h = mix(h, (uint64_t)((double)j->crease_cosine * 1e15));
     dp_parallel(threads, blocks(p->vertex_count), hash_positions, (void *)(uintptr_t)j);
     for (uint32_t i = 0; i < blocks(p->vertex_count); i++) h = mix(h, j->hashes[i]);
     if (p->corners) {
@@ -318,18 +317,22 @@ static bool compute(job *j, dp_threads *threads, const dp_allocator *memory) {
     return true;
 }
 
-bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, dp_threads *threads,
-                     const dp_allocator *memory, dp_attribute *out) {
+bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, uint64_t *known,
+                     dp_threads *threads, const dp_allocator *memory, dp_attribute *out) {
     *out = (dp_attribute){0};
     if (!polygons->count || !polygons->vertex_count) return true;
     job j = {.store = store, .polygons = polygons,
              .corners = polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count,
              .crease_cosine = (float)cos((double)crease * (3.14159265358979323846 / 180))};
-    const size_t most = j.corners > polygons->vertex_count ? j.corners : polygons->vertex_count;
-    j.hashes = dp_alloc_array(memory, blocks(most), sizeof *j.hashes);
-    if (!j.hashes) return false;
-    const uint64_t key = make_key(&j, threads);
-    dp_free(memory, j.hashes);
+    uint64_t unknown = 0, *const shape = known ? known : &unknown; /* key without the angle */
+    if (!*shape) {
+        const size_t most = j.corners > polygons->vertex_count ? j.corners : polygons->vertex_count;
+        j.hashes = dp_alloc_array(memory, blocks(most), sizeof *j.hashes);
+        if (!j.hashes) return false;
+        *shape = make_key(&j, threads);
+        dp_free(memory, j.hashes);
+    }
+    const uint64_t mixed = mix(*shape, (uint64_t)((double)j.crease_cosine * 1e15)), key = mixed ? mixed : 1;
     if (key != store->key) {
         store->key = 0;
         const bool made = compute(&j, threads, memory);

@@ -42,9 +42,10 @@ void dp_normal_store_free(dp_normal_store *store, const dp_allocator *memory);
  * and soups give the same normals. A polygon without area, of coordinates that are not finite or of
  * indices out of range neither gets nor gives any: its corners have index UINT32_MAX. Nothing is computed
  * when neither polygons nor angle have changed since the last call.
- * *out is borrowed from the store. False when memory is out. */
-bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, dp_threads *threads,
-                     const dp_allocator *memory, dp_attribute *out);
+ * `known` (NULL allowed) keeps the key of polygons that never change, 0 at first, so that not even that is computed
+ * again. *out is borrowed from the store. False when memory is out. */
+bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, uint64_t *known,
+                     dp_threads *threads, const dp_allocator *memory, dp_attribute *out);
 
 /* Fills store->packed with the polygons' normals (polygons->normals, made or the model's, of any length). Nothing is done when nothing has changed since the last call.
  * False when memory is out. */

@@ -21,6 +21,8 @@ struct dp_source {
     dp_source_callbacks callbacks;
     dp_allocator allocator;
     dp_records records; /* read NULL: only batch by batch */
+    bool constant; /* what it hands out never changes, as arrays of the application may */
+    uint64_t key;  /* of that, once somebody has computed it (mesh/normals.c); 0: nobody has */
 };
 
 /* Reads all corners of a source with records, in threads: extent.c. */

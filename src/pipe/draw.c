@@ -315,7 +315,8 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     if (!dp_shade_vertices(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.bends.ms;
     if (dp_shade_needs_normals(&c->shade) &&
-        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, c->threads, &c->memory,
+        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, source->constant ? &source->key : NULL,
+                         c->threads, &c->memory,
                          &f->polygons.normals))
         return out_of_memory(diag);
     if (c->shade.active && f->polygons.normals.values) {

@@ -30,7 +30,7 @@ static maker begin(uint32_t threads) {
 
 static void make(maker *m, const dp_batch *batch, float crease) {
     const dp_polygons polygons = polygons_of(batch);
-    assert_true(dp_normals_make(&m->store, &polygons, crease, m->threads, &m->memory, &m->made));
+    assert_true(dp_normals_make(&m->store, &polygons, crease, NULL, m->threads, &m->memory, &m->made));
 }
 
 static void end(maker *m) {
