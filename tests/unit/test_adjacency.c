@@ -106,6 +106,9 @@ static void test_four_pages_are_paired_by_the_wedges_between_them(void **state) 
     make(&m, p[0], 6, t, 4, NULL);
     assert_int_equal(m.adjacency.across[0], 3);
     assert_int_equal(m.adjacency.across[6], 9);
+    const dp_fan_corner *const fan = dp_fan_at(&m.adjacency, 6);
+    assert_true(fan && fan->count == 4 && m.adjacency.fans[fan->first] == 0);
+    assert_null(dp_fan_at(&m.adjacency, 1));
     unmake(&m);
 }
 
