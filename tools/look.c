@@ -133,7 +133,8 @@ static void make_edge_map(const tool_settings *s, dp_edge_map *map) {
 
 int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_style *style) {
     dp_shade *const shade = &style->shade;
-    if (s->shading) shade->shading = (dp_shading)(s->shading == 1 ? DP_SHADING_PAPER : s->shading == 2 ? DP_SHADING_FLAT : (dp_shading)(s->shading - 1));
+    if (s->shading == 1) shade->shading = DP_SHADING_PAPER; /* the words begin with it, the values with flat */
+    if (s->shading > 2) shade->shading = (dp_shading)(s->shading - 1);
     const bool lit = shade->shading != DP_SHADING_FLAT && shade->shading != DP_SHADING_PAPER;
     shade->model_colors = s->model_colors ? s->model_colors == SWITCH_ON : lit && !s->style.surface;
     if (s->has_light) from_angles(s->light, shade->light);

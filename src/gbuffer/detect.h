@@ -43,8 +43,8 @@ typedef struct dp_detectors {
      * around X
      *     step = 3/2 (|A + H - 2 X| - 7/4 min(|A - X|, |H - X|)) - 1/2
      * in whole steps at X (`scale`), clamped to [0, 1]. `d` is depth on the screen, 1 / distance in perspective: the second
-     * difference is zero on planes, whatever their slope and distance, and below zero on the nearer side of a step. Across a step normals say nothing of a crease: A · H
-     * counts as 1 there, as far as it is one. */
+     * difference is zero on planes, whatever their slope and distance, and below zero on the nearer side of a step.
+     * Across a step normals say nothing of a crease: A · H counts as 1 there, as far as it is one. */
     void (*diagonal_scaled)(dp_rows nx, dp_rows ny, dp_rows nz, dp_rows d, const dp_depth_measure *m, int radius,
                             uint32_t n, float *i_n, float *i_z);
 

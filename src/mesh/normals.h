@@ -47,8 +47,8 @@ void dp_normal_store_free(dp_normal_store *store, const dp_allocator *memory);
 bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, uint64_t *known,
                      dp_threads *threads, const dp_allocator *memory, dp_attribute *out);
 
-/* Fills store->packed with the polygons' normals (polygons->normals, made or the model's, of any length). Nothing is done when nothing has changed since the last call.
- * False when memory is out. */
+/* Fills store->packed with the polygons' normals (polygons->normals, made or the model's, of any length). Nothing is
+ * done when nothing has changed since the last call. False when memory is out. */
 bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_threads *threads,
                      const dp_allocator *memory);
 
