@@ -11,7 +11,7 @@
 #include "pipe/spine.h"
 
 /* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
-#define DP_BESIDE 0.5f
+#define DP_BESIDE 1.5f
 
 enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
 
