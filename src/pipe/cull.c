@@ -46,15 +46,12 @@ void dp_tile_find_farthest(dp_tile_worker *w) {
         }
 }
 
-/* Pixels beyond the tile are not known: what is large and reaches its border is taken for seen, lest a line be
- * lost that runs along the border between its last samples and those of the next tile. */
+/* Pixels beyond the tile are not known: nothing at its border is hidden. */
 static inline bool hides(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
-    const uint32_t last = DP_TILE - 1;
-    const bool border = x0 < 1 || y0 < 1 || x1 > last - 1 || y1 > last - 1;
-    if (border && (x1 - x0 > DP_CULL_SMALL || y1 - y0 > DP_CULL_SMALL)) return false;
+    if (x0 < 1 || y0 < 1 || x1 > DP_TILE - 2 || y1 > DP_TILE - 2) return false;
     const float limit = nearest + dp_depth_steps(w->frame, nearest, DP_CULL_SLACK);
-    const uint32_t bx0 = (x0 ? x0 - 1 : 0) / DP_BLOCK, bx1 = (x1 < last ? x1 + 1 : last) / DP_BLOCK;
-    const uint32_t by0 = (y0 ? y0 - 1 : 0) / DP_BLOCK, by1 = (y1 < last ? y1 + 1 : last) / DP_BLOCK;
+    const uint32_t bx0 = (x0 - 1) / DP_BLOCK, bx1 = (x1 + 1) / DP_BLOCK;
+    const uint32_t by0 = (y0 - 1) / DP_BLOCK, by1 = (y1 + 1) / DP_BLOCK;
     if (bx1 - bx0 <= 1 && by1 - by0 <= 1) return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++)

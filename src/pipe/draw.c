@@ -20,7 +20,7 @@
 #include <time.h>
 
 /* Tiles are widened by this, so that an edge along a tile's border meets both its polygons (px). */
-static const float MARGIN = 2;
+static const float MARGIN = 0.75f;
 
 /* Quads as ink: a polygon's added polygons may reach a tile that it does not. */
 static float margin_of(const dp_frame *f) {

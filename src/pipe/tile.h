@@ -11,7 +11,7 @@
 #include "pipe/spine.h"
 
 /* Edges further than this from the tile hold no sample point of it (px; the lift is far less). */
-#define DP_BESIDE 1.5f
+#define DP_BESIDE 0.5f
 
 enum { DP_BLOCK = 4 /* px; culling looks at blocks of pixels */ };
 
@@ -207,9 +207,8 @@ void dp_tile_bare_surface(dp_tile_worker *worker);
 /* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
 void dp_tile_quads(dp_tile_worker *worker);
 
-/* Culling: how far behind the surface is well behind it, pixel sizes; what is small, px. */
+/* Culling: how far behind the surface is well behind it, pixel sizes. */
 #define DP_CULL_SLACK 6
-enum { DP_CULL_SMALL = 8 };
 
 /* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
 bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-static const float MARGIN = 2; /* px, as in draw.c */
+static const float MARGIN = 0.75f; /* px, as in draw.c */
 
 /* Transforms and bins frame->polygons. */
 bool dp_stream_place_polygons(dp_stream_draw *s) {
