@@ -26,11 +26,13 @@ typedef struct dp_kernels {
     void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count, struct dp_vertex *out);
     /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px (place.inc). */
     void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count, struct dp_tile_rect *rects);
-    /* Appends triangles to the tile's polygons, planes and boxes made, and draws its front faces
-     * (assemble.inc). Needs room for count + 16 polygons. */
-    void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count);
+    /* Appends triangles to the tile's polygons, planes and boxes made, and draws front faces, or else
+     * back faces that are not hidden (assemble.inc). */
+    void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count, bool backs);
     /* Keeps those triangles that the tile's front faces do not hide; returns how many (cull.inc). */
     uint32_t (*cull)(struct dp_tile_worker *worker, uint32_t *ids, uint32_t count);
+    /* Lists those of the tile's polygons that are not hidden, and flags the others (cull.inc). */
+    void (*see)(struct dp_tile_worker *worker);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* The unit normals of the tile's seen triangles (normals.inc). */

@@ -181,6 +181,25 @@ DP_LANES_INLINE dp_lf l_lookup(const float *table, dp_li at) {
 #endif
 }
 
+/* The same of words of any kind. */
+DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
+#if DP_LANES == 1
+    dp_li v;
+    memcpy(&v, (const char *)table + 4 * (ptrdiff_t)at, sizeof v);
+    return v;
+#else
+    return (dp_li)l_lookup(table, at);
+#endif
+}
+
+DP_LANES_INLINE dp_lf li_float(dp_li v) {
+#if DP_LANES == 1
+    return (float)v;
+#else
+    return __builtin_convertvector(v, dp_lf);
+#endif
+}
+
 DP_LANES_INLINE dp_lm l_gt(dp_lf a, dp_lf b) { return l_lt(b, a); }
 DP_LANES_INLINE dp_lm l_ge(dp_lf a, dp_lf b) { return l_le(b, a); }
 

@@ -1,6 +1,8 @@
-/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box; front faces
- * are drawn on the way. Triangles go through the kernel; what is here takes any polygon. */
+/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box; faces are drawn
+ * on the way: front faces first, then of back faces those that the front faces do not hide. Triangles go through
+ * the kernel; what is here takes any polygon. */
 #include "kernel/kernels.h"
+#include "pipe/fringe.h"
 #include "pipe/tile.h"
 
 /* Plane through the points by Newell's method, which takes any number of them. */
@@ -41,9 +43,10 @@ static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     set_box(out, x0, y0, x1, y1);
 }
 
-static void draw_front(dp_tile_worker *w, uint32_t index) {
+static void draw(dp_tile_worker *w, uint32_t index, bool backs) {
     const dp_tile_polygon *const p = &w->polygons[index];
-    if (p->flags & DP_POLYGON_FRONT && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, index);
+    if (!dp_is_surface(w, p)) return;
+    if (p->flags & DP_POLYGON_FRONT || (backs && !dp_tile_is_hidden(w, p))) w->frame->kernels->raster(w, p, index);
 }
 
 /* The points of a polygon, in tile space, at `points`. */
@@ -58,7 +61,7 @@ static void put_points(const dp_tile_worker *w, uint32_t id, const dp_outline *o
 }
 
 /* Fills polygon `index`, whose points are to lie at `point`; the worker has room for both. */
-static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t point, const dp_outline *outline) {
+static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t point, const dp_outline *outline, bool backs) {
     const dp_facing facing = dp_outline_facing(w->frame, id, outline);
     dp_tile_polygon *const out = &w->polygons[index];
     dp_vertex *const points = w->points + point;
@@ -68,7 +71,7 @@ static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t
     put_points(w, id, outline, points);
     plane_setup(points, outline->count, out);
     box_setup(points, outline->count, out);
-    draw_front(w, index);
+    draw(w, index, backs);
 }
 
 static bool make_outline(dp_tile_worker *w, uint32_t id, dp_outline *outline) {
@@ -85,11 +88,11 @@ static void add_polygon(dp_tile_worker *w, uint32_t id) {
         return;
     const uint32_t point = w->point_count;
     w->point_count += outline.count;
-    set_polygon(w, w->polygon_count++, id, point, &outline);
+    set_polygon(w, w->polygon_count++, id, point, &outline, false);
 }
 
 /* One that is clipped gets new points, and its old ones are left lying. */
-void dp_tile_reassemble(dp_tile_worker *w, uint32_t index) {
+void dp_tile_reassemble(dp_tile_worker *w, uint32_t index, bool backs) {
     const uint32_t id = w->polygons[index].id;
     uint32_t point = w->polygons[index].point;
     dp_outline outline;
@@ -99,7 +102,7 @@ void dp_tile_reassemble(dp_tile_worker *w, uint32_t index) {
         point = w->point_count;
         w->point_count += outline.count;
     }
-    set_polygon(w, index, id, point, &outline);
+    set_polygon(w, index, id, point, &outline, backs);
 }
 
 /* The tile's polygons in submission order, back faces apart. */
@@ -120,6 +123,11 @@ static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count
     return true;
 }
 
+/* Silhouettes as printed, in one pass, come together with the back faces (fringe.c). */
+static bool draws_backs(const dp_frame *frame) {
+    return !(frame->lines && dp_is_fringed(frame) && frame->styles[0].passes == 1);
+}
+
 void dp_tile_assemble(dp_tile_worker *w) {
     const dp_kernels *const kernels = w->frame->kernels;
     uint32_t count, back_count;
@@ -127,11 +135,13 @@ void dp_tile_assemble(dp_tile_worker *w) {
     if (!collect_ids(w, &count, &back_count)) return;
     if (w->frame->polygons.firsts) {
         for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);
+        w->undrawn = w->polygon_count;
         dp_tile_find_farthest(w);
         return;
     }
-    kernels->assemble(w, w->ids, count);
+    kernels->assemble(w, w->ids, count, false);
+    w->undrawn = w->polygon_count;
     dp_tile_find_farthest(w);
     if (w->frame->culls_backs) back_count = kernels->cull(w, w->backs, back_count);
-    kernels->assemble(w, w->backs, back_count);
+    kernels->assemble(w, w->backs, back_count, draws_backs(w->frame));
 }

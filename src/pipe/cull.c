@@ -10,7 +10,6 @@
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
-
 static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     const float *const d = w->depth + dp_pixel_lane(&w->sampling, x, y);
     dp_f4 least = *(const dp_f4 *)(const void *)d;
@@ -65,20 +64,16 @@ bool dp_tile_hides(const dp_tile_worker *w, float x0, float y0, float x1, float 
     return hides(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
 }
 
-static bool is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
+bool dp_tile_is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
     return hides(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
 }
 
 void dp_tile_faces(dp_tile_worker *w) {
     w->seen_count = 0;
-    if (!DP_WORKER_RESERVE(w, seen, seen_cap, (size_t)w->polygon_count)) return;
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        dp_tile_polygon *const p = &w->polygons[i];
-        if (is_hidden(w, p)) {
-            p->flags |= DP_POLYGON_HIDDEN;
-            continue;
-        }
-        w->seen[w->seen_count++] = i;
-        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, i);
+    if (!DP_WORKER_RESERVE(w, seen, seen_cap, (size_t)w->polygon_count + 1)) return;
+    w->frame->kernels->see(w);
+    for (uint32_t i = 0; i < w->seen_count && w->seen[i] < w->undrawn; i++) {
+        const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
+        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, w->seen[i]);
     }
 }

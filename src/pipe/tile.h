@@ -144,6 +144,7 @@ struct dp_tile_worker {
     dp_piece *pieces; /* of all the worker's tiles in this frame */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
+    uint32_t undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     uint32_t polygon_count, point_count, seen_count, edge_count, meeting_count, slot_count;
     uint32_t candidate_count, probe_count;
     size_t piece_count;
@@ -191,9 +192,9 @@ void dp_tile_open(dp_tile_worker *worker, uint32_t tile);
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
 /* The stages of dp_tile_find, each in its own file. */
-void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c; draws front faces */
+void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c; draws faces, but for … */
 void dp_tile_find_farthest(dp_tile_worker *worker);                        /* cull.c */
-void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c */
+void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c; … some back faces */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
 void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
 void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
@@ -216,8 +217,12 @@ bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, f
 /* Sets the normal of a polygon that is too thin for float32 (edges.c). */
 void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
 
-/* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face (assemble.c). */
-void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index);
+/* The same of a polygon's box. */
+bool dp_tile_is_hidden(const dp_tile_worker *worker, const dp_tile_polygon *polygon);
+
+/* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face, or, when `backs`,
+ * a back face that is not hidden (assemble.c). */
+void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index, bool backs);
 
 /* Called while `index` is rasterized and its depth lies close to what sample `lane` holds (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, float depth);
