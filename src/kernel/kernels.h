@@ -35,8 +35,10 @@ typedef struct dp_kernels {
     void (*see)(struct dp_tile_worker *worker);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
-    /* The unit normals of the tile's seen triangles (normals.inc). */
+    /* The unit normals of the tile's unsure triangles that are not hidden (normals.inc). */
     void (*normals)(struct dp_tile_worker *worker);
+    /* Unmarks edges whose pair of triangles is flat (flatten.inc). */
+    void (*flatten)(struct dp_tile_worker *worker);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */

@@ -71,21 +71,13 @@ static void add_crease(dp_tile_worker *w, uint32_t polygon, uint32_t corner) {
     if (line >= 0) add_line(w, &e, (dp_line)line, fold.normal);
 }
 
-static bool near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i) {
-    if (p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) return true;
-    const dp_vertex a = w->points[p->point + i];
-    const dp_vertex b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
-    return dp_maxf(a.x, b.x) >= -DP_BESIDE && dp_minf(a.x, b.x) <= DP_TILE + DP_BESIDE &&
-           dp_maxf(a.y, b.y) >= -DP_BESIDE && dp_minf(a.y, b.y) <= DP_TILE + DP_BESIDE;
-}
-
 /* A hidden polygon is not asked: it lies well behind the surface with all its edges. */
 static void add_polygon(dp_tile_worker *w, const dp_tile_polygon *p, bool creases) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
     for (uint32_t i = 0; i < n && !w->failed; i++) {
         if (polygons->edge_flags && !polygons->edge_flags[first + i]) continue;
-        if (!near_tile(w, p, i)) continue;
+        if (!dp_tile_edge_is_near(w, p, i)) continue;
         const int line = dp_outline_of_edge(w->frame, p->id, first + i);
         if (line >= 0) {
             const shared_edge e = owned(w->frame, p->id, first + i);

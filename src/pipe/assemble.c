@@ -28,8 +28,6 @@ static inline __attribute__((always_inline)) void set_box(dp_tile_polygon *out, 
     out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
     out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
     if (x1 >= 0 && y1 >= 0 && x0 < DP_TILE && y0 < DP_TILE) out->flags |= DP_POLYGON_TOUCHES;
-    if (x0 > -DP_BESIDE && y0 > -DP_BESIDE && x1 < DP_TILE + DP_BESIDE && y1 < DP_TILE + DP_BESIDE)
-        out->flags |= DP_POLYGON_WITHIN;
 }
 
 static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
@@ -71,6 +69,8 @@ static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t
     put_points(w, id, outline, points);
     plane_setup(points, outline->count, out);
     box_setup(points, outline->count, out);
+    for (uint32_t i = 0; i < 3 && outline->count == 3; i++)
+        if (dp_tile_edge_reaches(w, out, i, DP_BESIDE)) out->flags |= (uint32_t)DP_POLYGON_NEAR << i & 255;
     draw(w, index, backs);
 }
 
@@ -131,7 +131,7 @@ static bool draws_backs(const dp_frame *frame) {
 void dp_tile_assemble(dp_tile_worker *w) {
     const dp_kernels *const kernels = w->frame->kernels;
     uint32_t count, back_count;
-    w->polygon_count = w->point_count = 0;
+    w->polygon_count = w->point_count = w->unsure_count = 0;
     if (!collect_ids(w, &count, &back_count)) return;
     if (w->frame->polygons.firsts) {
         for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);

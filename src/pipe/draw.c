@@ -153,12 +153,13 @@ static bool begin_frame(dp_context *c) {
            begin_workers(c);
 }
 
-/* Half a degree short of the least fold that any group draws; above 1 where flat edges are lines too. */
+/* Half a degree short of the least fold that any group draws, a right angle at the most; above 1, but less than
+ * DP_AWAY's square, where flat edges are lines too. */
 static float flat_cosine(const dp_style *styles, uint32_t count) {
     float least = 180;
     for (uint32_t i = 0; i < count; i++)
         least = dp_minf(least, dp_minf(180 - styles[i].ridge_angle, styles[i].valley_angle - 180));
-    return least > 1 ? (float)cos((least - 0.5) * 3.14159265358979323846 / 180) : 2;
+    return least > 1 ? (float)cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180) : 2;
 }
 
 static void find_tile(void *arg, uint32_t index, uint32_t worker) {

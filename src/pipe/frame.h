@@ -57,7 +57,7 @@ typedef struct dp_frame {
     dp_target target;
     uint32_t lines;     /* classes that any group draws */
     bool culls_backs;   /* back faces that are hidden make no lines */
-    float flat_cosine;  /* normals closer than this make no fold, whatever the group; above 1: unknown */
+    float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above 1: unknown */
 
     dp_polygons polygons;
     dp_vertex *vertices;

@@ -167,15 +167,6 @@ static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
     return true;
 }
 
-/* A polygon that is not clipped has an edge from point to point of its outline. */
-static bool edge_near_tile(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t edge, float reach) {
-    if (p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_WITHIN)) return true;
-    const dp_vertex a = w->points[p->point + edge];
-    const dp_vertex b = w->points[p->point + (edge + 1 == p->points ? 0 : edge + 1)];
-    return dp_maxf(a.x, b.x) >= -reach && dp_minf(a.x, b.x) <= DP_TILE + reach &&
-           dp_maxf(a.y, b.y) >= -reach && dp_minf(a.y, b.y) <= DP_TILE + reach;
-}
-
 /* Screen to tile space, in float32 as the faces are, so that edges they share stay shared. */
 static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double bias, dp_fill *with) {
     const dp_tile_worker *const w = b->w;
@@ -203,7 +194,7 @@ static void add_class(shading *pass, const dp_primitive *primitive, uint32_t ind
     t->brush.self = index;
     for (uint32_t edge = 0; edge < primitive->n; edge++) {
         dp_added added[DP_ADDED_MOST];
-        if (!edge_near_tile(w, &w->polygons[index], edge, t->reach)) continue;
+        if (!dp_tile_edge_reaches(w, &w->polygons[index], edge, t->reach)) continue;
         const uint32_t count = shade(primitive, edge, &t->pen, added);
         for (uint32_t i = 0; i < count; i++)
             fill_added(&t->brush, &pass->outfit, &added[i], bias, folded && added[i].joint ? dp_fill_joint : with);

@@ -14,6 +14,7 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->piece_count = 0;
     worker->away = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
+    worker->finds_edges = frame->lines && frame->styles[0].ink == DP_INK_STROKES && !frame->styles[0].edge_table_off;
     dp_sampling_init(&worker->sampling, frame->target.samples);
     dp_block_init(&worker->block, frame->target.samples);
     return dp_reserve(&worker->memory, &worker->winner, &worker->winner_cap, frame->tile_samples,
@@ -30,7 +31,12 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->normals);
     dp_free(&memory, worker->points);
     dp_free(&memory, worker->seen);
-    dp_free(&memory, worker->edges);
+    dp_free(&memory, worker->unsure);
+    dp_free(&memory, worker->edge_marks);
+    dp_free(&memory, worker->pair_first);
+    dp_free(&memory, worker->pair_second);
+    dp_free(&memory, worker->first_edges);
+    dp_free(&memory, worker->edge_owners);
     dp_free(&memory, worker->slot_meetings);
     dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
@@ -58,12 +64,32 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
     return sizeof *w + w->winner_cap * sizeof *w->winner + (w->ids_cap + w->backs_cap) * sizeof *w->ids +
            w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
-           w->points_cap * sizeof *w->points + w->edges_cap * sizeof *w->edges +
+           w->points_cap * sizeof *w->points + w->edge_marks_cap + w->meetings_cap * sizeof *w->meetings +
+           (w->unsure_cap + w->pair_first_cap + w->pair_second_cap + w->first_edges_cap + w->edge_owners_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
            w->seen_cap * sizeof *w->seen + w->candidates_cap * sizeof *w->candidates +
            w->probes_cap * sizeof *w->probes +
            (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap + w->sorted.own_b_cap) * 4 + w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
+}
+
+/* With o, x and y what a ray through the tile's corner is and how it changes per px, and m the normal n / (n·p) of a
+ * plane through p: d = m·ray in perspective, so d0 = m·o, dx = m·x, dy = m·y; m follows by the dual basis. In
+ * orthographic views the same holds of what one step of d is, and -1. m points away from the eye, front faces'
+ * normals towards it. */
+static void find_plane_normal(dp_tile_worker *w) {
+    const dp_view *const view = &w->frame->view;
+    const double px = w->tile_x, py = w->tile_y;
+    const dp_vec3 at = dp_unproject(view, (dp_pointd){px, py, 1});
+    const dp_vec3 x = dp_sub(dp_unproject(view, (dp_pointd){px + 1, py, 1}), at);
+    const dp_vec3 y = dp_sub(dp_unproject(view, (dp_pointd){px, py + 1, 1}), at);
+    const dp_vec3 o = dp_sub(at, view->perspective ? view->eye : dp_unproject(view, (dp_pointd){px, py, 0}));
+    const dp_vec3 dual[3] = {dp_cross(x, y), dp_cross(y, o), dp_cross(o, x)};
+    const double inverse = -1 / dp_dot(o, dual[0]);
+    for (int i = 0; i < 3; i++) {
+        float *const out = w->plane_normal[i];
+        out[0] = (float)(dual[i].x * inverse), out[1] = (float)(dual[i].y * inverse), out[2] = (float)(dual[i].z * inverse);
+    }
 }
 
 void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
@@ -73,6 +99,7 @@ void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
     w->depth = w->frame->depth + (size_t)tile * w->frame->tile_samples;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
     memset(w->suspects, 0, sizeof w->suspects);
+    if (w->finds_edges) find_plane_normal(w);
     w->candidate_count = w->probe_count = w->loose_count = 0;
 }
 

@@ -20,8 +20,8 @@ enum {
     DP_POLYGON_EDGE_ON = 2, /* covers nothing; counts as back-facing */
     DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
     DP_POLYGON_TOUCHES = 8, /* its points reach the tile itself, not only its margin */
-    DP_POLYGON_WITHIN = 32, /* all its points lie in the tile or right beside it */
-    DP_POLYGON_HIDDEN = 16  /* lies well behind the surface everywhere (cull.c) */
+    DP_POLYGON_HIDDEN = 16, /* lies well behind the surface everywhere (cull.c) */
+    DP_POLYGON_NEAR = 32    /* of a triangle: its first edge comes near the tile; two bits more for the others */
 };
 
 /* A polygon of the tile. */
@@ -42,33 +42,28 @@ typedef struct dp_tile_polygon {
 
 _Static_assert(sizeof(dp_tile_polygon) == 32, "kernel/assemble.inc writes it as two vectors");
 
-/* A slot of the tile's table of edges: which polygons met there. */
+/* A slot of the tile's table of edges (edge_table.c): which polygons met there. */
 typedef struct dp_edge_slot {
-    uint32_t hash;
-    uint32_t a; /* 1 + tile polygon that came first; 0: the slot is free */
-    uint32_t b; /* 1 + the second, 0 while it is alone; and DP_SLOT_… */
-    uint16_t edge_a, edge_b; /* corner numbers within the polygons */
+    uint64_t name;   /* the keys of both ends, as the polygon runs it that came first */
+    uint32_t first;  /* 1 + that polygon's number of the edge; 0: the slot is free */
+    uint32_t second; /* 1 + the number that the second has, 0 while the first is alone; and DP_SLOT_… */
 } dp_edge_slot;
 
-#define DP_SLOT_SAME_WAY (1u << 31) /* b runs the edge as a does: the winding disagrees */
-#define DP_SLOT_MORE (1u << 30)     /* there are meetings beyond b */
-#define DP_SLOT_FLAT (1u << 29)     /* a and b make no line */
-#define DP_SLOT_POLYGON (DP_SLOT_FLAT - 1)
-
-/* An edge taken from the table. */
-typedef struct dp_edge_entry {
-    uint32_t va, vb;         /* vertices, in the direction of polygon a */
-    uint32_t a, b;           /* tile polygons */
-    uint32_t edge_a, edge_b; /* corner number within the polygon */
-    uint32_t more;           /* 1 + first of the meetings beyond b, 0: none */
-    bool opposed;            /* b runs it from vb to va, as it should */
-} dp_edge_entry;
+#define DP_SLOT_SAME_WAY (1u << 31) /* both run the edge the same way: the winding disagrees */
+#define DP_SLOT_MORE (1u << 30)     /* there are meetings beyond the second */
+#define DP_SLOT_NUMBER (DP_SLOT_MORE - 1)
 
 /* A third or later polygon at an edge. */
 typedef struct dp_meeting {
-    uint32_t polygon, edge;
-    uint32_t next; /* 1 + meeting, 0: none */
+    uint32_t first, number; /* of the edge, as the first polygon and as this one has it */
+    uint32_t next;          /* 1 + meeting, 0: none */
 } dp_meeting;
+
+/* What stands for the normals of back faces: its square is more than any cosine. */
+#define DP_AWAY 2
+static const float dp_away[4] = {0, 0, 0, DP_AWAY};
+
+enum { DP_PAIRS_ROOM = 16 }; /* so many pairs may be read beyond the last */
 
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
@@ -132,20 +127,27 @@ struct dp_tile_worker {
 
     uint32_t *ids, *backs; /* of the tile's polygons, in the frame; those of triangles that face away */
     dp_tile_polygon *polygons;
-    float (*normals)[3]; /* by polygon: world space, unit; of those that are seen, made by edges.c */
+    bool finds_edges;      /* by the table of edges: normals are wanted */
+    float plane_normal[3][3]; /* what d0, dx, dy (perspective) or -1, dx, dy of a plane are times to give its normal */
+    float (*normals)[4];   /* by polygon: unit normal and 0, or dp_away (kernel/flatten.inc) */
+    uint32_t *unsure;      /* front faces whose normals are still to be made */
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     uint32_t *seen; /* polygons that are not hidden, ascending */
     dp_edge_slot *edge_slots;
-    uint32_t *edges;         /* slots in order of first meeting */
+    uint8_t *edge_marks;     /* by number of an edge: it may be a line */
+    uint32_t *pair_first, *pair_second; /* edges, as either of two polygons has them that met there */
+    uint32_t *first_edges, *edge_owners; /* where not all are triangles: by polygon, number; by number, polygon */
     dp_meeting *meetings;
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, edges_cap, meetings_cap, slots_cap;
+    size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, meetings_cap, slots_cap;
+    size_t unsure_cap, edge_marks_cap, pair_first_cap, pair_second_cap, first_edges_cap, edge_owners_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
     uint32_t undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
-    uint32_t polygon_count, point_count, seen_count, edge_count, meeting_count, slot_count;
+    uint32_t polygon_count, point_count, seen_count, unsure_count, meeting_count, slot_count;
+    uint32_t edge_pairs, edge_mark_count;
     uint32_t candidate_count, probe_count;
     size_t piece_count;
 
@@ -213,6 +215,26 @@ void dp_tile_quads(dp_tile_worker *worker);
 
 /* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
 bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);
+
+/* Does edge i of a polygon come as near to the tile as `reach` px? A polygon that is not clipped has an edge from
+ * point to point of its outline. */
+static inline bool dp_tile_edge_reaches(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, float reach) {
+    if (p->flags & DP_POLYGON_CLIPPED) return true;
+    const dp_vertex a = w->points[p->point + i], b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
+    return dp_maxf(a.x, b.x) >= -reach && dp_minf(a.x, b.x) <= DP_TILE + reach &&
+           dp_maxf(a.y, b.y) >= -reach && dp_minf(a.y, b.y) <= DP_TILE + reach;
+}
+
+/* Does it come near the tile? Others are other tiles'. */
+static inline bool dp_tile_edge_is_near(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i) {
+    if (p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED)) return p->flags & (uint32_t)DP_POLYGON_NEAR << i;
+    return dp_tile_edge_reaches(w, p, i, DP_BESIDE);
+}
+
+/* Does the edge that starts at this corner bound the polygon, or split it? */
+static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
+    return !polygons->edge_flags || polygons->edge_flags[c];
+}
 
 /* Sets the normal of a polygon that is too thin for float32 (edges.c). */
 void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
