@@ -6,7 +6,8 @@
  * edges of their own to the table and hide no lines that something nearer does not hide already.
  *
  * The depths compared are those of samples, so "well behind" must cover what the surface does between
- * two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. */
+ * two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. Where that is
+ * beyond the tile, a strip of samples stands for it, as wide as the margin within which polygons are binned. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -20,37 +21,57 @@ static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     return dp_minf(dp_minf(least[0], least[1]), dp_minf(least[2], least[3]));
 }
 
-/* Pixels beyond the picture's border count as seen: nothing is culled by what lies next to it. */
-static void find_blocks(const dp_tile_worker *w, float out[DP_BLOCKS][DP_BLOCKS]) {
+static void find_blocks(const dp_tile_worker *w, float out[DP_RINGED][DP_RINGED]) {
     for (uint32_t by = 0; by < DP_BLOCKS; by++)
         for (uint32_t bx = 0; bx < DP_BLOCKS; bx++) {
             float least = furthest_in_row(w, bx * DP_BLOCK, by * DP_BLOCK);
             for (uint32_t y = 1; y < DP_BLOCK; y++)
                 least = dp_minf(least, furthest_in_row(w, bx * DP_BLOCK, by * DP_BLOCK + y));
-            out[by][bx] = least;
+            out[by + 1][bx + 1] = least;
         }
 }
 
+static float furthest_in_strip(const float *strip) {
+    float least = strip[0];
+    for (int i = 1; i < 2 * DP_BLOCK; i++) least = dp_minf(least, strip[i]);
+    return least;
+}
+
+/* What lies beyond the tile's corners is not known: nothing is hidden there. */
+static void find_ring(const dp_tile_worker *w, float out[DP_RINGED][DP_RINGED]) {
+    const uint32_t last = DP_RINGED - 1;
+    for (uint32_t b = 0; b < DP_BLOCKS; b++) {
+        const uint32_t at = 2 * DP_BLOCK * b;
+        out[b + 1][0] = furthest_in_strip(w->strip[0] + at);
+        out[b + 1][last] = furthest_in_strip(w->strip[1] + at);
+        out[0][b + 1] = furthest_in_strip(w->strip[2] + at);
+        out[last][b + 1] = furthest_in_strip(w->strip[3] + at);
+    }
+    out[0][0] = out[0][last] = out[last][0] = out[last][last] = DP_DEPTH_EMPTY;
+}
+
 void dp_tile_find_farthest(dp_tile_worker *w) {
-    float(*const one)[DP_BLOCKS] = w->farthest[0][0], (*const wide)[DP_BLOCKS] = w->farthest[0][1];
+    float(*const one)[DP_RINGED] = w->farthest[0][0], (*const wide)[DP_RINGED] = w->farthest[0][1];
     find_blocks(w, one);
-    for (uint32_t by = 0; by < DP_BLOCKS; by++)
-        for (uint32_t bx = 0; bx < DP_BLOCKS; bx++)
-            wide[by][bx] = dp_minf(one[by][bx], one[by][bx + 1 < DP_BLOCKS ? bx + 1 : bx]);
-    for (uint32_t by = 0; by < DP_BLOCKS; by++)
-        for (uint32_t bx = 0; bx < DP_BLOCKS; bx++) {
-            const uint32_t next = by + 1 < DP_BLOCKS ? by + 1 : by;
+    find_ring(w, one);
+    for (uint32_t by = 0; by < DP_RINGED; by++)
+        for (uint32_t bx = 0; bx < DP_RINGED; bx++)
+            wide[by][bx] = dp_minf(one[by][bx], one[by][bx + 1 < DP_RINGED ? bx + 1 : bx]);
+    for (uint32_t by = 0; by < DP_RINGED; by++)
+        for (uint32_t bx = 0; bx < DP_RINGED; bx++) {
+            const uint32_t next = by + 1 < DP_RINGED ? by + 1 : by;
             w->farthest[1][0][by][bx] = dp_minf(one[by][bx], one[next][bx]);
             w->farthest[1][1][by][bx] = dp_minf(wide[by][bx], wide[next][bx]);
         }
 }
 
-/* Pixels beyond the tile are not known: nothing at its border is hidden. */
-static inline bool hides(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1, float nearest) {
-    if (x0 < 1 || y0 < 1 || x1 > DP_TILE - 2 || y1 > DP_TILE - 2) return false;
+/* Pixel coordinates go from -1 to DP_TILE; the ring is block 0. */
+static inline uint32_t block_of(int px) { return (uint32_t)(px + DP_BLOCK) / DP_BLOCK; }
+
+static inline bool hides(const dp_tile_worker *w, int x0, int y0, int x1, int y1, float nearest) {
     const float limit = nearest + dp_depth_steps(w->frame, nearest, DP_CULL_SLACK);
-    const uint32_t bx0 = (x0 - 1) / DP_BLOCK, bx1 = (x1 + 1) / DP_BLOCK;
-    const uint32_t by0 = (y0 - 1) / DP_BLOCK, by1 = (y1 + 1) / DP_BLOCK;
+    const uint32_t bx0 = block_of(x0 - 1), bx1 = block_of(x1 + 1);
+    const uint32_t by0 = block_of(y0 - 1), by1 = block_of(y1 + 1);
     if (bx1 - bx0 <= 1 && by1 - by0 <= 1) return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++)
@@ -58,7 +79,7 @@ static inline bool hides(const dp_tile_worker *w, uint32_t x0, uint32_t y0, uint
     return true;
 }
 
-static uint32_t clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v; }
+static int clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v; }
 
 bool dp_tile_hides(const dp_tile_worker *w, float x0, float y0, float x1, float y1, float nearest) {
     return hides(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);

@@ -8,7 +8,7 @@
  *
  * Data structure: open addressing; edges have numbers in the order of the seen polygons, and a byte per number
  * tells whether the edge may be a line, so that what is found does not depend on the hash. Pairs are gathered and
- * told flat by many at once (kernel/flatten.inc). Invariant: at most four fifths of the slots are used. Hidden
+ * told flat by many at once (kernel/flatten.inc). Invariant: at most half of the slots are used. Hidden
  * polygons stay away: their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that
  * too. Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/edge_table.h"
@@ -23,8 +23,6 @@ enum { TRIANGLE_STEP = 4 };
 static uint32_t edge_hash(uint32_t ka, uint32_t kb) { return (ka + kb) * 0x9e3779b1u ^ (ka ^ kb); }
 
 static uint32_t place_of(uint32_t hash, uint32_t slots) { return (uint32_t)((uint64_t)hash * slots >> 32); }
-
-static uint64_t name_of(uint32_t ka, uint32_t kb) { return (uint64_t)ka << 32 | kb; }
 
 static bool is_of_triangles(const dp_tile_worker *w) { return !w->frame->polygons.firsts; }
 
@@ -72,30 +70,50 @@ static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
     s->second |= DP_SLOT_MORE;
 }
 
-/* Enters edge `number` from the corner with key ka to that with kb, or meets the one that is there. */
-static inline void enter(dp_tile_worker *w, uint32_t number, uint32_t ka, uint32_t kb) {
-    const uint64_t name = name_of(ka, kb), opposed = name_of(kb, ka);
-    const uint32_t count = w->slot_count;
-    for (uint32_t s = place_of(edge_hash(ka, kb), count);; s = s + 1 == count ? 0 : s + 1) {
-        dp_edge_slot *const slot = &w->edge_slots[s];
-        if (!slot->first) {
-            *slot = (dp_edge_slot){name, number + 1, 0};
-            w->edge_marks[number] = 1;
-            return;
-        }
-        if (slot->name != opposed && slot->name != name) continue;
-        if (slot->second) {
-            add_meeting(w, s, number);
-        } else if (slot->name == opposed) {
-            slot->second = number + 1;
-            w->pair_first[w->edge_pairs] = slot->first - 1;
-            w->pair_second[w->edge_pairs++] = number;
-        } else {
-            slot->second = (number + 1) | DP_SLOT_SAME_WAY;
-            w->stats.edges_resolved++;
-        }
+/* The second polygon at a slot that runs the edge as the first does, or a later one. */
+static void meet_otherwise(dp_tile_worker *w, uint32_t slot, uint32_t number) {
+    dp_edge_slot *const s = &w->edge_slots[slot];
+    if (s->second) {
+        add_meeting(w, slot, number);
         return;
     }
+    s->second = (number + 1) | DP_SLOT_SAME_WAY;
+    w->stats.edges_resolved++;
+}
+
+/* The table while it is filled, apart from the worker so that compilers keep it in registers. */
+typedef struct filling {
+    dp_tile_worker *w;
+    dp_edge_slot *slots;
+    uint8_t *marks;
+    uint32_t *first, *second;
+    uint32_t count; /* slots */
+    uint32_t pairs;
+} filling;
+
+/* Enters edge `number` from the corner with key ka to that with kb, or meets the one that is there. Which of
+ * the two it is cannot be foreseen, so it is not asked: both are written, selected. */
+static inline __attribute__((always_inline)) void enter(filling *f, uint32_t number, uint32_t ka, uint32_t kb) {
+    const uint64_t name = (uint64_t)ka << 32 | kb, opposed = name << 32 | name >> 32;
+    uint32_t s = place_of(edge_hash(ka, kb), f->count);
+    dp_edge_slot *slot = &f->slots[s];
+    while (slot->first && slot->name != opposed && slot->name != name) {
+        s = s + 1 == f->count ? 0 : s + 1;
+        slot = &f->slots[s];
+    }
+    const uint32_t first = slot->first;
+    if (first && (slot->name != opposed || slot->second)) {
+        meet_otherwise(f->w, s, number);
+        return;
+    }
+    const bool is_free = !first;
+    slot->name = is_free ? name : opposed;
+    slot->first = is_free ? number + 1 : first;
+    slot->second = is_free ? 0 : number + 1;
+    f->marks[number] = is_free;
+    f->first[f->pairs] = first - 1;
+    f->second[f->pairs] = number;
+    f->pairs += !is_free;
 }
 
 /* Keys come from the tile's points where these are the corners, else from the vertices. */
@@ -104,7 +122,8 @@ static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32
     return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
 }
 
-static void enter_polygon(dp_tile_worker *w, uint32_t index, uint32_t number) {
+static void enter_polygon(filling *f, uint32_t index, uint32_t number) {
+    const dp_tile_worker *const w = f->w;
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
@@ -114,33 +133,41 @@ static void enter_polygon(dp_tile_worker *w, uint32_t index, uint32_t number) {
         const uint32_t next = i + 1 == n ? 0 : i + 1, kb = next ? key_of(w, p, next, first) : k0;
         const bool real = ka != kb || !same_position(polygons, dp_corner_vertex(polygons, first + i),
                                                      dp_corner_vertex(polygons, first + next));
-        if (real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i)) enter(w, number + i, ka, kb);
+        if (real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i)) enter(f, number + i, ka, kb);
         ka = kb;
     }
 }
 
-static void enter_polygons(dp_tile_worker *w) {
+static void enter_polygons(filling *f) {
+    const dp_tile_worker *const w = f->w;
     for (uint32_t i = 0; i < w->seen_count; i++) {
         const uint32_t index = w->seen[i];
-        enter_polygon(w, index, is_of_triangles(w) ? TRIANGLE_STEP * index : w->first_edges[index]);
+        enter_polygon(f, index, is_of_triangles(w) ? TRIANGLE_STEP * index : w->first_edges[index]);
     }
 }
 
 /* The same for triangles without edge flags, most of which are not clipped and have three edges. */
-static void enter_triangles(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->seen_count; i++) {
-        const uint32_t index = w->seen[i], number = TRIANGLE_STEP * index;
-        const dp_tile_polygon *const p = &w->polygons[index];
-        const dp_vertex *const at = w->points + p->point;
+static void enter_triangles(filling *out) {
+    filling f = *out;
+    const dp_tile_worker *const w = f.w;
+    const uint32_t *const seen = w->seen, count = w->seen_count;
+    const dp_tile_polygon *const polygons = w->polygons;
+    const dp_vertex *const points = w->points;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t index = seen[i], number = TRIANGLE_STEP * index, flags = polygons[index].flags;
+        const dp_vertex *const at = points + polygons[index].point;
         const uint32_t k0 = at[0].key, k1 = at[1].key, k2 = at[2].key;
-        if (p->flags & DP_POLYGON_CLIPPED || k0 == k1 || k1 == k2 || k2 == k0) {
-            enter_polygon(w, index, number);
+        if ((flags & DP_POLYGON_CLIPPED) | (k0 == k1) | (k1 == k2) | (k2 == k0)) {
+            *out = f;
+            enter_polygon(out, index, number);
+            f = *out;
             continue;
         }
-        if (p->flags & DP_POLYGON_NEAR) enter(w, number, k0, k1);
-        if (p->flags & DP_POLYGON_NEAR << 1) enter(w, number + 1, k1, k2);
-        if (p->flags & DP_POLYGON_NEAR << 2) enter(w, number + 2, k2, k0);
+        if (flags & DP_POLYGON_NEAR) enter(&f, number, k0, k1);
+        if (flags & DP_POLYGON_NEAR << 1) enter(&f, number + 1, k1, k2);
+        if (flags & DP_POLYGON_NEAR << 2) enter(&f, number + 2, k2, k0);
     }
+    *out = f;
 }
 
 /* ------- filling ------- */
@@ -167,7 +194,7 @@ static bool clear_table(dp_tile_worker *w) {
     size_t corners = 3 * (size_t)w->seen_count;
     if (!triangles && !number_edges(w, &corners)) return false;
     const size_t numbers = triangles ? TRIANGLE_STEP * (size_t)w->polygon_count : corners;
-    const size_t slots = corners + corners / 4 + 64, marks = (numbers + 8) / 8 * 8;
+    const size_t slots = 2 * corners + 64, marks = (numbers + 8) / 8 * 8;
     if (marks >= DP_SLOT_MORE || slots >= UINT32_MAX || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
         !DP_WORKER_RESERVE(w, edge_marks, edge_marks_cap, marks) ||
         !DP_WORKER_RESERVE(w, pair_first, pair_first_cap, corners / 2 + DP_PAIRS_ROOM) ||
@@ -196,8 +223,10 @@ bool dp_edge_table_fill(dp_tile_worker *w) {
         w->failed = true;
         return false;
     }
-    if (is_of_triangles(w) && !w->frame->polygons.edge_flags) enter_triangles(w);
-    else enter_polygons(w);
+    filling f = {w, w->edge_slots, w->edge_marks, w->pair_first, w->pair_second, w->slot_count, 0};
+    if (is_of_triangles(w) && !w->frame->polygons.edge_flags) enter_triangles(&f);
+    else enter_polygons(&f);
+    w->edge_pairs = f.pairs;
     w->stats.edges_resolved += w->edge_pairs;
     if (is_of_triangles(w)) w->frame->kernels->flatten(w);
     else flatten_polygons(w);

@@ -142,7 +142,7 @@ static bool is_hidden(const dp_tile_worker *w, const outfit *o, const dp_tile_po
     const uint32_t y0 = block_of(p->y0 - o->reach), y1 = block_of(p->y1 + 1 + o->reach);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t x = x0; x <= x1; x++)
-            if (w->farthest[0][0][y][x] <= limit) return false;
+            if (w->farthest[0][0][y + 1][x + 1] <= limit) return false;
     return true;
 }
 

@@ -105,9 +105,15 @@ typedef struct dp_loose_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
 } dp_loose_edge;
 
-/* Depth of the furthest sample of 1 + sx times 1 + sy blocks of pixels, the first of which is bx, by (cull.c). */
-enum { DP_BLOCKS = DP_TILE / DP_BLOCK };
-typedef float dp_farthest[2][2][DP_BLOCKS][DP_BLOCKS]; /* [sy][sx][by][bx] */
+/* Depth of the furthest sample of 1 + sx times 1 + sy blocks of pixels, the first of which is bx, by (cull.c). Around
+ * the tile's blocks lies a ring, of the strip: block [1][1] is the tile's first. */
+enum { DP_BLOCKS = DP_TILE / DP_BLOCK, DP_RINGED = DP_BLOCKS + 2 };
+typedef float dp_farthest[2][2][DP_RINGED][DP_RINGED]; /* [sy][sx][by][bx] */
+
+/* Depth of the front faces half a pixel beyond the tile: on the left, right, above and below it, at a quarter and at
+ * three quarters of each pixel. */
+enum { DP_STRIP_SIDES = 4, DP_STRIP = 2 * DP_TILE };
+typedef float dp_strip[DP_STRIP_SIDES][DP_STRIP];
 
 struct dp_tile_worker {
     const dp_frame *frame;
@@ -122,6 +128,7 @@ struct dp_tile_worker {
 
     uint32_t tile, tile_x, tile_y;
     dp_farthest farthest;
+    dp_strip strip;
     float *depth;     /* the tile's samples */
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 

@@ -66,7 +66,8 @@ static void draw_faces(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_assemble(w);
     dp_tile_faces(w);
     w->away = NULL;
-    memcpy(s->farthest + (size_t)tile * DP_BLOCKS * DP_BLOCKS, w->farthest[0][0], sizeof w->farthest[0][0]);
+    for (size_t y = 0; y < DP_BLOCKS; y++)
+        memcpy(s->farthest + ((size_t)tile * DP_BLOCKS + y) * DP_BLOCKS, &w->farthest[0][0][y + 1][1], DP_BLOCKS * sizeof *s->farthest);
     if (f->target.normal) put_normals(w);
     if (w->watching) dp_stream_note_suspects(s, w, &s->workers[worker]);
 }
