@@ -14,10 +14,9 @@
 #include <string.h>
 
 typedef struct dp_crowd {
-    float x0, y0, x1, y1; /* px, tile space */
-    float near, far;      /* d */
+    dp_f4 least, most; /* x, y (px, tile space), d, 0 of a polygon's points */
     uint32_t polygon;
-    uint32_t next;        /* in the same pixel, or UINT32_MAX */
+    uint32_t next;     /* in the same pixel, or UINT32_MAX */
 } dp_crowd;
 
 /* How many corner positions two polygons share (their keys are hashes: a false match costs one
@@ -134,10 +133,21 @@ static bool is_new_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     return true;
 }
 
-/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. */
-static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+/* Corners of the tile's triangles p and q that lie in one position, a bit each of p's; their keys are hashes, as above.
+ * Others, and what is clipped, take `shared_corners`. */
+static uint32_t corners_in_common(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+    const dp_vertex *const a = w->points + p->point, *const b = w->points + q->point;
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < p->points && i < 32; i++)
+        for (uint32_t j = 0; j < q->points; j++) bits |= (uint32_t)(a[i].key == b[j].key) << i;
+    return bits;
+}
+
+/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they share lie in it. */
+static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t shared) {
     bool nearer = false, further = false;
     for (uint32_t i = 0; i < p->points; i++) {
+        if (i < 32 && shared >> i & 1) continue;
         const dp_vertex at = w->points[p->point + i];
         const float gap = at.d - dp_plane_at(q, at.x, at.y);
         nearer = nearer || gap >= 0;
@@ -146,11 +156,18 @@ static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const d
     return !(nearer && further);
 }
 
+/* Not in sight of each other's planes, or neighbours. */
+static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+    const bool clipped = (p->flags | q->flags) & DP_POLYGON_CLIPPED;
+    const uint32_t of_p = clipped ? 0 : corners_in_common(w, p, q), of_q = of_p ? corners_in_common(w, q, p) : 0;
+    if (of_p & (of_p - 1)) return true;
+    if ((p->flags | q->flags) & DP_POLYGON_EDGE_ON) return false;
+    return is_beside(w, p, q, of_p) || is_beside(w, q, p, of_q);
+}
+
 static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
-    const bool thin = (p->flags | q->flags) & DP_POLYGON_EDGE_ON;
-    if (!thin && (is_beside(w, p, q) || is_beside(w, q, p))) return;
-    if (shared_corners(w->frame, p->id, q->id) > 1 || !is_new_pair(w, a, b)) return;
+    if (are_beside(w, p, q) || shared_corners(w->frame, p->id, q->id) > 1 || !is_new_pair(w, a, b)) return;
     dp_vec3 from, to, normal;
     dp_spine spine;
     if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
@@ -165,19 +182,24 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
 
 static dp_crowd bounds(const dp_tile_worker *w, uint32_t index) {
     const dp_tile_polygon *const p = &w->polygons[index];
-    dp_vertex v = w->points[p->point];
-    dp_crowd c = {v.x, v.y, v.x, v.y, v.d, v.d, index, UINT32_MAX};
+    const dp_vertex *const v = w->points + p->point;
+    dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
     for (uint32_t i = 1; i < p->points; i++) {
-        v = w->points[p->point + i];
-        c.x0 = dp_minf(c.x0, v.x), c.x1 = dp_maxf(c.x1, v.x);
-        c.y0 = dp_minf(c.y0, v.y), c.y1 = dp_maxf(c.y1, v.y);
-        c.far = dp_minf(c.far, v.d), c.near = dp_maxf(c.near, v.d);
+        const dp_f4 at = {v[i].x, v[i].y, v[i].d, 0};
+        least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
     }
-    return c;
+    return (dp_crowd){least, most, index, UINT32_MAX};
 }
 
-static bool are_apart(const dp_crowd *p, const dp_crowd *q) {
-    return p->x1 < q->x0 || q->x1 < p->x0 || p->y1 < q->y0 || q->y1 < p->y0 || p->near < q->far || q->near < p->far;
+static bool are_apart(const dp_crowd *p, const dp_crowd *q) { return dp_any((p->most < q->least) | (q->most < p->least)); }
+
+/* Does a polygon's box hold any of these pixels? */
+static inline bool comes_near(const dp_tile_polygon *p, const uint64_t rows[DP_TILE]) {
+    const uint64_t span = dp_box_span(p);
+    const uint32_t last = p->y1;
+    for (uint32_t y = p->y0; y <= last; y++)
+        if (rows[y] & span) return true;
+    return false;
 }
 
 /* Puts a polygon into the suspect pixels of its box and tests it against those already there. */
@@ -211,10 +233,11 @@ void dp_tile_intersections(dp_tile_worker *w) {
     memset(heads, 0xff, sizeof heads);
     if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
     w->pair_count = 0;
-    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (!(p->flags & DP_POLYGON_TOUCHES) || p->flags & DP_POLYGON_HIDDEN) continue;
-        if (p->flags & DP_POLYGON_FRONT) join_crowds(w, i, front, heads, &count);
-        else if (mixed) join_crowds(w, i, back, heads, &count);
+    for (uint32_t i = 0; i < w->seen_count && !w->failed; i++) {
+        const uint32_t index = w->seen[i];
+        const dp_tile_polygon *const p = &w->polygons[index];
+        if (!(p->flags & DP_POLYGON_TOUCHES) || !(mixed || p->flags & DP_POLYGON_FRONT)) continue;
+        const uint64_t *const rows = p->flags & DP_POLYGON_FRONT ? front : back;
+        if (comes_near(p, rows)) join_crowds(w, index, rows, heads, &count);
     }
 }

@@ -105,8 +105,9 @@ static bool sort_probes(dp_tile_worker *w) {
     memset(first, 0, sizeof out->first);
     for (uint32_t i = 0; i < w->probe_count; i++) {
         const uint32_t cell = w->probes[i].cell;
+        const float limit = w->probes[i].hidden ? INFINITY : w->probes[i].limit;
+        out->least[cell] = first[cell + 1]++ ? dp_minf(limit, out->least[cell]) : limit;
         out->row[cell / DP_TILE] |= (uint64_t)1 << cell % DP_TILE;
-        first[cell + 1]++;
     }
     for (uint32_t c = 0; c < DP_TILE * DP_TILE; c++) first[c + 1] += first[c];
     for (uint32_t i = w->probe_count; i-- > 0;) {

@@ -92,6 +92,7 @@ typedef struct dp_sorted_probes {
     size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
     uint64_t row[DP_TILE];                   /* pixels that hold any */
     uint32_t first[DP_TILE * DP_TILE + 1];   /* by pixel */
+    float least[DP_TILE * DP_TILE];          /* limit, by pixel that holds any */
 } dp_sorted_probes;
 
 /* Points in lists by the tile's pixels. */
