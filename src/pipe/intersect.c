@@ -82,22 +82,26 @@ void dp_drop_lone(uint64_t suspects[DP_TILE]) {
     memcpy(suspects, kept, sizeof kept);
 }
 
+/* Does a back face show in a pixel, or beside it? */
+static bool shows_back_near(const dp_tile_worker *w, int px, int py) {
+    const uint32_t samples = w->sampling.samples;
+    const int x0 = px > 0 ? px - 1 : 0, x1 = px + 1 < DP_TILE ? px + 1 : px;
+    for (int y = py > 0 ? py - 1 : 0; y <= py + 1 && y < DP_TILE; y++) {
+        const uint32_t *const winner = w->winner + dp_pixel_lane(&w->sampling, (uint32_t)x0, (uint32_t)y);
+        for (uint32_t i = 0; i < (uint32_t)(x1 - x0 + 1) * samples; i++)
+            if (winner[i] != UINT32_MAX && !(w->polygons[winner[i]].flags & DP_POLYGON_FRONT)) return true;
+    }
+    return false;
+}
+
 /* A front and a back face come close along every outline of a closed model. They cross in sight only
  * where the back face is seen too: keeps the suspects near a pixel whose winner is a back face. */
 static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
-    uint64_t any = 0, seen[DP_TILE] = {0};
-    for (int y = 0; y < DP_TILE; y++) any |= suspects[y];
-    if (!any) return;
-    const uint32_t samples = w->sampling.samples;
-    for (size_t i = 0; i < w->frame->tile_samples; i++) {
-        const uint32_t winner = w->winner[i];
-        if (winner == UINT32_MAX || w->polygons[winner].flags & DP_POLYGON_FRONT) continue;
-        const size_t pixel = i / samples;
-        seen[pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
-    }
-    uint64_t near[DP_TILE];
-    dp_widen(seen, near);
-    for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
+    for (int y = 0; y < DP_TILE; y++)
+        for (uint64_t bits = suspects[y]; bits; bits &= bits - 1) {
+            const int x = __builtin_ctzll(bits);
+            if (!shows_back_near(w, x, y)) suspects[y] &= ~((uint64_t)1 << x);
+        }
 }
 
 /* ------- pairs ------- */
@@ -193,12 +197,27 @@ static dp_crowd bounds(const dp_tile_worker *w, uint32_t index) {
 
 static bool are_apart(const dp_crowd *p, const dp_crowd *q) { return dp_any((p->most < q->least) | (q->most < p->least)); }
 
+/* Pixels by rows, and which rows hold any. */
+typedef struct pixels {
+    uint64_t row[DP_TILE];
+    uint32_t first, last;
+} pixels;
+
+/* Suspects and what lies around them; false when there are none. */
+static bool look_around(const uint64_t suspects[DP_TILE], pixels *out) {
+    if (!dp_widen(suspects, out->row)) return false;
+    out->first = 0, out->last = DP_TILE - 1;
+    while (!out->row[out->first]) out->first++;
+    while (!out->row[out->last]) out->last--;
+    return true;
+}
+
 /* Does a polygon's box hold any of these pixels? */
-static inline bool comes_near(const dp_tile_polygon *p, const uint64_t rows[DP_TILE]) {
+static inline bool comes_near(const dp_tile_polygon *p, const pixels *near) {
     const uint64_t span = dp_box_span(p);
-    const uint32_t last = p->y1;
-    for (uint32_t y = p->y0; y <= last; y++)
-        if (rows[y] & span) return true;
+    const uint32_t first = p->y0 > near->first ? p->y0 : near->first, last = p->y1 < near->last ? p->y1 : near->last;
+    for (uint32_t y = first; y <= last; y++)
+        if (near->row[y] & span) return true;
     return false;
 }
 
@@ -223,13 +242,13 @@ static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[D
 }
 
 void dp_tile_intersections(dp_tile_worker *w) {
-    uint64_t front[DP_TILE], back[DP_TILE];
+    pixels front, back;
     uint32_t heads[DP_TILE][DP_TILE], count = 0;
     keep_seen_back_faces(w, w->suspects[1]);
-    const bool mixed = dp_widen(w->suspects[1], back);
+    const bool mixed = look_around(w->suspects[1], &back);
     for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
     dp_drop_lone(w->suspects[0]);
-    if (!dp_widen(w->suspects[0], front)) return;
+    if (!look_around(w->suspects[0], &front)) return;
     memset(heads, 0xff, sizeof heads);
     if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
     w->pair_count = 0;
@@ -237,7 +256,7 @@ void dp_tile_intersections(dp_tile_worker *w) {
         const uint32_t index = w->seen[i];
         const dp_tile_polygon *const p = &w->polygons[index];
         if (!(p->flags & DP_POLYGON_TOUCHES) || !(mixed || p->flags & DP_POLYGON_FRONT)) continue;
-        const uint64_t *const rows = p->flags & DP_POLYGON_FRONT ? front : back;
-        if (comes_near(p, rows)) join_crowds(w, index, rows, heads, &count);
+        const pixels *const near = p->flags & DP_POLYGON_FRONT ? &front : &back;
+        if (comes_near(p, near)) join_crowds(w, index, near->row, heads, &count);
     }
 }
