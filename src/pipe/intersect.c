@@ -137,33 +137,35 @@ static bool is_new_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     return true;
 }
 
-/* Corners of the tile's triangles p and q that lie in one position, a bit each of p's; their keys are hashes, as above.
- * Others, and what is clipped, take `shared_corners`. */
-static uint32_t corners_in_common(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+/* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes, as above. Others, and
+ * what is clipped, have none, and take `shared_corners`. */
+static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t *of_p, uint32_t *of_q) {
+    *of_p = *of_q = 0;
+    if ((p->flags | q->flags) & DP_POLYGON_CLIPPED || (p->points ^ 3) | (q->points ^ 3)) return;
     const dp_vertex *const a = w->points + p->point, *const b = w->points + q->point;
-    uint32_t bits = 0;
-    for (uint32_t i = 0; i < p->points && i < 32; i++)
-        for (uint32_t j = 0; j < q->points; j++) bits |= (uint32_t)(a[i].key == b[j].key) << i;
-    return bits;
+    for (uint32_t i = 0; i < 3; i++)
+        for (uint32_t j = 0; j < 3; j++) {
+            const uint32_t same = a[i].key == b[j].key;
+            *of_p |= same << i, *of_q |= same << j;
+        }
 }
 
 /* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they share lie in it. */
 static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t shared) {
     bool nearer = false, further = false;
     for (uint32_t i = 0; i < p->points; i++) {
-        if (i < 32 && shared >> i & 1) continue;
         const dp_vertex at = w->points[p->point + i];
         const float gap = at.d - dp_plane_at(q, at.x, at.y);
-        nearer = nearer || gap >= 0;
-        further = further || gap <= 0;
+        const bool apart = !(i < 3 && shared >> i & 1);
+        nearer |= apart & (gap >= 0), further |= apart & (gap <= 0);
     }
-    return !(nearer && further);
+    return !(nearer & further);
 }
 
 /* Not in sight of each other's planes, or neighbours. */
 static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
-    const bool clipped = (p->flags | q->flags) & DP_POLYGON_CLIPPED;
-    const uint32_t of_p = clipped ? 0 : corners_in_common(w, p, q), of_q = of_p ? corners_in_common(w, q, p) : 0;
+    uint32_t of_p, of_q;
+    find_shared(w, p, q, &of_p, &of_q);
     if (of_p & (of_p - 1)) return true;
     if ((p->flags | q->flags) & DP_POLYGON_EDGE_ON) return false;
     return is_beside(w, p, q, of_p) || is_beside(w, q, p, of_q);
