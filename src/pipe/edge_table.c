@@ -91,26 +91,36 @@ typedef struct filling {
     uint32_t pairs;
 } filling;
 
+/* Compilers know nothing of the value, so that they make no branches of what is computed from it. */
+#define OPAQUE(value) __asm__("" : "+r"(value))
+
+/* Is the slot taken by another edge? */
+static inline __attribute__((always_inline)) uint32_t is_other(const dp_edge_slot *slot, uint64_t name, uint64_t opposed) {
+    uint32_t other = (uint32_t)(slot->first != 0) & (uint32_t)(slot->name != opposed) & (uint32_t)(slot->name != name);
+    OPAQUE(other);
+    return other;
+}
+
 /* Enters edge `number` from the corner with key ka to that with kb, or meets the one that is there. Which of
- * the two it is cannot be foreseen, so it is not asked: both are written, selected. */
+ * the two it is cannot be foreseen, so no branch asks: both are written, selected. */
 static inline __attribute__((always_inline)) void enter(filling *f, uint32_t number, uint32_t ka, uint32_t kb) {
     const uint64_t name = (uint64_t)ka << 32 | kb, opposed = name << 32 | name >> 32;
     uint32_t s = place_of(edge_hash(ka, kb), f->count);
-    dp_edge_slot *slot = &f->slots[s];
-    while (slot->first && slot->name != opposed && slot->name != name) {
-        s = s + 1 == f->count ? 0 : s + 1;
-        slot = &f->slots[s];
-    }
-    const uint32_t first = slot->first;
-    if (first && (slot->name != opposed || slot->second)) {
+    while (is_other(&f->slots[s], name, opposed)) s = s + 1 == f->count ? 0 : s + 1;
+    dp_edge_slot *const slot = &f->slots[s];
+    const uint64_t had = slot->name;
+    uint32_t first = slot->first, otherwise = (uint32_t)(first != 0) & ((uint32_t)(had != opposed) | (uint32_t)(slot->second != 0));
+    OPAQUE(otherwise);
+    if (otherwise) {
         meet_otherwise(f->w, s, number);
         return;
     }
-    const bool is_free = !first;
-    slot->name = is_free ? name : opposed;
-    slot->first = is_free ? number + 1 : first;
-    slot->second = is_free ? 0 : number + 1;
-    f->marks[number] = is_free;
+    OPAQUE(first);
+    const uint32_t is_free = !first, mask = 0 - is_free;
+    slot->name = had ^ ((had ^ name) & (0 - (uint64_t)is_free));
+    slot->first = first | ((number + 1) & mask);
+    slot->second = (number + 1) & ~mask;
+    f->marks[number] = (uint8_t)is_free;
     f->first[f->pairs] = first - 1;
     f->second[f->pairs] = number;
     f->pairs += !is_free;
