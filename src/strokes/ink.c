@@ -12,6 +12,7 @@
  * end round. */
 #include "strokes/stroke.h"
 
+#include "kernel/kernels.h"
 #include "pipe/blend.h"
 #include "pipe/samples.h"
 
@@ -68,11 +69,6 @@ bool dp_bin_strokes(dp_frame *frame) {
                         frame->tiles_y, place, touches, frame, frame->threads, frame->memory);
 }
 
-static float coverage_at(float half_width, float distance) {
-    const float in = dp_minf(distance + 0.5f, half_width) - dp_maxf(distance - 0.5f, -half_width);
-    return dp_minf(dp_maxf(in, 0), 1);
-}
-
 typedef struct tile_ink {
     const dp_frame *frame;
     dp_ink_worker *worker;
@@ -103,17 +99,14 @@ float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t 
     return (float)visible / (float)samples;
 }
 
-static void cover_pixel(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y) {
-    float t;
-    const float distance = distance_to(s, (float)x + 0.5f, (float)y + 0.5f, &t);
-    float c = coverage_at(s->half_width, distance);
-    if (c <= 0) return;
-    const uint32_t px = x - ink->x0, py = y - ink->y0;
+/* Pixel i of a row that starts at (x, y). */
+static void cover_pixel(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, const dp_row_coverage *row, uint32_t i) {
+    const uint32_t px = x + i - ink->x0, py = y - ink->y0;
     dp_ink_worker *const w = ink->worker;
     const bool set = w->row[py] >> px & 1;
     float *const held = &w->coverage[py * DP_TILE + px];
-    if (set && *held >= c) return;
-    c *= dp_visible_share(ink->frame, ink->depth, ink->x0, ink->y0, s, x, y, t, distance);
+    if (set && *held >= row->share[i]) return;
+    const float c = row->share[i] * dp_visible_share(ink->frame, ink->depth, ink->x0, ink->y0, s, x + i, y, row->t[i], row->distance[i]);
     if (c <= 0 || (set && *held >= c)) return;
     *held = c;
     w->row[py] |= (uint64_t)1 << px;
@@ -145,7 +138,10 @@ static void cover(const tile_ink *ink, const dp_stroke *s) {
         float from, to;
         if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;
         const uint32_t x0 = clamp_to(from, ink->x0, ink->x1), x1 = clamp_to(to + 1, ink->x0, ink->x1);
-        for (uint32_t x = x0; x < x1; x++) cover_pixel(ink, s, x, y);
+        if (x0 >= x1) continue;
+        dp_row_coverage row;
+        for (uint64_t bits = ink->frame->kernels->cover(s, x0, y, x1 - x0, &row); bits; bits &= bits - 1)
+            cover_pixel(ink, s, x0, y, &row, (uint32_t)__builtin_ctzll(bits));
     }
 }
 

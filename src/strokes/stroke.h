@@ -13,6 +13,12 @@ typedef struct dp_stroke {
     uint8_t line;      /* dp_line */
 } dp_stroke;
 
+/* A row of a tile's pixels beside a stroke: the share of each that it covers; where along the spine the pixel's centre
+ * lies, 0 to 1, and how far from it, px. Kernels write whole vectors. */
+typedef struct dp_row_coverage {
+    float share[64 + 16], t[64 + 16], distance[64 + 16];
+} dp_row_coverage;
+
 /* Joins the tiles' pieces and makes frame->segments and frame->strokes (context->owned arrays);
  * `store` keeps their memory. */
 typedef struct dp_stroke_store {
