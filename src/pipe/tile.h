@@ -90,7 +90,7 @@ typedef struct dp_sorted_probes {
     float *x, *y, *limit;     /* limit is infinite once it is hidden */
     uint32_t *own_a, *own_b;
     size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
-    uint64_t row[DP_TILE];                   /* pixels that hold any */
+    uint64_t row[DP_TILE + 4];               /* pixels that hold any; some rows more that hold none */
     uint32_t first[DP_TILE * DP_TILE + 1];   /* by pixel */
     float least[DP_TILE * DP_TILE];          /* limit, by pixel that holds any */
 } dp_sorted_probes;
