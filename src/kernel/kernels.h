@@ -46,7 +46,7 @@ typedef struct dp_kernels {
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
     /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has any (cover.inc). */
-    uint64_t (*cover)(const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t n, struct dp_row_coverage *out);
+    uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t n, struct dp_row_coverage *out);
 } dp_kernels;
 
 extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;

@@ -22,14 +22,6 @@
 const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
                                               DP_LINE_BORDER, DP_LINE_SILHOUETTE};
 
-/* How much nearer than the spine (in pixel sizes) a surface may be, at `distance` px from it, and still
- * not hide the stroke: sides that rise by up to eight to one, and outlines that curve towards the eye
- * with a radius of up to half the picture (a circle rises by sqrt(2 r x)). */
-static float nearer_allowed(const dp_frame *frame, const dp_stroke *s, float distance) {
-    const float rounded = s->line == DP_LINE_SILHOUETTE ? sqrtf((float)frame->view.height * distance) : 0;
-    return 2 + 8 * distance + rounded;
-}
-
 dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
     const float r = s->half_width + 1;
     const float x0 = dp_minf(s->a.x, s->b.x) - r, x1 = dp_maxf(s->a.x, s->b.x) + r;
@@ -73,40 +65,40 @@ typedef struct tile_ink {
     const dp_frame *frame;
     dp_ink_worker *worker;
     const float *depth; /* the tile's samples; NULL: there is no surface */
+    bool hides;         /* strokes are cut where the surface hides them */
     uint32_t x0, y0;    /* px of the tile's corner */
     uint32_t x1, y1;    /* of its end, within the picture */
 } tile_ink;
 
-/* The depth of one of the stroke's own polygons, carried on over the pixel; where it is steep, that of the
- * pixel's nearest part. A NaN for none. */
-static float own_plane(const float plane[3], float x, float y) {
-    return plane[0] + plane[1] * x + plane[2] * y + 0.5f * (fabsf(plane[1]) + fabsf(plane[2]));
+/* Share of a pixel's samples that lie no nearer than `limit`. */
+static float share_behind(const float *depth, uint32_t samples, float limit) {
+    uint32_t visible = 0;
+    for (uint32_t i = 0; i < samples; i++) visible += depth[i] <= limit;
+    return (float)visible / (float)samples;
+}
+
+static const float *depth_of(const float *tile_depth, uint32_t px, uint32_t py, uint32_t samples) {
+    return tile_depth + (size_t)(py * DP_TILE + px) * samples;
 }
 
 float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0, const dp_stroke *s,
                        uint32_t x, uint32_t y, float t, float distance) {
     if (!tile_depth || !(frame->lines & DP_SILHOUETTE)) return 1;
     const uint32_t samples = frame->target.samples;
-    const float *const depth = tile_depth + (size_t)((y - y0) * DP_TILE + (x - x0)) * samples;
-    const float spine = s->a.d + (s->b.d - s->a.d) * t;
-    const double step = dp_depth_step(&frame->view, spine, 1);
-    const float fx = (float)x + 0.5f, fy = (float)y + 0.5f, slack = (float)step * 2;
-    float limit = spine + (float)(step * nearer_allowed(frame, s, distance));
-    limit = dp_maxf(own_plane(s->plane[0], fx, fy) + slack, limit);
-    limit = dp_maxf(own_plane(s->plane[1], fx, fy) + slack, limit);
-    uint32_t visible = 0;
-    for (uint32_t i = 0; i < samples; i++) visible += depth[i] <= limit;
-    return (float)visible / (float)samples;
+    const float limit = dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, t, distance);
+    return share_behind(depth_of(tile_depth, x - x0, y - y0, samples), samples, limit);
 }
 
 /* Pixel i of a row that starts at (x, y). */
-static void cover_pixel(const tile_ink *ink, const dp_stroke *s, uint32_t x, uint32_t y, const dp_row_coverage *row, uint32_t i) {
+static void cover_pixel(const tile_ink *ink, uint32_t x, uint32_t y, const dp_row_coverage *row, uint32_t i) {
     const uint32_t px = x + i - ink->x0, py = y - ink->y0;
     dp_ink_worker *const w = ink->worker;
     const bool set = w->row[py] >> px & 1;
     float *const held = &w->coverage[py * DP_TILE + px];
     if (set && *held >= row->share[i]) return;
-    const float c = row->share[i] * dp_visible_share(ink->frame, ink->depth, ink->x0, ink->y0, s, x + i, y, row->t[i], row->distance[i]);
+    const uint32_t samples = ink->frame->target.samples;
+    float c = row->share[i];
+    if (ink->hides) c *= share_behind(depth_of(ink->depth, px, py, samples), samples, row->limit[i]);
     if (c <= 0 || (set && *held >= c)) return;
     *held = c;
     w->row[py] |= (uint64_t)1 << px;
@@ -140,8 +132,8 @@ static void cover(const tile_ink *ink, const dp_stroke *s) {
         const uint32_t x0 = clamp_to(from, ink->x0, ink->x1), x1 = clamp_to(to + 1, ink->x0, ink->x1);
         if (x0 >= x1) continue;
         dp_row_coverage row;
-        for (uint64_t bits = ink->frame->kernels->cover(s, x0, y, x1 - x0, &row); bits; bits &= bits - 1)
-            cover_pixel(ink, s, x0, y, &row, (uint32_t)__builtin_ctzll(bits));
+        for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits; bits &= bits - 1)
+            cover_pixel(ink, x0, y, &row, (uint32_t)__builtin_ctzll(bits));
     }
 }
 
@@ -198,8 +190,10 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
     if (!count) return;
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
+    const bool bare = frame->tile_pieces[tile].bare;
     const tile_ink ink = {.frame = frame, .worker = worker,
-                          .depth = frame->tile_pieces[tile].bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
+                          .depth = bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
+                          .hides = !bare && frame->lines & DP_SILHOUETTE,
                           .x0 = x0, .y0 = y0,
                           .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                           .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};

@@ -13,10 +13,30 @@ typedef struct dp_stroke {
     uint8_t line;      /* dp_line */
 } dp_stroke;
 
-/* A row of a tile's pixels beside a stroke: the share of each that it covers; where along the spine the pixel's centre
- * lies, 0 to 1, and how far from it, px. Kernels write whole vectors. */
+/* How near a surface may come to a stroke without hiding it: depth, at (x, y) on the screen, `distance` px beside the
+ * spine's point t. It may be nearer than the spine, in pixel sizes, by
+ *
+ *     2 + 8 distance + sqrt(picture height * distance), the last of outlines alone:
+ *
+ * sides that rise by up to eight to one, and outlines that curve towards the eye with a radius of up to half the
+ * picture (a circle rises by sqrt(2 r x)). And it may lie behind one of the stroke's own polygons, carried on over the
+ * pixel; where that is steep, behind its depth at the pixel's nearest part. A NaN for no polygon. */
+static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, float x, float y, float t, float distance) {
+    const float spine = s->a.d + (s->b.d - s->a.d) * t, step = fabsf(spine) * frame->step_scale + frame->step_offset;
+    const float rounded = s->line == DP_LINE_SILHOUETTE ? sqrtf((float)frame->view.height * distance) : 0;
+    float limit = spine + step * (2 + 8 * distance + rounded);
+    for (int i = 0; i < 2; i++) {
+        const float *const p = s->plane[i];
+        const float own = p[0] + p[1] * x + p[2] * y + 0.5f * (fabsf(p[1]) + fabsf(p[2])) + 2 * step;
+        limit = dp_maxf(own, limit);
+    }
+    return limit;
+}
+
+/* A row of a tile's pixels beside a stroke: the share of each that it covers, and dp_stroke_limit there. Kernels
+ * write whole vectors. */
 typedef struct dp_row_coverage {
-    float share[64 + 16], t[64 + 16], distance[64 + 16];
+    float share[64 + 16], limit[64 + 16];
 } dp_row_coverage;
 
 /* Joins the tiles' pieces and makes frame->segments and frame->strokes (context->owned arrays);
