@@ -62,7 +62,7 @@ typedef struct dp_detectors {
                      uint32_t n, float *slope);
 } dp_detectors;
 
-extern const dp_detectors dp_detectors_base, dp_detectors_avx2, dp_detectors_avx512;
+extern const dp_detectors dp_detectors_plain, dp_detectors_base, dp_detectors_avx2, dp_detectors_avx512;
 
 /* Those for kernels of so many lanes (kernel/kernels.h). */
 const dp_detectors *dp_detectors_for(uint32_t lanes);

@@ -1,9 +1,11 @@
 /* The G-buffer's planes: memory, background, margin, the range of distances.
  *
- * All planes lie in one block, each (width + 2 margins) x (height + 2 margins), rows padded to 16 floats. */
+ * All planes lie in one block, each (tiles' width + 2 margins) x (height + 2 margins), rows padded to 16 floats: tiles are
+ * filled in whole vectors. */
 #include "gbuffer/gbuffer.h"
 
 #include "gbuffer/detect.h"
+#include "gbuffer/fill.h"
 #include "kernel/kernels.h"
 
 #include <string.h>
@@ -57,10 +59,11 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     take_camera(g, frame);
     g->normals = NULL;
     g->detectors = dp_detectors_for(dp_kernels_best()->lanes);
+    g->fillers = dp_fillers_for(dp_kernels_best()->lanes);
     if (same) return true;
     g->width = width, g->height = height, g->textured = textured;
     g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;
-    g->stride = ((size_t)width + 2 * DP_GBUFFER_MARGIN + 15) / 16 * 16;
+    g->stride = ((size_t)g->tiles_x * DP_TILE + 2 * DP_GBUFFER_MARGIN + 15) / 16 * 16;
     const size_t plane = g->stride * ((size_t)height + 2 * DP_GBUFFER_MARGIN);
     const size_t tiles = (size_t)g->tiles_x * g->tiles_y;
     if (!reserve(g, frame, plane, tiles)) {

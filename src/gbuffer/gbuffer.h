@@ -15,7 +15,7 @@ enum { DP_GBUFFER_MARGIN = 4 };
 static inline float dp_gbuffer_empty_depth(bool perspective) { return perspective ? 0 : -DP_FAR; }
 
 /* Planes of floats, `stride` apart from row to row; pixel (0, 0) is at [0], and rows and columns down to
- * -DP_GBUFFER_MARGIN may be read. A pixel without surface has normal 0, distance DP_FAR and id 0. One that is
+ * -DP_GBUFFER_MARGIN may be read. Rows have room for whole tiles. A pixel without surface has normal 0, distance DP_FAR and id 0. One that is
  * mostly paper (a fringe) is background to whoever looks for edges, distance DP_FAR, but has the id and normal
  * of the surface at its border, whose distance is `other`.
  * Invariant: tiles marked `clean` hold no surface, so that background is written once and then costs nothing. */
@@ -42,6 +42,7 @@ typedef struct dp_gbuffer {
     uint32_t tiles_x, tiles_y;
 
     const struct dp_detectors *detectors; /* for this processor (detect.h) */
+    const struct dp_fillers *fillers;     /* the same (fill.h) */
     const dp_packed_normals *normals; /* of the frame's corners, borrowed; NULL: none */
 
     void *block;           /* all planes */

@@ -295,6 +295,25 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
+/* ------- 16 bits within words ------- */
+
+DP_LANES_INLINE dp_lf l_from_int(dp_li v) {
+#if DP_LANES == 1
+    return (float)v;
+#else
+    return __builtin_convertvector(v, dp_lf);
+#endif
+}
+
+/* The high half, with its sign; the low half in the high half's place. */
+#if DP_LANES == 1
+DP_LANES_INLINE dp_li li_high(dp_li v) { return (int16_t)((uint32_t)v >> 16); }
+DP_LANES_INLINE dp_li li_up(dp_li v) { return (int32_t)((uint32_t)v << 16); }
+#else
+DP_LANES_INLINE dp_li li_high(dp_li v) { return v >> 16; }
+DP_LANES_INLINE dp_li li_up(dp_li v) { return (dp_li)((dp_lu)v << 16); }
+#endif
+
 /* Stores the lanes of `mask`. */
 DP_LANES_INLINE void l_store_some(float *p, dp_lm mask, dp_lf v) {
 #if DP_LANES == 16
