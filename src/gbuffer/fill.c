@@ -254,7 +254,7 @@ static uint64_t fill_row(const dp_fill *f, const dp_fillers *fillers, dp_fill_ro
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
         collect_odd(f, x, row + x, r);
     }
-    fillers->finish(f, r, x0, n, row + x0);
+    fillers->finish(f, r, x0, x1, row);
     put_ids(f, r, x0, n, row + x0);
     memset(g->share + row + x0, 255, n);
     for (uint64_t bits = r->mixed & mask; bits; bits &= bits - 1) {

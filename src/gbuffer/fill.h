@@ -44,8 +44,8 @@ typedef struct dp_fillers {
     void (*pick)(const dp_fill *f, dp_fill_row *r);
     /* What the polygons of the columns [x0, x1), whole vectors, give; which are odd. */
     void (*collect)(const dp_fill *f, uint32_t x0, uint32_t x1, dp_fill_row *r);
-    /* From there to the G-buffer: n pixels from column x0 on; `pixel`: the place of that column. */
-    void (*finish)(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_t n, size_t pixel);
+    /* The same columns, from there to the G-buffer; `pixel`: the place of the tile's first column. */
+    void (*finish)(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_t x1, size_t pixel);
 } dp_fillers;
 
 extern const dp_fillers dp_fillers_plain, dp_fillers_base, dp_fillers_avx2, dp_fillers_avx512;
