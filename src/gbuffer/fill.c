@@ -209,7 +209,6 @@ static void put_ids(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_
 static void share_pixel(const dp_fill *f, float other, uint8_t share, size_t pixel) {
     dp_gbuffer *const g = f->g;
     const bool paper = other <= DP_DEPTH_EMPTY;
-    if (share == 255) return;
     g->share[pixel] = share;
     g->other[pixel] = paper ? DP_FAR : (float)dp_distance(&f->w->frame->view, other);
     if (share >= 128 || !paper) return;
@@ -224,7 +223,6 @@ static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
     for (uint32_t i = 0; i < n; i++) distance[i] = DP_FAR;
     for (uint32_t i = 0; i < n; i++) depth[i] = empty;
     memset(g->id + pixel, 0, n * sizeof *g->id);
-    memset(g->share + pixel, 255, n);
     memset(g->nx + pixel, 0, n * sizeof(float));
     memset(g->ny + pixel, 0, n * sizeof(float));
     memset(g->nz + pixel, 0, n * sizeof(float));
@@ -256,11 +254,14 @@ static uint64_t fill_row(const dp_fill *f, const dp_fillers *fillers, dp_fill_ro
     }
     fillers->finish(f, r, x0, x1, row);
     put_ids(f, r, x0, n, row + x0);
-    memset(g->share + row + x0, 255, n);
+    uint64_t shared = 0;
     for (uint64_t bits = r->mixed & mask; bits; bits &= bits - 1) {
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
+        if (r->share[x] == 255) continue;
+        shared |= (uint64_t)1 << x;
         share_pixel(f, r->other[x], r->share[x], row + x);
     }
+    g->shared[(size_t)w->tile * DP_TILE + r->y] = shared;
     if (g->textured) put_texcoords(f, r, row);
     return mask;
 }
@@ -274,6 +275,7 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals)
                        .step = (float)(1 / w->frame->view.focal)};
     dp_fill_row r;
     memset(mask, 0, DP_TILE * sizeof *mask);
+    memset(g->shared + (size_t)w->tile * DP_TILE, 0, DP_TILE * sizeof *mask);
     if (bare && g->clean[w->tile]) return; /* it still holds background */
     if (!bare) memset(&r, 0, sizeof r); /* lanes that are not looked at are numbers all the same */
     for (uint32_t y = 0; y < height; y++) {

@@ -20,7 +20,7 @@ void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
 static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
     const size_t floats = g->textured ? 8 : 6, bytes = plane * (floats * sizeof(float) + sizeof(uint16_t) + 1);
     return dp_reserve(frame->memory, &g->block, &g->block_cap, bytes, 1) &&
-           dp_reserve(frame->memory, &g->mask, &g->mask_cap, tiles * DP_TILE, sizeof *g->mask) &&
+           dp_reserve(frame->memory, &g->mask, &g->mask_cap, 2 * tiles * DP_TILE, sizeof *g->mask) &&
            dp_reserve(frame->memory, &g->clean, &g->clean_cap, tiles, 1);
 }
 
@@ -71,6 +71,7 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
         return false;
     }
     place_planes(g, plane);
+    g->shared = g->mask + tiles * DP_TILE;
     memset(g->clean, 0, tiles);
     return true;
 }

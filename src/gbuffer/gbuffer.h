@@ -25,12 +25,13 @@ typedef struct dp_gbuffer {
     float *nx, *ny, *nz;   /* camera space, unit: x right, y up, z towards the eye */
     float *distance;       /* along the line of sight, world units, at the pixel's centre */
     float *depth;          /* the same as depth on the screen, affine on planes (view.h): what is scaled looks at it */
-    float *other;          /* where `share` < 255: distance of what covers the rest, DP_FAR for the paper */
+    float *other;          /* where `shared`: distance of what covers the rest, DP_FAR for the paper */
     float *u, *v;          /* texture coordinates, when asked for; NaN: none */
     uint16_t *id;          /* 1 + group */
     uint32_t *polygon;     /* whose surface it is, where somebody asks: set by whoever keeps it, or NULL */
-    uint8_t *share;        /* of the pixel's samples that are of this surface, 255 for all */
+    uint8_t *share;        /* where `shared`: of the pixel's samples that are of this surface, of 255 */
     uint64_t *mask;        /* [tile][DP_TILE]: pixels of a tile's row that hold a surface */
+    uint64_t *shared;      /* [tile][DP_TILE]: and something else */
     uint8_t *clean;        /* [tile] 1: no surface; 2: nor in the margin beside it */
 
     /* the camera, for operators: a pixel's ray is ((x - cx) / fx, (cy - y) / fy, -1) in camera space */

@@ -314,6 +314,28 @@ DP_LANES_INLINE dp_li li_high(dp_li v) { return v >> 16; }
 DP_LANES_INLINE dp_li li_up(dp_li v) { return (dp_li)((dp_lu)v << 16); }
 #endif
 
+/* ------- rounding and powers ------- */
+
+/* The largest whole number not above v; those of 2^23 and more are whole. */
+DP_LANES_INLINE dp_lf l_floor(dp_lf v) {
+    const dp_lm small = l_lt(l_abs(v), l_splat(8388608));
+    const dp_lf whole = l_from_int(l_truncate(l_select(small, v, l_splat(0))));
+    return l_select(small, whole - l_select(l_gt(whole, v), l_splat(1), l_splat(0)), v);
+}
+
+/* The largest power of two not above v, which is positive and normal: v without its fraction. */
+DP_LANES_INLINE dp_lf l_power_below(dp_lf v) {
+#if DP_LANES == 1
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    bits &= 0x7f800000;
+    memcpy(&v, &bits, sizeof bits);
+    return v;
+#else
+    return (dp_lf)((dp_li)v & li_splat(0x7f800000));
+#endif
+}
+
 /* Stores the lanes of `mask`. */
 DP_LANES_INLINE void l_store_some(float *p, dp_lm mask, dp_lf v) {
 #if DP_LANES == 16

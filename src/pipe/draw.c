@@ -165,7 +165,9 @@ static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
     dp_tile_find(&c->tile_workers[worker], index);
-    if (c->shade.active) dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+    if (!c->shade.active) return;
+    dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+    dp_shade_at_once(&c->shade, index); /* while it is in the cache */
 }
 
 static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
@@ -255,6 +257,9 @@ static bool is_polar(const dp_frame *f) {
     return dp_is_fringed(f);
 }
 
+/* Is there ink before the surfaces are shaded? Then what it lies on is painted with the tiles. */
+static bool inks_early(const dp_frame *f) { return f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f)); }
+
 /* Adjacency, kept from the last frame where the topology is the same, and what faces the eye. */
 static bool find_adjacency(dp_context *c) {
     dp_frame *const f = &c->frame;
@@ -312,7 +317,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, stream, since, diag);
-    if (!dp_shade_vertices(&c->shade)) return out_of_memory(diag);
+    if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.bends.ms;
     if (dp_shade_needs_normals(&c->shade) &&
         !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, source->constant ? &source->key : NULL,
@@ -334,6 +339,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
+    f->painted_later = c->shade.colored && !inks_early(f);
     if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->tile_workers[i].failed) return out_of_memory(diag);
@@ -400,6 +406,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     dp_frame *const f = &c->frame;
     c->stats = (dp_stats){0};
     f->segment_count = 0;
+    f->painted_later = false;
     f->adjacency = NULL;
     f->fringe = 0;
     f->memory = &c->memory;

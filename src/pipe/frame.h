@@ -57,6 +57,7 @@ typedef struct dp_frame {
     dp_target target;
     uint32_t lines;     /* classes that any group draws */
     bool culls_backs;   /* back faces that are hidden make no lines */
+    bool painted_later; /* shading gives every pixel of a tile that holds polygons its colour, paper too */
     float flat_cosine;  /* normals closer than this make no fold, whatever the group; above 1: unknown */
 
     dp_polygons polygons;
