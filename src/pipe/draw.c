@@ -257,8 +257,17 @@ static bool is_polar(const dp_frame *f) {
     return dp_is_fringed(f);
 }
 
-/* Is there ink before the surfaces are shaded? Then what it lies on is painted with the tiles. */
-static bool inks_early(const dp_frame *f) { return f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f)); }
+/* Who paints: the tiles, or shading after them. Tiles that ink before surfaces are shaded (quads, fringes) do so on a
+ * layer of its own then. False when memory is out. */
+static bool begin_paint(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f));
+    f->painted_later = c->shade.colored;
+    if (!f->painted_later || !inks_early) return true;
+    if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap, 4 * (size_t)f->target.width * f->target.height, 1)) return false;
+    f->ink_layer = c->shade.inked;
+    return true;
+}
 
 /* Adjacency, kept from the last frame where the topology is the same, and what faces the eye. */
 static bool find_adjacency(dp_context *c) {
@@ -339,7 +348,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
-    f->painted_later = c->shade.colored && !inks_early(f);
+    if (!begin_paint(c)) return out_of_memory(diag);
     if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->tile_workers[i].failed) return out_of_memory(diag);
@@ -407,6 +416,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     c->stats = (dp_stats){0};
     f->segment_count = 0;
     f->painted_later = false;
+    f->ink_layer = NULL;
     f->adjacency = NULL;
     f->fringe = 0;
     f->memory = &c->memory;

@@ -97,11 +97,18 @@ static void clear_classes(const dp_tile_worker *w, span s) {
         memset(target->line_class + (size_t)y * target->width + s.x0, 0, s.x1 - s.x0);
 }
 
+static void clear_ink(const dp_tile_worker *w, span s) {
+    uint8_t *const layer = w->frame->ink_layer;
+    for (uint32_t y = s.y0; layer && y < s.y1; y++)
+        memset(layer + 4 * ((size_t)y * w->frame->target.width + s.x0), 0, 4 * (size_t)(s.x1 - s.x0));
+}
+
 void dp_tile_surface(dp_tile_worker *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);
     const bool paints = target->rgba && !w->frame->painted_later, groups = w->frame->style_count > 1;
     clear_classes(w, s);
+    clear_ink(w, s);
     if (paints && !groups) shade_one_group(w, s.x1, s.y1);
     if (!(paints && groups) && !target->depth && !target->normal) return;
     for (uint32_t y = s.y0; y < s.y1; y++)

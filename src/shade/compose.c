@@ -104,6 +104,15 @@ static void paper_row(const dp_shade_store *s, const uint8_t background[4], uint
     }
 }
 
+/* What tiles inked already, over the shaded surfaces. */
+static void ink_row(const dp_shade_store *s, uint32_t tile_x, uint32_t width, uint32_t y) {
+    const dp_target *const target = &s->frame->target;
+    const uint8_t *ink = s->frame->ink_layer + 4 * ((size_t)y * target->width + tile_x);
+    uint8_t *out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
+    for (uint32_t x = 0; x < width; x++, ink += 4, out += 4)
+        if (ink[3]) blend(out, DP_RGB(ink[0], ink[1], ink[2]), (float)ink[3] / 255);
+}
+
 void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
     const dp_gbuffer *const g = &s->gbuffer;
     const dp_target *const target = &s->frame->target;
@@ -125,5 +134,6 @@ void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
         }
         for (uint64_t shared = g->shared[(size_t)tile * DP_TILE + row]; shared; shared &= shared - 1)
             resolve_pixel(s, background, tile_x + (uint32_t)__builtin_ctzll(shared), y);
+        if (s->frame->ink_layer) ink_row(s, tile_x, width, y);
     }
 }

@@ -26,6 +26,7 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
     dp_gbuffer_free(&s->gbuffer, memory);
     dp_free(memory, s->color);
     dp_free(memory, s->smooth);
+    dp_free(memory, s->inked);
     dp_free(memory, s->hatching);
     dp_free(memory, s->halftone);
     dp_bend_store_free(&s->bends, memory);

@@ -86,7 +86,8 @@ typedef struct dp_shade_store {
     dp_gbuffer gbuffer;
     uint8_t *color, *smooth;  /* [height][width][4], not premultiplied, where the G-buffer holds a surface */
     uint8_t *shown;           /* the one of the two that is shown: smooth with a cartoon map */
-    size_t color_cap, smooth_cap;
+    uint8_t *inked;           /* [height][width][4] ink of the tiles, where they ink before they are shaded */
+    size_t color_cap, smooth_cap, inked_cap;
     uint8_t *hatching, *halftone;
 
     dp_bend_store bends;      /* pencil: directions of least curvature */

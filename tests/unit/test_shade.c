@@ -312,6 +312,30 @@ static void shared_pixels_are_mixed(void **state) {
     assert_true(mixed > 40); /* about three of four columns, at both borders */
 }
 
+/* Added polygons ink while tiles are found, before these are shaded: their lines lie over the shades all the same. */
+static void quads_lie_over_shades(void **state) {
+    (void)state;
+    static scene s;
+    static pixels flat, shaded;
+    memset(&s, 0, sizeof s);
+    scene_roof(&s, 80, 30);
+    const dp_batch batch = scene_batch(&s);
+    const dp_camera camera = scene_flat_camera();
+    for (int look = DP_SHADING_FLAT; look < DP_SHADING_COUNT; look++) {
+        const dp_style style = {.ink = DP_INK_QUADS, .line[DP_LINE_RIDGE] = {.width = 4, .color = DP_RGB(0, 90, 0)},
+                                .shade = {.shading = (dp_shading)look, .light = {0, 0, 1}}};
+        assert_int_equal(draw_batch(&batch, &camera, &style, look ? shaded : flat, NULL, NULL), DP_OK);
+        int inked = 0;
+        for (int y = 1; look && y < H - 1; y++)
+            for (int x = 1; x < W - 1; x++) {
+                const bool whole = flat[y][x][0] == 0 && flat[y][x][1] == 90;
+                if (whole && memcmp(flat[y][x], shaded[y][x], 4) != 0) fail_msg("%s: (%d, %d)", dp_shading_name((dp_shading)look), x, y);
+                inked += whole;
+            }
+        if (look) assert_true(inked > 100);
+    }
+}
+
 /* ------- the mirror ------- */
 
 /* A small scene before the plane x = -20. */
@@ -502,6 +526,7 @@ int main(void) {
         cmocka_unit_test(built_in_strokes_grow_with_darkness),
         cmocka_unit_test(profile_edges_lie_over_inner_ones),
         cmocka_unit_test(shared_pixels_are_mixed),
+        cmocka_unit_test(quads_lie_over_shades),
         cmocka_unit_test(a_mirror_shows_the_mirrored_scene),
         cmocka_unit_test(mirrors_cut_what_they_cross),
         cmocka_unit_test(bad_mirrors_are_refused),
