@@ -371,8 +371,6 @@ static void make_rooms(scene *s) {
     scene_box(s, box[0], box[1]);
     const float sheet[4][3] = {{30, -30, 25}, {60, -30, -20}, {60, 20, -20}, {30, 20, 25}};
     scene_polygon(s, 4, sheet);
-    add_ball(s, 10, 20, -20, 18);
-    add_ball(s, 5, -20, 32, 13);
 }
 
 /* The scene's mirror image, of the same coordinates as the library's: rounded once. Fronts stay fronts. */
@@ -433,6 +431,8 @@ static void check_mirror(dp_shading shading, bool edges, const float normal[3], 
     assert_int_equal(dp_style_resolve(&wanted, &style, NULL), DP_OK);
     const dp_vec3 n = dp_unit(dp_v3f(style.mirror.normal));
     make_rooms(&s);
+    add_ball(&s, 10, 20, -20, 18);
+    add_ball(&s, 5, -20, 32, 13);
     image = s;
     mirror_scene(&image, n, offset);
     const dp_batch batch = scene_batch(&s), image_batch = scene_batch(&image);
