@@ -231,39 +231,66 @@ static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
 /* Columns in whole vectors of any width, so that what a pixel holds does not depend on the width. */
 enum { STRIP = 16 };
 
-static uint64_t fill_row(const dp_fill *f, const dp_fillers *fillers, dp_fill_row *r, uint32_t width) {
-    dp_gbuffer *const g = f->g;
-    const dp_tile_worker *const w = f->w;
-    const size_t row = (size_t)(w->tile_y + r->y) * g->stride + w->tile_x;
-    if (w->frame->target.samples == 4) fillers->pick(f, r);
+static size_t row_place(const dp_fill *f, uint32_t y) { return (size_t)(f->w->tile_y + y) * f->g->stride + f->w->tile_x; }
+
+/* What each pixel of row y shows; background where that is nothing. */
+static void begin_row(const dp_fill *f, uint32_t y, uint32_t width, dp_fill_row *r) {
+    const size_t row = row_place(f, y);
+    r->y = y, r->x0 = r->x1 = 0;
+    if (f->w->frame->target.samples == 4) f->g->fillers->pick(f, r);
     else pick_row(f, r);
-    const uint64_t mask = r->mask &= ~(uint64_t)0 >> (64 - width);
-    if (!mask) {
-        fill_background(g, row, width);
-        return 0;
+    r->mask &= ~(uint64_t)0 >> (64 - width);
+    if (!r->mask) {
+        fill_background(f->g, row, width);
+        return;
     }
-    const uint32_t x0 = (uint32_t)__builtin_ctzll(mask) / STRIP * STRIP;
-    const uint32_t x1 = (63 - (uint32_t)__builtin_clzll(mask)) / STRIP * STRIP + STRIP, n = x1 - x0;
-    if (x0) fill_background(g, row, x0);
-    if (x1 < width) fill_background(g, row + x1, width - x1);
-    for (uint64_t bits = r->mixed & mask; bits; bits &= bits - 1) put_part(f, (uint32_t)__builtin_ctzll(bits), r);
-    fillers->collect(f, x0, x1, r);
-    for (uint64_t bits = f->weighted ? r->odd : 0; bits; bits &= bits - 1) {
-        const uint32_t x = (uint32_t)__builtin_ctzll(bits);
-        collect_odd(f, x, row + x, r);
-    }
-    fillers->finish(f, r, x0, x1, row);
-    put_ids(f, r, x0, n, row + x0);
+    r->x0 = (uint32_t)__builtin_ctzll(r->mask) / STRIP * STRIP;
+    r->x1 = (63 - (uint32_t)__builtin_clzll(r->mask)) / STRIP * STRIP + STRIP;
+    if (r->x0) fill_background(f->g, row, r->x0);
+    if (r->x1 < width) fill_background(f->g, row + r->x1, width - r->x1);
+    for (uint64_t bits = r->mixed & r->mask; bits; bits &= bits - 1) put_part(f, (uint32_t)__builtin_ctzll(bits), r);
+    f->g->fillers->find(f, r);
+}
+
+/* Which pixels something else has a share in. */
+static uint64_t share_pixels(const dp_fill *f, const dp_fill_row *r, size_t row) {
     uint64_t shared = 0;
-    for (uint64_t bits = r->mixed & mask; bits; bits &= bits - 1) {
+    for (uint64_t bits = r->mixed & r->mask; bits; bits &= bits - 1) {
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
         if (r->share[x] == 255) continue;
         shared |= (uint64_t)1 << x;
         share_pixel(f, r->other[x], r->share[x], row + x);
     }
-    g->shared[(size_t)w->tile * DP_TILE + r->y] = shared;
+    return shared;
+}
+
+static void end_row(const dp_fill *f, dp_fill_row *r) {
+    dp_gbuffer *const g = f->g;
+    const size_t row = row_place(f, r->y), at = (size_t)f->w->tile * DP_TILE + r->y;
+    if (!r->mask) return;
+    g->fillers->collect(f, r);
+    for (uint64_t bits = f->weighted ? r->odd : 0; bits; bits &= bits - 1) {
+        const uint32_t x = (uint32_t)__builtin_ctzll(bits);
+        collect_odd(f, x, row + x, r);
+    }
+    g->fillers->finish(f, r, row);
+    put_ids(f, r, r->x0, r->x1 - r->x0, row + r->x0);
+    g->mask[at] = r->mask;
+    g->shared[at] = share_pixels(f, r, row);
     if (g->textured) put_texcoords(f, r, row);
-    return mask;
+}
+
+/* Rows are begun two rows ahead: of each first its polygons, then their corners, then the normals come out of memory, and
+ * nearly all the time would go into waiting. */
+static void fill_rows(const dp_fill *f, uint32_t width, uint32_t height) {
+    enum { AHEAD = 2, KEPT = AHEAD + 1 };
+    dp_fill_row rows[KEPT];
+    memset(rows, 0, sizeof rows); /* lanes that are not looked at are numbers all the same */
+    for (uint32_t y = 0; y < height + AHEAD; y++) {
+        if (y < height) begin_row(f, y, width, &rows[y % KEPT]);
+        if (y > 0 && y <= height && !f->facets) f->g->fillers->touch(f, &rows[(y - 1) % KEPT]);
+        if (y >= AHEAD) end_row(f, &rows[(y - AHEAD) % KEPT]);
+    }
 }
 
 void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals) {
@@ -273,15 +300,10 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals)
     const bool bare = w->frame->tile_pieces[w->tile].bare, facets = normals == DP_NORMALS_FACET || !g->normals;
     const dp_fill f = {.g = g, .w = w, .facets = facets, .weighted = !facets || g->textured,
                        .step = (float)(1 / w->frame->view.focal)};
-    dp_fill_row r;
     memset(mask, 0, DP_TILE * sizeof *mask);
     memset(g->shared + (size_t)w->tile * DP_TILE, 0, DP_TILE * sizeof *mask);
     if (bare && g->clean[w->tile]) return; /* it still holds background */
-    if (!bare) memset(&r, 0, sizeof r); /* lanes that are not looked at are numbers all the same */
-    for (uint32_t y = 0; y < height; y++) {
-        r.y = y;
-        if (bare) fill_background(g, (size_t)(w->tile_y + y) * g->stride + w->tile_x, width);
-        else mask[y] = fill_row(&f, g->fillers, &r, width);
-    }
+    if (!bare) fill_rows(&f, width, height);
+    for (uint32_t y = 0; bare && y < height; y++) fill_background(g, row_place(&f, y), width);
     g->clean[w->tile] = bare; /* the margin beside it is not yet */
 }

@@ -19,6 +19,7 @@ typedef struct dp_fill {
 /* One row of the tile. `mask` says where there is a surface; the arrays are 0 elsewhere, `polygon` excepted. */
 typedef struct dp_fill_row {
     uint32_t y;                     /* of the tile */
+    uint32_t x0, x1;                /* columns of surface, in whole vectors of any width; none: x0 is x1 */
     uint64_t mask;                  /* pixels that show a surface */
     uint64_t whole;                 /* all samples show one polygon: looked at in the pixel's centre */
     uint64_t mixed;                 /* several surfaces: left to the general way */
@@ -42,10 +43,12 @@ typedef struct dp_fillers {
     uint32_t lanes; /* floats per vector */
     /* Four samples per pixel: which polygon each pixel shows, or that it is mixed. */
     void (*pick)(const dp_fill *f, dp_fill_row *r);
-    /* What the polygons of the columns [x0, x1), whole vectors, give; which are odd. */
-    void (*collect)(const dp_fill *f, uint32_t x0, uint32_t x1, dp_fill_row *r);
-    /* The same columns, from there to the G-buffer; `pixel`: the place of the tile's first column. */
-    void (*finish)(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_t x1, size_t pixel);
+    /* Then, of columns [x0, x1), one after the other, and some rows apart: what is asked for ahead has come until it is needed. */
+    void (*find)(const dp_fill *f, dp_fill_row *r);          /* polygons of the frame; asks for their corners */
+    void (*touch)(const dp_fill *f, const dp_fill_row *r);   /* asks for the corners' normals */
+    void (*collect)(const dp_fill *f, dp_fill_row *r);       /* what polygons give; which are odd */
+    /* To the G-buffer; `pixel`: the place of the tile's first column. */
+    void (*finish)(const dp_fill *f, const dp_fill_row *r, size_t pixel);
 } dp_fillers;
 
 extern const dp_fillers dp_fillers_plain, dp_fillers_base, dp_fillers_avx2, dp_fillers_avx512;

@@ -295,6 +295,23 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
+/* 0, 1, 2, … by lane. */
+static const float dp_lane_steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+DP_LANES_INLINE dp_lf l_steps(void) { return l_load(dp_lane_steps); }
+
+/* The mask of what lm_bits gives. */
+DP_LANES_INLINE dp_lm lm_of_bits(uint32_t bits) {
+#if DP_LANES == 1
+    return bits & 1;
+#elif DP_LANES == 16
+    return (dp_lm)bits;
+#else
+    static const int32_t places[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const dp_li place = li_load(places);
+    return li_eq(li_splat((int32_t)bits) & place, place);
+#endif
+}
+
 /* ------- 16 bits within words ------- */
 
 DP_LANES_INLINE dp_lf l_from_int(dp_li v) {
