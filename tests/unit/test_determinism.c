@@ -74,8 +74,8 @@ static void expect_same(const result *a, const result *b, const char *what, cons
         fail_msg("%s, %s: other depth", what, how);
     if (memcmp(a->normal, b->normal, sizeof a->normal) != 0)
         fail_msg("%s, %s: other normals", what, how);
-    if (memcmp(a->eye_normal, b->eye_normal, sizeof a->eye_normal) || memcmp(a->distance, b->distance, sizeof a->distance) ||
-        memcmp(a->id, b->id, sizeof a->id) || memcmp(a->edge_map, b->edge_map, sizeof a->edge_map))
+    if (memcmp(a->eye_normal, b->eye_normal, sizeof a->eye_normal) || memcmp(a->id, b->id, sizeof a->id) ||
+        memcmp(a->distance, b->distance, sizeof a->distance) || memcmp(a->edge_map, b->edge_map, sizeof a->edge_map))
         fail_msg("%s, %s: another G-buffer", what, how);
     if (a->segment_count != b->segment_count)
         fail_msg("%s, %s: %zu segments, not %zu", what, how, b->segment_count, a->segment_count);
@@ -246,7 +246,10 @@ static void every_look(void **state) {
         for (uint32_t k = 0; k < 2 * DP_SHADING_COUNT; k++) {
             const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k % 4 == 1, .zoom = k % 4 == 2 ? 6 : 1});
             const dp_style style = {.lines = k % 3 ? DP_NO_LINES : DP_ALL_LINES,
-                                    .shade = {.shading = (dp_shading)(k / 2), .object_space = k % 2, .highlight = k % 4 == 3 ? 0.4f : 0,
+                                    .ink = k % 6 == 3 ? DP_INK_QUADS : DP_INK_STROKES,
+                                    .shade = {.shading = (dp_shading)(k / 2),
+                                              .object_space = k % 2,
+                                              .highlight = k % 4 == 3 ? 0.4f : 0,
                                               .normals = k % 5 == 4 ? DP_NORMALS_FACET : DP_NORMALS_MODEL},
                                     .edge_map = {.detector = (dp_edge_detector)((k + i) % 3)}};
             check_kernels(source, &camera, &style, samples[(k / 2 + i) % 4], names[i]);
