@@ -228,9 +228,6 @@ static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
     memset(g->nz + pixel, 0, n * sizeof(float));
 }
 
-/* Columns in whole vectors of any width, so that what a pixel holds does not depend on the width. */
-enum { STRIP = 16 };
-
 static size_t row_place(const dp_fill *f, uint32_t y) { return (size_t)(f->w->tile_y + y) * f->g->stride + f->w->tile_x; }
 
 /* What each pixel of row y shows; background where that is nothing. */
@@ -244,8 +241,8 @@ static void begin_row(const dp_fill *f, uint32_t y, uint32_t width, dp_fill_row 
         fill_background(f->g, row, width);
         return;
     }
-    r->x0 = (uint32_t)__builtin_ctzll(r->mask) / STRIP * STRIP;
-    r->x1 = (63 - (uint32_t)__builtin_clzll(r->mask)) / STRIP * STRIP + STRIP;
+    r->x0 = (uint32_t)__builtin_ctzll(r->mask) / DP_GBUFFER_STRIP * DP_GBUFFER_STRIP;
+    r->x1 = (63 - (uint32_t)__builtin_clzll(r->mask)) / DP_GBUFFER_STRIP * DP_GBUFFER_STRIP + DP_GBUFFER_STRIP;
     if (r->x0) fill_background(f->g, row, r->x0);
     if (r->x1 < width) fill_background(f->g, row + r->x1, width - r->x1);
     for (uint64_t bits = r->mixed & r->mask; bits; bits &= bits - 1) put_part(f, (uint32_t)__builtin_ctzll(bits), r);

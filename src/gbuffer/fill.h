@@ -19,7 +19,7 @@ typedef struct dp_fill {
 /* One row of the tile. `mask` says where there is a surface; the arrays are 0 elsewhere, `polygon` excepted. */
 typedef struct dp_fill_row {
     uint32_t y;                     /* of the tile */
-    uint32_t x0, x1;                /* columns of surface, in whole vectors of any width; none: x0 is x1 */
+    uint32_t x0, x1;                /* columns of surface, in whole strips; none: x0 is x1 */
     uint64_t mask;                  /* pixels that show a surface */
     uint64_t whole;                 /* all samples show one polygon: looked at in the pixel's centre */
     uint64_t mixed;                 /* several surfaces: left to the general way */

@@ -9,6 +9,10 @@
 /* Pixels around the picture that repeat its border, so that operators need not look where they are. */
 enum { DP_GBUFFER_MARGIN = 4 };
 
+/* Rows of a tile are worked on in strips of so many pixels from its left border on, the widest vector: so that what a pixel
+ * holds does not depend on the width, and nobody looks into the next tile, which may still be being filled. */
+enum { DP_GBUFFER_STRIP = 16 };
+
 /* Distance of the background: far beyond everything, and still finite, so that differences are. */
 #define DP_FAR 1e30f
 /* Its depth. */

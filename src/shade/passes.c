@@ -238,6 +238,7 @@ static void shade_tile(dp_shade_store *s, uint32_t tile) {
         uint32_t x0, x1;
         dp_shade_run run;
         if (!dp_gbuffer_span(g, tile, row, &x0, &x1)) continue;
+        x0 -= x0 % DP_TILE % DP_GBUFFER_STRIP;
         begin_run(s, first + row, x0, x1, &run);
         if (look) look(&s->setup, &run);
         end_run(s, &run);

@@ -58,8 +58,8 @@ typedef struct dp_smooth_run {
     bool perspective;
 } dp_smooth_run;
 
-/* The operators, compiled for several kinds of processors (rows_….c); all give the same bits. They work in whole vectors:
- * of every row and array of a run DP_TILE elements may be read. */
+/* The operators, compiled for several kinds of processors (rows_….c); all give the same bits. They work in whole strips
+ * (DP_GBUFFER_STRIP): so far rows and arrays of a run are read. */
 typedef struct dp_shaders {
     uint32_t lanes;                                /* floats per vector */
     dp_shade_operator *looks[DP_SHADING_COUNT];    /* NULL: stays as it is, or is not one of these */
