@@ -106,6 +106,10 @@ def goal_table(rows, starts):
     goal("own flat / llvmpipe flat, 4 samples", main, "flat", "llvmpipe_flat_4", 1 / 5)
     goal("lines / llvmpipe lines, 4 samples", main, "own", "llvmpipe_lines_4", 1 / 30)
     goal("ink=quads / llvmpipe lines, 4 samples", quads, "own", "llvmpipe_lines_4", 1 / 4)
+    for label, most in (("edge map, diagonal", 1.5), ("Gooch", 1.3), ("toon, cartoon map", 1.3),
+                        ("hatching on the screen", 1.8), ("hatching on the object", 1.8)):
+        look = next((row for row in rows if row["group"] == "shading" and row["label"] == label), None)
+        goal(f"{label} / own flat", look, "own", "flat", most)
     large = [row for row in rows if row["group"] == "triangles" and row["own"] and main
              and row["triangles"] > main["triangles"] > 0]
     for row in large:

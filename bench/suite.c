@@ -70,8 +70,9 @@ static const row rows[] = {
     {.group = "shading", .label = "Gooch", .lines = DP_NO_LINES, .shading = DP_SHADING_GOOCH, .quick = true},
     {.group = "shading", .label = "toon, cartoon map", .lines = DP_NO_LINES, .shading = DP_SHADING_TOON, .quick = true},
     {.group = "shading", .label = "hatching on the screen", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .quick = true},
-    {.group = "shading", .label = "hatching on the object", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .object_space = true},
-    {.group = "shading", .label = "halftone", .lines = DP_NO_LINES, .shading = DP_SHADING_HALFTONE},
+    {.group = "shading", .label = "hatching on the object", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .object_space = true, .quick = true},
+    {.group = "shading", .label = "halftone", .lines = DP_NO_LINES, .shading = DP_SHADING_HALFTONE, .quick = true},
+    {.group = "shading", .label = "pencil", .lines = DP_NO_LINES, .shading = DP_SHADING_PENCIL},
 };
 enum { ROW_COUNT = sizeof rows / sizeof *rows };
 static const row plain_row = {.group = "triangles", .label = "", .quick = true};

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -144,6 +145,17 @@ static bool store_plane(const option *o, const char *value, tool_settings *setti
     return wrong_usage("--%s: the normal is zero; give one like 0,1,0", o->name);
 }
 
+/* A word before "=" that is no plane's name is rather a slip than the beginning of a file's name. */
+static bool unknown_plane(const char *value, size_t length) {
+    char name[64];
+    int best = 0;
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), value);
+    for (int k = 1; k < PLANE_COUNT; k++)
+        if (spelling_distance(name, plane_names[k]) < spelling_distance(name, plane_names[best])) best = k;
+    return wrong_usage("--output: \"%s\" is nothing that can be written; did you mean %s? A file of that name is ./%s", name,
+                       plane_names[best], value);
+}
+
 /* NAME=FILE for a plane, else a file. */
 static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
@@ -154,6 +166,7 @@ static bool store_output(const char *value, tool_settings *settings) {
         settings->wants_edge_map |= k == PLANE_EDGE_MAP;
         return true;
     }
+    if (value[length] && length && strspn(value, "abcdefghijklmnopqrstuvwxyz-") == length) return unknown_plane(value, length);
     settings->output = value;
     return true;
 }

@@ -6,6 +6,8 @@
 #ifndef DP_GBUFFER_DETECT_H
 #define DP_GBUFFER_DETECT_H
 
+#include "gbuffer/gbuffer.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -28,6 +30,26 @@ typedef struct dp_rays {
     bool perspective;
     float cx, cy, fx, fy;
 } dp_rays;
+
+/* A run of one row's pixels in the G-buffer; whole vectors of them are read. */
+typedef struct dp_pixel_run {
+    const uint16_t *id;    /* `stride` from row to row; `radius` around may be read */
+    const float *distance;
+    size_t stride;
+    uint32_t n;
+} dp_pixel_run;
+
+/* Where an edge begins, and one over how much further it is whole. */
+typedef struct dp_threshold {
+    float at, scale;
+} dp_threshold;
+
+/* A run of one row of the edge map: strengths, 0: no edge, 1: full. */
+typedef struct dp_edge_run {
+    float inner[DP_TILE], profile[DP_TILE];
+    uint64_t strong;  /* pixels that have any */
+    uint64_t meeting; /* pixels of a group with a diagonal neighbour of another one */
+} dp_edge_run;
 
 /* The operators, compiled for several kinds of processors (rows_….c): the same C, and so the same bits. */
 typedef struct dp_detectors {
@@ -60,9 +82,13 @@ typedef struct dp_detectors {
     /* Slope of the surface at a run of pixels that begins at (x, y), in pixel sizes per px, from its normals. */
     void (*c1_slope)(const dp_rays *rays, const float *nx, const float *ny, const float *nz, uint32_t x, uint32_t y,
                      uint32_t n, float *slope);
+
+    /* `out` holds intensities I_N, I_Z and gets strengths: 1 - I, from the thresholds on. A fringe is a whole profile edge,
+     * a pixel without surface none. */
+    void (*strengths)(const dp_pixel_run *p, dp_threshold inner, dp_threshold profile, int radius, dp_edge_run *out);
 } dp_detectors;
 
-extern const dp_detectors dp_detectors_base, dp_detectors_avx2, dp_detectors_avx512;
+extern const dp_detectors dp_detectors_plain, dp_detectors_base, dp_detectors_avx2, dp_detectors_avx512;
 
 /* Those for kernels of so many lanes (kernel/kernels.h). */
 const dp_detectors *dp_detectors_for(uint32_t lanes);

@@ -53,23 +53,29 @@ static bool meets_group(const dp_gbuffer *g, const dp_edge_map *map, size_t at) 
     return false;
 }
 
-static void add_groups(const dp_gbuffer *g, const dp_edge_map *map, size_t at, uint32_t n, float *profile) {
-    const size_t down = map->radius * g->stride, r = map->radius;
-    const uint16_t *const above = g->id + at - down, *const below = g->id + at + down, *const x = g->id + at;
-    for (uint32_t i = 0; i < n; i++) {
-        const bool same = above[i - r] == x[i] && above[i + r] == x[i] && below[i - r] == x[i] && below[i + r] == x[i];
-        if (!same && x[i] && meets_group(g, map, at + i)) profile[i] = 1;
+static void add_groups(const dp_gbuffer *g, const dp_edge_map *map, size_t at, dp_edge_run *out) {
+    for (uint64_t bits = out->meeting; bits; bits &= bits - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctzll(bits);
+        if (!meets_group(g, map, at + i)) continue;
+        out->profile[i] = 1;
+        out->strong |= (uint64_t)1 << i;
     }
 }
 
-static bool is_enhanced(const dp_edge_map *map, uint16_t id) {
-    return id && id <= map->enhanced_count && map->enhanced[id - 1];
+/* Only some groups have edges. */
+static void drop_others(const dp_gbuffer *g, const dp_edge_map *map, size_t at, dp_edge_run *out) {
+    for (uint64_t bits = out->strong; bits; bits &= bits - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctzll(bits);
+        const uint16_t id = g->id[at + i];
+        if (id <= map->enhanced_count && map->enhanced[id - 1]) continue;
+        out->inner[i] = out->profile[i] = 0;
+        out->strong &= ~((uint64_t)1 << i);
+    }
 }
 
-/* 1 - I, from threshold to threshold + softness. */
-static void apply_threshold(float *i, uint32_t n, float threshold, float softness) {
-    const float scale = 1 / softness;
-    for (uint32_t k = 0; k < n; k++) i[k] = dp_minf(dp_maxf((1 - i[k] - threshold) * scale, 0), 1);
+/* As printed a strength is 1 - I itself. */
+static dp_threshold threshold_of(const dp_edge_map *map, float at, float softness) {
+    return map->as_printed ? (dp_threshold){0, 1} : (dp_threshold){at, 1 / softness};
 }
 
 void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, uint32_t x0, uint32_t x1,
@@ -89,14 +95,11 @@ void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, ui
     }
     if (map->detector == DP_EDGE_MAP_C1) detect_c1(g, map, z, x0, y, n, out->profile);
     const float angle = map->inner_angle * (float)(3.14159265358979323846 / 180);
-    apply_threshold(out->inner, n, map->as_printed ? 0 : 1 - cosf(angle), map->as_printed ? 1 : map->inner_softness);
-    apply_threshold(out->profile, n, map->as_printed ? 0 : 0.15f, map->as_printed ? 1 : map->profile_softness);
-    if (!map->no_groups) add_groups(g, map, at, n, out->profile);
-    for (uint32_t i = 0; i < n; i++) {
-        const uint16_t id = g->id[at + i];
-        if (id && g->distance[at + i] >= DP_FAR) out->inner[i] = 0, out->profile[i] = 1; /* a fringe is outline */
-        if (!id || (map->enhanced && !is_enhanced(map, id))) out->inner[i] = out->profile[i] = 0;
-    }
+    const dp_pixel_run run = {g->id + at, g->distance + at, g->stride, n};
+    g->detectors->strengths(&run, threshold_of(map, 1 - cosf(angle), map->inner_softness),
+                            threshold_of(map, 0.15f, map->profile_softness), radius, out);
+    if (!map->no_groups) add_groups(g, map, at, out);
+    if (map->enhanced) drop_others(g, map, at, out);
 }
 
 void dp_edge_map_store(const dp_edge_run *run, uint32_t n, uint8_t *rgba) {

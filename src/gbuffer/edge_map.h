@@ -5,11 +5,6 @@
 #include "gbuffer/detect.h"
 #include "gbuffer/gbuffer.h"
 
-/* A run of one row of the edge map: strengths, 0: no edge, 1: full. */
-typedef struct dp_edge_run {
-    float inner[DP_TILE], profile[DP_TILE];
-} dp_edge_run;
-
 /* Which pixels of tile row `row` (columns [x0, x1) of the picture) are edges, how much. */
 void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, uint32_t x0, uint32_t x1, dp_edge_run *out);
 

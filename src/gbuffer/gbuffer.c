@@ -1,9 +1,11 @@
 /* The G-buffer's planes: memory, background, margin, the range of distances.
  *
- * All planes lie in one block, each (width + 2 margins) x (height + 2 margins), rows padded to 16 floats. */
+ * All planes lie in one block, each (tiles' width + 2 margins) x (height + 2 margins), rows padded to 16 floats: tiles are
+ * filled in whole vectors. */
 #include "gbuffer/gbuffer.h"
 
 #include "gbuffer/detect.h"
+#include "gbuffer/fill.h"
 #include "kernel/kernels.h"
 
 #include <string.h>
@@ -18,7 +20,7 @@ void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
 static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
     const size_t floats = g->textured ? 8 : 6, bytes = plane * (floats * sizeof(float) + sizeof(uint16_t) + 1);
     return dp_reserve(frame->memory, &g->block, &g->block_cap, bytes, 1) &&
-           dp_reserve(frame->memory, &g->mask, &g->mask_cap, tiles * DP_TILE, sizeof *g->mask) &&
+           dp_reserve(frame->memory, &g->mask, &g->mask_cap, 2 * tiles * DP_TILE, sizeof *g->mask) &&
            dp_reserve(frame->memory, &g->clean, &g->clean_cap, tiles, 1);
 }
 
@@ -57,10 +59,11 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     take_camera(g, frame);
     g->normals = NULL;
     g->detectors = dp_detectors_for(dp_kernels_best()->lanes);
+    g->fillers = dp_fillers_for(dp_kernels_best()->lanes);
     if (same) return true;
     g->width = width, g->height = height, g->textured = textured;
     g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;
-    g->stride = ((size_t)width + 2 * DP_GBUFFER_MARGIN + 15) / 16 * 16;
+    g->stride = ((size_t)g->tiles_x * DP_TILE + 2 * DP_GBUFFER_MARGIN + 15) / 16 * 16;
     const size_t plane = g->stride * ((size_t)height + 2 * DP_GBUFFER_MARGIN);
     const size_t tiles = (size_t)g->tiles_x * g->tiles_y;
     if (!reserve(g, frame, plane, tiles)) {
@@ -68,6 +71,7 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
         return false;
     }
     place_planes(g, plane);
+    g->shared = g->mask + tiles * DP_TILE;
     memset(g->clean, 0, tiles);
     return true;
 }

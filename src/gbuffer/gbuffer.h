@@ -9,13 +9,17 @@
 /* Pixels around the picture that repeat its border, so that operators need not look where they are. */
 enum { DP_GBUFFER_MARGIN = 4 };
 
+/* Rows of a tile are worked on in strips of so many pixels from its left border on, the widest vector: so that what a pixel
+ * holds does not depend on the width, and nobody looks into the next tile, which may still be being filled. */
+enum { DP_GBUFFER_STRIP = 16 };
+
 /* Distance of the background: far beyond everything, and still finite, so that differences are. */
 #define DP_FAR 1e30f
 /* Its depth. */
 static inline float dp_gbuffer_empty_depth(bool perspective) { return perspective ? 0 : -DP_FAR; }
 
 /* Planes of floats, `stride` apart from row to row; pixel (0, 0) is at [0], and rows and columns down to
- * -DP_GBUFFER_MARGIN may be read. A pixel without surface has normal 0, distance DP_FAR and id 0. One that is
+ * -DP_GBUFFER_MARGIN may be read. Rows have room for whole tiles. A pixel without surface has normal 0, distance DP_FAR and id 0. One that is
  * mostly paper (a fringe) is background to whoever looks for edges, distance DP_FAR, but has the id and normal
  * of the surface at its border, whose distance is `other`.
  * Invariant: tiles marked `clean` hold no surface, so that background is written once and then costs nothing. */
@@ -25,12 +29,13 @@ typedef struct dp_gbuffer {
     float *nx, *ny, *nz;   /* camera space, unit: x right, y up, z towards the eye */
     float *distance;       /* along the line of sight, world units, at the pixel's centre */
     float *depth;          /* the same as depth on the screen, affine on planes (view.h): what is scaled looks at it */
-    float *other;          /* where `share` < 255: distance of what covers the rest, DP_FAR for the paper */
+    float *other;          /* where `shared`: distance of what covers the rest, DP_FAR for the paper */
     float *u, *v;          /* texture coordinates, when asked for; NaN: none */
     uint16_t *id;          /* 1 + group */
     uint32_t *polygon;     /* whose surface it is, where somebody asks: set by whoever keeps it, or NULL */
-    uint8_t *share;        /* of the pixel's samples that are of this surface, 255 for all */
+    uint8_t *share;        /* where `shared`: of the pixel's samples that are of this surface, of 255 */
     uint64_t *mask;        /* [tile][DP_TILE]: pixels of a tile's row that hold a surface */
+    uint64_t *shared;      /* [tile][DP_TILE]: and something else */
     uint8_t *clean;        /* [tile] 1: no surface; 2: nor in the margin beside it */
 
     /* the camera, for operators: a pixel's ray is ((x - cx) / fx, (cy - y) / fy, -1) in camera space */
@@ -42,6 +47,7 @@ typedef struct dp_gbuffer {
     uint32_t tiles_x, tiles_y;
 
     const struct dp_detectors *detectors; /* for this processor (detect.h) */
+    const struct dp_fillers *fillers;     /* the same (fill.h) */
     const dp_packed_normals *normals; /* of the frame's corners, borrowed; NULL: none */
 
     void *block;           /* all planes */

@@ -314,6 +314,64 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
+/* 0, 1, 2, … by lane. */
+static const float dp_lane_steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+DP_LANES_INLINE dp_lf l_steps(void) { return l_load(dp_lane_steps); }
+
+/* The mask of what lm_bits gives. */
+DP_LANES_INLINE dp_lm lm_of_bits(uint32_t bits) {
+#if DP_LANES == 1
+    return bits & 1;
+#elif DP_LANES == 16
+    return (dp_lm)bits;
+#else
+    static const int32_t places[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const dp_li place = li_load(places);
+    return li_eq(li_splat((int32_t)bits) & place, place);
+#endif
+}
+
+/* ------- 16 bits within words ------- */
+
+DP_LANES_INLINE dp_lf l_from_int(dp_li v) {
+#if DP_LANES == 1
+    return (float)v;
+#else
+    return __builtin_convertvector(v, dp_lf);
+#endif
+}
+
+/* The high half, with its sign; the low half in the high half's place. */
+#if DP_LANES == 1
+DP_LANES_INLINE dp_li li_high(dp_li v) { return (int16_t)((uint32_t)v >> 16); }
+DP_LANES_INLINE dp_li li_up(dp_li v) { return (int32_t)((uint32_t)v << 16); }
+#else
+DP_LANES_INLINE dp_li li_high(dp_li v) { return v >> 16; }
+DP_LANES_INLINE dp_li li_up(dp_li v) { return (dp_li)((dp_lu)v << 16); }
+#endif
+
+/* ------- rounding and powers ------- */
+
+/* The largest whole number not above v; those of 2^23 and more are whole. */
+DP_LANES_INLINE dp_lf l_floor(dp_lf v) {
+    const dp_lm small = l_lt(l_abs(v), l_splat(8388608));
+    const dp_lf whole = l_from_int(l_truncate(l_select(small, v, l_splat(0))));
+    return l_select(small, whole - l_select(l_gt(whole, v), l_splat(1), l_splat(0)), v);
+}
+
+/* The largest power of two not above v, which is positive and normal: v without its fraction. */
+DP_LANES_INLINE dp_lf l_power_below(dp_lf v) {
+#if DP_LANES == 1
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    bits &= 0x7f800000;
+    memcpy(&v, &bits, sizeof bits);
+    return v;
+#else
+    return (dp_lf)((dp_li)v & li_splat(0x7f800000));
+#endif
+}
+
 /* Stores the lanes of `mask`. */
 DP_LANES_INLINE void l_store_some(float *p, dp_lm mask, dp_lf v) {
 #if DP_LANES == 16

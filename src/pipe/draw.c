@@ -166,7 +166,9 @@ static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
     dp_tile_find(&c->tile_workers[worker], index);
-    if (c->shade.active) dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+    if (!c->shade.active) return;
+    dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+    dp_shade_at_once(&c->shade, index); /* while it is in the cache */
 }
 
 static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
@@ -256,6 +258,18 @@ static bool is_polar(const dp_frame *f) {
     return dp_is_fringed(f);
 }
 
+/* Who paints: the tiles, or shading after them. Tiles that ink before surfaces are shaded (quads, fringes) do so on a
+ * layer of its own then. False when memory is out. */
+static bool begin_paint(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f));
+    f->painted_later = c->shade.colored;
+    if (!f->painted_later || !inks_early) return true;
+    if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap, 4 * (size_t)f->target.width * f->target.height, 1)) return false;
+    f->ink_layer = c->shade.inked;
+    return true;
+}
+
 /* Adjacency, kept from the last frame where the topology is the same, and what faces the eye. */
 static bool find_adjacency(dp_context *c) {
     dp_frame *const f = &c->frame;
@@ -313,7 +327,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, stream, since, diag);
-    if (!dp_shade_vertices(&c->shade)) return out_of_memory(diag);
+    if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.bends.ms;
     if (dp_shade_needs_normals(&c->shade) &&
         !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, source->constant ? &source->key : NULL,
@@ -335,6 +349,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
+    if (!begin_paint(c)) return out_of_memory(diag);
     if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->tile_workers[i].failed) return out_of_memory(diag);
@@ -401,6 +416,8 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     dp_frame *const f = &c->frame;
     c->stats = (dp_stats){0};
     f->segment_count = 0;
+    f->painted_later = false;
+    f->ink_layer = NULL;
     f->adjacency = NULL;
     f->fringe = 0;
     f->memory = &c->memory;

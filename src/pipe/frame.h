@@ -57,6 +57,8 @@ typedef struct dp_frame {
     dp_target target;
     uint32_t lines;     /* classes that any group draws */
     bool culls_backs;   /* back faces that are hidden make no lines */
+    bool painted_later; /* shading gives every pixel of a tile that holds polygons its colour, paper too … */
+    uint8_t *ink_layer; /* … and lays over it what tiles inked already: [height][width][4], not premultiplied; or NULL */
     float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above 1: unknown */
 
     dp_polygons polygons;
@@ -82,6 +84,12 @@ typedef struct dp_frame {
     size_t mark_count;
     dp_bins stroke_bins;
 } dp_frame;
+
+/* Where tiles put their ink; needs target.rgba. */
+static inline uint8_t *dp_ink_place(const dp_frame *f, uint32_t x, uint32_t y) {
+    return f->ink_layer ? f->ink_layer + 4 * ((size_t)y * f->target.width + x)
+                        : f->target.rgba + (size_t)y * f->target.rgba_stride + 4 * (size_t)x;
+}
 
 static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t polygon) {
     const uint32_t group = frame->polygons.groups ? frame->polygons.groups[polygon] : 0;

@@ -179,7 +179,7 @@ static void put_pixel(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     if (target->rgba && sum[3] > 0) {
         const dp_color c = DP_RGB((uint32_t)(sum[0] / sum[3] + 0.5f), (uint32_t)(sum[1] / sum[3] + 0.5f),
                                   (uint32_t)(sum[2] / sum[3] + 0.5f));
-        dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, c, sum[3] / (float)w->sampling.samples);
+        dp_blend(dp_ink_place(w->frame, x, y), c, sum[3] / (float)w->sampling.samples);
     }
     if (target->line_class && 2 * count >= w->sampling.samples) target->line_class[(size_t)y * target->width + x] = line;
 }

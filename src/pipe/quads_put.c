@@ -27,10 +27,10 @@ static dp_color surface_color(const dp_tile_worker *w, size_t lane) {
     return surface & 0xff ? surface : paper;
 }
 
-/* Adds one sample: ink over what is under it. */
+/* Adds one sample: ink over what is under it, or over nothing where that is shaded later. */
 static void add_sample(const dp_tile_worker *w, size_t lane, float sum[4]) {
     const uint32_t ink = w->ink[lane];
-    const dp_color under = surface_color(w, lane);
+    const dp_color under = w->frame->ink_layer ? 0 : surface_color(w, lane);
     const dp_color over = ink ? w->frame->styles[dp_ink_group(ink)].line[dp_ink_line(ink)].color : 0;
     const float a = (float)(over & 0xff) / 255, b = (float)(under & 0xff) / 255 * (1 - a);
     for (int k = 0; k < 3; k++)
@@ -72,7 +72,7 @@ static void put_ink(const dp_tile_worker *w) {
         for (uint32_t x = w->tile_x; x < w->tile_x + DP_TILE && x < target->width; x++) {
             const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
             if (!has_ink(w, lane)) continue;
-            if (target->rgba) put_color(w, lane, target->rgba + y * target->rgba_stride + 4 * (size_t)x);
+            if (target->rgba) put_color(w, lane, dp_ink_place(w->frame, x, y));
             if (target->line_class) target->line_class[(size_t)y * target->width + x] = class_of(w, lane);
         }
 }

@@ -97,16 +97,23 @@ static void clear_classes(const dp_tile_worker *w, span s) {
         memset(target->line_class + (size_t)y * target->width + s.x0, 0, s.x1 - s.x0);
 }
 
+static void clear_ink(const dp_tile_worker *w, span s) {
+    uint8_t *const layer = w->frame->ink_layer;
+    for (uint32_t y = s.y0; layer && y < s.y1; y++)
+        memset(layer + 4 * ((size_t)y * w->frame->target.width + s.x0), 0, 4 * (size_t)(s.x1 - s.x0));
+}
+
 void dp_tile_surface(dp_tile_worker *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);
-    const bool groups = w->frame->style_count > 1;
+    const bool paints = target->rgba && !w->frame->painted_later, groups = w->frame->style_count > 1;
     clear_classes(w, s);
-    if (target->rgba && !groups) shade_one_group(w, s.x1, s.y1);
-    if (!(target->rgba && groups) && !target->depth && !target->normal) return;
+    clear_ink(w, s);
+    if (paints && !groups) shade_one_group(w, s.x1, s.y1);
+    if (!(paints && groups) && !target->depth && !target->normal) return;
     for (uint32_t y = s.y0; y < s.y1; y++)
         for (uint32_t x = s.x0; x < s.x1; x++) {
-            if (target->rgba && groups) shade_groups(w, x, y);
+            if (paints && groups) shade_groups(w, x, y);
             if (target->depth || target->normal) put_geometry(w, x, y);
         }
 }

@@ -3,8 +3,6 @@
  * distance or beyond the surface do not count, so that outlines stay sharp. */
 #include "shade/passes.h"
 
-#include <string.h>
-
 static const float STEP = 12; /* pixel sizes between neighbours of one surface */
 
 static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_t out[4]) {
@@ -33,24 +31,13 @@ static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_
     out[3] = centre[3];
 }
 
-/* Most of a picture is patches of one shade: pixels whose neighbours all have their colour are as they are, whatever
- * those neighbours are. */
-static uint64_t find_patches(const uint8_t *colors, size_t width, uint32_t n) {
-    const size_t row = 4 * width;
-    uint32_t differ[DP_TILE];
-    for (uint32_t x = 0; x < n; x++) differ[x] = 0;
-    for (int k = 0; k < 9; k++) {
-        const uint8_t *const other = colors + (k / 3 == 0 ? 0 : k / 3 == 1 ? row : 2 * row) + 4 * (size_t)(k % 3);
-        const uint8_t *const own = colors + row + 4;
-        for (uint32_t x = 0; x < n; x++) {
-            uint32_t a, b;
-            memcpy(&a, own + 4 * (size_t)x, 4), memcpy(&b, other + 4 * (size_t)x, 4);
-            differ[x] |= a ^ b;
-        }
-    }
-    uint64_t same = 0;
-    for (uint32_t x = 0; x < n; x++) same |= (uint64_t)(differ[x] == 0) << x;
-    return same;
+/* A row of a tile all around which there is picture. */
+static void smooth_row(const dp_shade_store *s, uint32_t x, uint32_t y, uint64_t mask) {
+    const dp_gbuffer *const g = &s->gbuffer;
+    const size_t at = (size_t)y * g->stride + x, pixel = 4 * ((size_t)y * g->width + x);
+    const dp_smooth_run run = {.color = s->color + pixel, .out = s->smooth + pixel, .id = g->id + at, .distance = g->distance + at,
+                               .width = g->width, .stride = g->stride, .step = STEP, .fy = g->fy, .perspective = g->perspective};
+    s->shaders->smooth(&run, mask);
 }
 
 void dp_cartoon_map_tile(dp_shade_store *s, uint32_t tile) {
@@ -60,15 +47,12 @@ void dp_cartoon_map_tile(dp_shade_store *s, uint32_t tile) {
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
         const uint32_t y = first + row;
         const uint64_t mask = g->mask[(size_t)tile * DP_TILE + row];
-        const bool inside = y > 0 && y + 1 < g->height && tile_x > 0 && tile_x + n < g->width;
-        const size_t at = 4 * ((size_t)y * g->width + tile_x);
         if (!mask) continue;
-        uint64_t bits = mask;
-        if (inside) {
-            bits &= ~find_patches(s->color + at - 4 * (size_t)g->width - 4, g->width, n);
-            memcpy(s->smooth + at, s->color + at, 4 * (size_t)n);
+        if (y > 0 && y + 1 < g->height && tile_x > 0 && tile_x + n < g->width) {
+            smooth_row(s, tile_x, y, mask);
+            continue;
         }
-        for (; bits; bits &= bits - 1) {
+        for (uint64_t bits = mask; bits; bits &= bits - 1) {
             const uint32_t x = tile_x + (uint32_t)__builtin_ctzll(bits);
             smooth_pixel(s, x, y, s->smooth + 4 * ((size_t)y * g->width + x));
         }

@@ -29,11 +29,11 @@ static void edges_row(dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1) {
     uint8_t *const out = s->frame->target.edge_map;
     if (out) dp_edge_map_store(&run, x1 - x0, out + 4 * ((size_t)y * g->width + x0));
     if (!s->colored || map->hidden) return;
-    uint8_t *color = s->shown + 4 * ((size_t)y * g->width + x0);
-    for (uint32_t i = 0; i < x1 - x0; i++, color += 4) {
-        if (!(run.inner[i] + run.profile[i] > 0)) continue;
-        blend(color, map->inner, run.inner[i]);
-        blend(color, map->profile, run.profile[i]);
+    uint8_t *const colors = s->shown + 4 * ((size_t)y * g->width + x0);
+    for (uint64_t bits = run.strong; bits; bits &= bits - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctzll(bits);
+        blend(colors + 4 * (size_t)i, map->inner, run.inner[i]);
+        blend(colors + 4 * (size_t)i, map->profile, run.profile[i]);
     }
 }
 
@@ -76,21 +76,41 @@ static void mix_colors(const uint8_t a[4], const uint8_t b[4], uint32_t share, u
     out[3] = (uint8_t)((sum + 127) / 255);
 }
 
-/* All of the run as it is, then those pixels again that are shared. */
-static void resolve_run(const dp_shade_store *s, const uint8_t background[4], uint32_t x0, uint32_t x1, uint32_t y) {
+/* A pixel that is shared. */
+static void resolve_pixel(const dp_shade_store *s, const uint8_t background[4], uint32_t x, uint32_t y) {
     const dp_gbuffer *const g = &s->gbuffer;
+    const size_t at = (size_t)y * g->stride + x;
+    const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
+    mix_colors(s->shown + 4 * ((size_t)y * g->width + x), on_paper ? background : other_color(s, s->shown, x, y, g->other[at]),
+               g->share[at], s->frame->target.rgba + (size_t)y * s->frame->target.rgba_stride + 4 * (size_t)x);
+}
+
+/* A run of ones in `bits`, from the lowest on, is taken out of them. */
+static void take_run(uint64_t *bits, uint32_t *from, uint32_t *to) {
+    *from = (uint32_t)__builtin_ctzll(*bits);
+    const uint64_t gaps = ~*bits & ~(((uint64_t)1 << *from) - 1);
+    *to = gaps ? (uint32_t)__builtin_ctzll(gaps) : 64;
+    *bits = *to == 64 ? 0 : *bits & ~(((uint64_t)1 << *to) - 1);
+}
+
+/* Paper where nothing was painted: background of tiles that hold polygons. */
+static void paper_row(const dp_shade_store *s, const uint8_t background[4], uint64_t bits, uint32_t tile_x, uint32_t y) {
     const dp_target *const target = &s->frame->target;
-    const uint8_t *const own = s->shown + 4 * (size_t)y * g->width;
-    uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride;
-    const uint8_t *const share = g->share + (size_t)y * g->stride;
-    memcpy(out + 4 * (size_t)x0, own + 4 * (size_t)x0, 4 * (size_t)(x1 - x0));
-    for (uint32_t x = x0; x < x1; x++) {
-        if (share[x] == 255) continue;
-        const size_t at = (size_t)y * g->stride + x;
-        const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
-        mix_colors(own + 4 * (size_t)x, on_paper ? background : other_color(s, s->shown, x, y, g->other[at]), share[x],
-                   out + 4 * (size_t)x);
+    uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
+    while (bits) {
+        uint32_t from, to;
+        take_run(&bits, &from, &to);
+        for (uint32_t x = from; x < to; x++) memcpy(out + 4 * (size_t)x, background, 4);
     }
+}
+
+/* What tiles inked already, over the shaded surfaces. */
+static void ink_row(const dp_shade_store *s, uint32_t tile_x, uint32_t width, uint32_t y) {
+    const dp_target *const target = &s->frame->target;
+    const uint8_t *ink = s->frame->ink_layer + 4 * ((size_t)y * target->width + tile_x);
+    uint8_t *out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
+    for (uint32_t x = 0; x < width; x++, ink += 4, out += 4)
+        if (ink[3]) blend(out, DP_RGB(ink[0], ink[1], ink[2]), (float)ink[3] / 255);
 }
 
 void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
@@ -99,15 +119,21 @@ void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
     const dp_color paper = s->frame->styles[0].paper;
     const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16), (uint8_t)(paper >> 8), (uint8_t)paper};
     const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;
-    if (!target->rgba) return;
+    const uint32_t width = g->width - tile_x < DP_TILE ? g->width - tile_x : DP_TILE;
+    if (!target->rgba || g->clean[tile]) return;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
         const uint32_t y = first + row;
-        for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits;) { /* runs of covered pixels */
-            const uint32_t from = (uint32_t)__builtin_ctzll(bits);
-            const uint64_t gaps = ~bits & ~(((uint64_t)1 << from) - 1);
-            const uint32_t to = gaps ? (uint32_t)__builtin_ctzll(gaps) : 64;
-            bits = to == 64 ? 0 : bits & ~(((uint64_t)1 << to) - 1);
-            resolve_run(s, background, tile_x + from, tile_x + to, y);
+        uint64_t bits = g->mask[(size_t)tile * DP_TILE + row];
+        if (s->frame->painted_later) paper_row(s, background, ~bits & ~(uint64_t)0 >> (64 - width), tile_x, y);
+        uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
+        const uint8_t *const own = s->shown + 4 * ((size_t)y * g->width + tile_x);
+        while (bits) { /* all as it is, then those pixels again that are shared */
+            uint32_t from, to;
+            take_run(&bits, &from, &to);
+            memcpy(out + 4 * (size_t)from, own + 4 * (size_t)from, 4 * (size_t)(to - from));
         }
+        for (uint64_t shared = g->shared[(size_t)tile * DP_TILE + row]; shared; shared &= shared - 1)
+            resolve_pixel(s, background, tile_x + (uint32_t)__builtin_ctzll(shared), y);
+        if (s->frame->ink_layer) ink_row(s, tile_x, width, y);
     }
 }

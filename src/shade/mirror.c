@@ -11,10 +11,11 @@
 
 #include <string.h>
 
-/* The plane, its normal turned to the eye. */
+/* The plane, its normal turned to the eye. It is of length 1 to double precision: with one of floats distances from the
+ * plane, and so places in the image, would be off by as much as their own rounding. */
 static dp_plane_equation plane_of(const dp_mirror *m, const dp_view *view) {
-    dp_plane_equation p = {{m->normal[0], m->normal[1], m->normal[2]}, m->offset};
-    const dp_vec3 n = dp_v3(p.n[0], p.n[1], p.n[2]);
+    const dp_vec3 n = dp_unit(dp_v3f(m->normal));
+    dp_plane_equation p = {{n.x, n.y, n.z}, m->offset};
     const double side = view->perspective ? dp_dot(n, view->eye) - p.offset : -dp_dot(n, view->forward);
     for (int k = 0; k < 3 && side < 0; k++) p.n[k] = -p.n[k];
     if (side < 0) p.offset = -p.offset;

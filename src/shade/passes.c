@@ -1,6 +1,6 @@
 /* The passes over the whole picture, between finding lines and inking them (Nienhaus and Döllner 2003, "Rendering
  * Passes"): the G-buffer was filled with the tiles; then
- *     0  shade      G-buffer -> color
+ *     0  shade      G-buffer -> color               (right after its tile is filled, where it looks at no other)
  *     1  cartoon    color -> smooth                  (toon)
  *     2  store      G-buffer to 8 bits, if asked for
  *     3  edges      G-buffer -> edge map, over color
@@ -9,6 +9,7 @@
  * the spans of rows that hold a surface, so that background costs nothing. */
 #include "shade/passes.h"
 
+#include "kernel/kernels.h"
 #include "shade/pencil.h"
 #include "texture/graphite.h"
 
@@ -25,6 +26,7 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
     dp_gbuffer_free(&s->gbuffer, memory);
     dp_free(memory, s->color);
     dp_free(memory, s->smooth);
+    dp_free(memory, s->inked);
     dp_free(memory, s->hatching);
     dp_free(memory, s->halftone);
     dp_bend_store_free(&s->bends, memory);
@@ -123,9 +125,18 @@ static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
     return true;
 }
 
-bool dp_shade_vertices(dp_shade_store *s) {
+/* Do strokes stick to the surface along the model's texture coordinates? */
+static bool wants_texcoords(const dp_shade_store *s) {
+    const dp_shade *const shade = &s->setup.shade;
+    return (shade->shading == DP_SHADING_HATCH || shade->shading == DP_SHADING_HALFTONE) && shade->object_space &&
+           s->frame->polygons.texcoords.values;
+}
+
+bool dp_shade_gathered(dp_shade_store *s) {
     const dp_frame *const frame = s->frame;
-    if (!s->active || s->setup.shade.shading != DP_SHADING_PENCIL) return true;
+    if (!s->active) return true;
+    if (!dp_gbuffer_begin(&s->gbuffer, frame, wants_texcoords(s)) || !take_pencil(s, frame)) return false;
+    if (s->setup.shade.shading != DP_SHADING_PENCIL) return true;
     if (!dp_bends_make(&s->bends, &frame->polygons, frame->threads, frame->memory) ||
         !dp_reserve(frame->memory, &s->turns, &s->turns_cap, (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
         return false;
@@ -151,12 +162,12 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
     s->colored = wants_colors(frame, s->mirrored);
     if (!s->active) return true;
     const size_t pixels = (size_t)frame->target.width * frame->target.height;
+    s->shaders = dp_shaders_for(dp_kernels_best()->lanes);
     set_up(s, frame);
     const dp_shade *const shade = &s->setup.shade;
-    const bool strokes = shade->shading == DP_SHADING_HATCH || shade->shading == DP_SHADING_HALFTONE;
     const bool smooth = shade->shading == DP_SHADING_TOON && !shade->nearest;
-    if (!dp_gbuffer_begin(&s->gbuffer, frame, strokes && shade->object_space) || !choose_strokes(s, frame->memory) ||
-        !take_pencil(s, frame) || (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
+    if (!choose_strokes(s, frame->memory) ||
+        (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
         (s->colored && smooth && !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, 4 * pixels, 1)))
         return false;
     s->shown = smooth ? s->smooth : s->color;
@@ -173,12 +184,20 @@ static dp_color surface_of(const dp_shade_store *s, uint16_t id) {
     return c & 0xff ? c : styles[0].paper;
 }
 
-static void fill_color(dp_shade_run *run, uint32_t from, uint32_t to, dp_color c) {
-    float rgba[4];
+static void to_floats(dp_color c, float rgba[4]) {
     for (int k = 0; k < 4; k++) rgba[k] = (float)(c >> (24 - 8 * k) & 0xff) / 255;
-    for (uint32_t i = from; i < to; i++) {
-        run->color[0][i] = rgba[0], run->color[1][i] = rgba[1], run->color[2][i] = rgba[2];
-        run->alpha[i] = rgba[3];
+}
+
+/* Stretches of one group, each in its colour. */
+static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
+    for (uint32_t i = 0, end; i < run->n; i = end) {
+        float rgba[4];
+        for (end = i + 1; end < run->n && run->id[end] == run->id[i]; end++) {}
+        to_floats(run->id[i] ? surface_of(s, run->id[i]) : 0, rgba);
+        for (uint32_t k = i; k < end; k++) {
+            run->color[0][k] = rgba[0], run->color[1][k] = rgba[1], run->color[2][k] = rgba[2];
+            run->alpha[k] = rgba[3];
+        }
     }
 }
 
@@ -189,24 +208,17 @@ static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t
     run->u = g->u ? g->u + at : NULL, run->v = g->v ? g->v + at : NULL, run->id = g->id + at;
     run->stride = g->stride, run->x = x0, run->y = y, run->n = x1 - x0;
     if (s->frame->style_count == 1 && !s->setup.shade.model_colors) {
-        fill_color(run, 0, run->n, surface_of(s, 1));
-        return;
-    }
-    for (uint32_t i = 0, end; i < run->n; i = end) {
-        for (end = i + 1; end < run->n && run->id[end] == run->id[i]; end++) {}
-        fill_color(run, i, end, run->id[i] ? surface_of(s, run->id[i]) : 0);
+        float rgba[4];
+        to_floats(surface_of(s, 1), rgba);
+        s->shaders->paint(rgba, run);
+    } else {
+        paint_groups(s, run);
     }
 }
 
-static inline uint32_t to_byte(float v) { return (uint32_t)(int32_t)(dp_minf(dp_maxf(v, 0), 1) * 255 + 0.5f); }
-
-/* Pixels as words, which compilers make vectors of; the first byte is red. */
 static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
-    enum { BIG = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__, R = BIG ? 24 : 0, G = BIG ? 16 : 8, B = BIG ? 8 : 16, A = BIG ? 0 : 24 };
-    const float *restrict const red = run->color[0], *restrict const green = run->color[1], *restrict const blue = run->color[2];
     uint32_t words[DP_TILE];
-    for (uint32_t i = 0; i < run->n; i++)
-        words[i] = to_byte(red[i]) << R | to_byte(green[i]) << G | to_byte(blue[i]) << B | to_byte(run->alpha[i]) << A;
+    s->shaders->pack(run, words);
     memcpy(s->color + 4 * ((size_t)run->y * s->gbuffer.width + run->x), words, 4 * (size_t)run->n);
 }
 
@@ -218,20 +230,29 @@ static void put_mirror(const dp_shade_store *s, const dp_shade_run *run) {
 }
 
 static void shade_tile(dp_shade_store *s, uint32_t tile) {
-    static dp_shade_operator *const operators[DP_SHADING_COUNT] = {
-        [DP_SHADING_LAMBERT] = dp_shade_lambert, [DP_SHADING_GOOCH] = dp_shade_gooch, [DP_SHADING_TOON] = dp_shade_toon,
-        [DP_SHADING_HATCH] = dp_shade_hatch,     [DP_SHADING_HALFTONE] = dp_shade_hatch, [DP_SHADING_PENCIL] = dp_shade_pencil};
+    const dp_shading shading = s->setup.shade.shading;
+    dp_shade_operator *const look = shading == DP_SHADING_PENCIL ? dp_shade_pencil : s->shaders->looks[shading];
     const dp_gbuffer *const g = &s->gbuffer;
     const uint32_t first = tile / g->tiles_x * DP_TILE;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
         uint32_t x0, x1;
         dp_shade_run run;
         if (!dp_gbuffer_span(g, tile, row, &x0, &x1)) continue;
+        x0 -= x0 % DP_TILE % DP_GBUFFER_STRIP;
         begin_run(s, first + row, x0, x1, &run);
-        if (operators[s->setup.shade.shading]) operators[s->setup.shade.shading](&s->setup, &run);
+        if (look) look(&s->setup, &run);
         end_run(s, &run);
         if (s->mirrored) put_mirror(s, &run);
     }
+}
+
+/* Strokes along texture coordinates look around them. */
+static bool looks_around(const dp_shade_store *s) { return s->gbuffer.textured; }
+
+bool dp_shade_at_once(dp_shade_store *s, uint32_t tile) {
+    if (!s->colored || looks_around(s)) return false;
+    shade_tile(s, tile);
+    return true;
 }
 
 /* ------- the target's own planes ------- */
@@ -276,7 +297,7 @@ void dp_shade_prepare(dp_shade_store *s) {
 bool dp_shade_pass_runs(const dp_shade_store *s, int pass) {
     const dp_edge_map *const map = &s->frame->styles[0].edge_map;
     switch (pass) {
-    case SHADE: return s->colored;
+    case SHADE: return s->colored && looks_around(s);
     case CARTOON: return s->colored && s->shown == s->smooth;
     case STORE: return map->detector && map->eight_bits;
     case EDGES: return map->detector;

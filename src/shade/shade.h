@@ -46,10 +46,33 @@ typedef struct dp_shading_setup {
 } dp_shading_setup;
 
 typedef void dp_shade_operator(const dp_shading_setup *setup, dp_shade_run *run);
-dp_shade_operator dp_shade_lambert, dp_shade_gooch, dp_shade_toon, dp_shade_hatch;
 
-/* Phong's highlight (r·v)^50 times strength, added towards white (lambert.c). */
-void dp_shade_highlight(const dp_shading_setup *setup, dp_shade_run *run);
+/* DP_TILE pixels of a row on their way through the cartoon map; what lies one row or column beside may be read. */
+typedef struct dp_smooth_run {
+    const uint8_t *color;  /* [4]; `width` pixels from row to row */
+    uint8_t *out;          /* [DP_TILE][4] */
+    const uint16_t *id;    /* `stride` from row to row */
+    const float *distance;
+    size_t width, stride;
+    float step, fy;        /* neighbours of one surface are so far apart at most: pixel sizes; of which fy are 1 at distance 1 */
+    bool perspective;
+} dp_smooth_run;
+
+/* The operators, compiled for several kinds of processors (rows_….c); all give the same bits. They work in whole strips
+ * (DP_GBUFFER_STRIP): so far rows and arrays of a run are read. */
+typedef struct dp_shaders {
+    uint32_t lanes;                                /* floats per vector */
+    dp_shade_operator *looks[DP_SHADING_COUNT];    /* NULL: stays as it is, or is not one of these */
+    dp_shade_operator *highlight;                  /* Phong's, (r·v)^50 times strength, added towards white; part of the looks */
+    void (*paint)(const float rgba[4], dp_shade_run *run);      /* all in one colour */
+    void (*pack)(const dp_shade_run *run, uint32_t *words);     /* as pixels of four bytes; [DP_TILE] */
+    void (*smooth)(const dp_smooth_run *run, uint64_t pixels);  /* cartoon map; where `pixels` has no bit nothing sensible */
+} dp_shaders;
+
+extern const dp_shaders dp_shaders_plain, dp_shaders_base, dp_shaders_avx2, dp_shaders_avx512;
+
+/* Those for kernels of so many lanes (kernel/kernels.h). */
+const dp_shaders *dp_shaders_for(uint32_t lanes);
 
 /* The built-in stroke textures: priorities (strokes.c). 256 x 256, the same every time. */
 enum { DP_STROKES_SIZE = 256 };
@@ -63,7 +86,8 @@ typedef struct dp_shade_store {
     dp_gbuffer gbuffer;
     uint8_t *color, *smooth;  /* [height][width][4], not premultiplied, where the G-buffer holds a surface */
     uint8_t *shown;           /* the one of the two that is shown: smooth with a cartoon map */
-    size_t color_cap, smooth_cap;
+    uint8_t *inked;           /* [height][width][4] ink of the tiles, where they ink before they are shaded */
+    size_t color_cap, smooth_cap, inked_cap;
     uint8_t *hatching, *halftone;
 
     dp_bend_store bends;      /* pencil: directions of least curvature */
@@ -75,6 +99,7 @@ typedef struct dp_shade_store {
     int8_t *tooth;
     size_t turns_cap, polygon_cap;
     uint32_t graphite_tones;
+    const dp_shaders *shaders; /* for this processor */
     bool active;              /* this frame has a G-buffer */
     bool colored;             /* … and colours */
     dp_shading_setup setup;
@@ -91,8 +116,12 @@ bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);
 /* Do this frame's normals have to be made? */
 bool dp_shade_needs_normals(const dp_shade_store *store);
 
-/* Once polygons are gathered: the pencil's vertex stage. False when memory is out. */
-bool dp_shade_vertices(dp_shade_store *store);
+/* Once polygons are gathered: the G-buffer's memory, the pencil's vertex stage. False when memory is out. */
+bool dp_shade_gathered(dp_shade_store *store);
+
+/* The shading pass over a tile, as soon as that is filled; false where it needs its neighbours and so is left to the
+ * passes. */
+bool dp_shade_at_once(dp_shade_store *store, uint32_t tile);
 
 /* The passes over tiles, in order, once all tiles are filled; each is over before the next begins. */
 enum { DP_SHADE_PASSES = 5 };

@@ -533,6 +533,44 @@ outputs_beside() {
     says err nowhere
     absent out.png
     wrong shape:gear -o normals= -o out.png -- "a file is missing"
+    wrong shape:gear -o normal=n.png -o out.png -- "did you mean normals?"
+    run 0 shape:gear -o ./a=b.png --size 60x40
+    is_png ./a=b.png
+}
+# Normals that are none, that contradict the winding or are not numbers; faces without area, and wound both ways.
+odd_normals() {
+    cat >odd.ply <<'END'
+ply
+format ascii 1.0
+element vertex 5
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+element face 7
+property list uchar int vertex_indices
+end_header
+0 0 0 nan nan nan
+1 0 0 inf 0 0
+1 1 0 0 0 -1
+0 1 0 0 0 0
+0.5 0.5 1 1e38 1e38 1e38
+3 0 1 4
+3 1 2 4
+3 2 3 4
+3 3 0 4
+3 0 0 1
+3 0 1 2
+3 2 1 0
+END
+    for style in lambert gooch toon hatch halftone; do
+        run 0 odd.ply -q -o odd.png -o normals=odd-normals.png --size 60x40 --style $style --edges map
+        is_png odd.png
+    done
+    run 0 odd.ply -q -o object.png --size 60x40 --style hatch --hatch-space object --mirror 0,1,0 --precision 8
+    is_png object.png
 }
 mirrors() {
     run 0 shape:bolt -o floor.png --size 120x90 --mirror 0,1,0 --style toon
@@ -588,7 +626,7 @@ absurd_thresholds() {
     done
 }
 
-tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
+tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts dropped_are_counted old_file_stays_on_error full_disk devices unwritable_places

@@ -64,8 +64,7 @@ int main(void) {
     const uint32_t n = dp_kernels_list(list);
     for (uint32_t k = 0; k < n; k++) {
         const dp_detectors *const d = dp_detectors_for(list[k]->lanes);
-        if (k && d == dp_detectors_for(list[k - 1]->lanes)) continue;
-        printf("{\"processor\": \"%s\"", k ? list[k]->name : "base");
+        printf("{\"processor\": \"%s\"", list[k]->name);
         for (int which = 0; which < 4; which++) printf(", \"%s_ns\": %.2f", names[which], time_one(d, which));
         printf("}\n");
     }

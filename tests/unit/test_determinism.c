@@ -20,6 +20,10 @@ typedef struct result {
     uint8_t line_class[WIDTH * HEIGHT];
     float depth[WIDTH * HEIGHT];
     float normal[3 * WIDTH * HEIGHT];
+    float eye_normal[3 * WIDTH * HEIGHT]; /* of shaded drawings: the G-buffer */
+    float distance[WIDTH * HEIGHT];
+    uint16_t id[WIDTH * HEIGHT];
+    uint8_t edge_map[4 * WIDTH * HEIGHT];
     dp_segment *segments;
     size_t segment_count;
 } result;
@@ -28,13 +32,18 @@ static result results[2];
 
 static void draw(dp_context *context, dp_source *source, const dp_camera *camera,
                  const dp_style *style, uint32_t samples, result *out) {
+    const bool shaded = style && (style->shade.shading || style->edge_map.detector);
     const dp_target target = {.width = WIDTH,
                               .height = HEIGHT,
                               .samples = samples,
                               .rgba = out->rgba,
                               .line_class = out->line_class,
                               .depth = out->depth,
-                              .normal = out->normal};
+                              .normal = out->normal,
+                              .eye_normal = shaded ? out->eye_normal : NULL,
+                              .distance = shaded ? out->distance : NULL,
+                              .id = shaded ? out->id : NULL,
+                              .edge_map = shaded ? out->edge_map : NULL};
     dp_diag diag = {0};
     memset(out->rgba, 0x33, sizeof out->rgba);
     if (dp_draw(context, source, camera, style, &target, &diag) != DP_OK)
@@ -65,6 +74,9 @@ static void expect_same(const result *a, const result *b, const char *what, cons
         fail_msg("%s, %s: other depth", what, how);
     if (memcmp(a->normal, b->normal, sizeof a->normal) != 0)
         fail_msg("%s, %s: other normals", what, how);
+    if (memcmp(a->eye_normal, b->eye_normal, sizeof a->eye_normal) || memcmp(a->id, b->id, sizeof a->id) ||
+        memcmp(a->distance, b->distance, sizeof a->distance) || memcmp(a->edge_map, b->edge_map, sizeof a->edge_map))
+        fail_msg("%s, %s: another G-buffer", what, how);
     if (a->segment_count != b->segment_count)
         fail_msg("%s, %s: %zu segments, not %zu", what, how, b->segment_count, a->segment_count);
     for (size_t i = 0; i < a->segment_count; i++)
@@ -174,18 +186,21 @@ static void contexts_remember_nothing(void **state) {
 static void stride_leaves_the_rest_alone(void **state) {
     enum { STRIDE = 4 * WIDTH + 28 };
     static uint8_t wide[STRIDE * HEIGHT];
+    static const dp_style styles[] = {{0}, {.shade = {.shading = DP_SHADING_TOON}, .edge_map = {.detector = DP_EDGE_MAP_C1}}};
     dp_source *source = new_shape("gear", 0);
     const dp_camera camera = fitted(source);
     dp_context *context = new_context(2);
     const dp_target target = {
         .width = WIDTH, .height = HEIGHT, .rgba = wide, .rgba_stride = STRIDE};
     (void)state;
-    memset(wide, 0x77, sizeof wide);
-    draw(context, source, &camera, NULL, 4, &results[0]);
-    assert_int_equal(dp_draw(context, source, &camera, NULL, &target, NULL), DP_OK);
-    for (int y = 0; y < HEIGHT; y++) {
-        assert_memory_equal(wide + y * STRIDE, results[0].rgba + y * 4 * WIDTH, 4 * WIDTH);
-        for (int x = 4 * WIDTH; x < STRIDE; x++) assert_int_equal(wide[y * STRIDE + x], 0x77);
+    for (int i = 0; i < 2; i++) {
+        memset(wide, 0x77, sizeof wide);
+        draw(context, source, &camera, &styles[i], 4, &results[0]);
+        assert_int_equal(dp_draw(context, source, &camera, &styles[i], &target, NULL), DP_OK);
+        for (int y = 0; y < HEIGHT; y++) {
+            assert_memory_equal(wide + y * STRIDE, results[0].rgba + y * 4 * WIDTH, 4 * WIDTH);
+            for (int x = 4 * WIDTH; x < STRIDE; x++) assert_int_equal(wide[y * STRIDE + x], 0x77);
+        }
     }
     dp_context_destroy(context);
     dp_source_destroy(source);
@@ -220,6 +235,33 @@ static void every_kernel(void **state) {
     }
 }
 
+/* Every look and both detectors: any kernels, any number of threads, in a context that drew other looks before. */
+static void every_look(void **state) {
+    static const char *const names[] = {"bolt", "boxes", "torus"};
+    static const uint32_t samples[] = {4, 1, 8, 16};
+    dp_context *const used = new_context(2);
+    (void)state;
+    for (uint32_t i = 0; i < 3; i++) {
+        dp_source *const source = new_shape(names[i], 20000);
+        for (uint32_t k = 0; k < 2 * DP_SHADING_COUNT; k++) {
+            const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k % 4 == 1, .zoom = k % 4 == 2 ? 6 : 1});
+            const dp_style style = {.lines = k % 3 ? DP_NO_LINES : DP_ALL_LINES,
+                                    .ink = k % 6 == 3 ? DP_INK_QUADS : DP_INK_STROKES,
+                                    .shade = {.shading = (dp_shading)(k / 2),
+                                              .object_space = k % 2,
+                                              .highlight = k % 4 == 3 ? 0.4f : 0,
+                                              .normals = k % 5 == 4 ? DP_NORMALS_FACET : DP_NORMALS_MODEL},
+                                    .edge_map = {.detector = (dp_edge_detector)((k + i) % 3)}};
+            check_kernels(source, &camera, &style, samples[(k / 2 + i) % 4], names[i]);
+            draw(used, source, &camera, &style, samples[(k / 2 + i) % 4], &results[1]);
+            expect_same(&results[0], &results[1], names[i], "after other drawings");
+            if (k % 4 == 0) check(source, &style, 4, names[i]);
+        }
+        dp_source_destroy(source);
+    }
+    dp_context_destroy(used);
+}
+
 static int clean_up(void **state) {
     (void)state;
     free(results[0].segments);
@@ -233,6 +275,7 @@ int main(void) {
         cmocka_unit_test(every_mode),
         cmocka_unit_test(every_number_of_samples),
         cmocka_unit_test(every_kernel),
+        cmocka_unit_test(every_look),
         cmocka_unit_test(contexts_remember_nothing),
         cmocka_unit_test(stride_leaves_the_rest_alone),
     };

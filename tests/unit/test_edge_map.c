@@ -17,7 +17,7 @@
 
 enum { SIDE = 5 };
 
-static const dp_detectors *detectors = &dp_detectors_base;
+static const dp_detectors *detectors = &dp_detectors_plain;
 
 static dp_rows rows_at(float (*plane)[SIDE], int x, int y, int r) {
     return (dp_rows){&plane[y - r][x], &plane[y][x], &plane[y + r][x]};
@@ -133,7 +133,7 @@ static void wider_vectors_give_the_same_bits(void **state) {
                 if (p == 3 && seed % 13 == 0) planes[p][y][x] = DP_FAR;
             }
     for (uint32_t k = 0, n = dp_kernels_list(list); k < n; k++) {
-        const dp_detectors *const wide = dp_detectors_for(list[k]->lanes), *const base = &dp_detectors_base;
+        const dp_detectors *const wide = dp_detectors_for(list[k]->lanes), *const base = &dp_detectors_plain;
         for (int r = 1; r <= 4; r++)
             for (int mode = 0; mode < 4; mode++) {
                 const dp_depth_measure m = {.scale = 0.7f, .perspective = mode & 1, .both_sides = mode & 2};

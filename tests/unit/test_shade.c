@@ -1,4 +1,6 @@
-/* shade: operators by hand, composition in the paper's order, shared pixels, the mirror, bad input. */
+/* shade: composition in the paper's order, shared pixels, the mirror, bad input. */
+#include "base/vec.h"
+#include "kernel/kernels.h"
 #include "scene.h"
 #include "shade/shade.h"
 
@@ -12,136 +14,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-/* ------- operators ------- */
-
-enum { N = 3 };
-
-typedef struct bench {
-    dp_gbuffer g;
-    dp_shading_setup setup;
-    dp_shade_run run;
-    float nx[N], ny[N], nz[N], distance[N];
-} bench;
-
-/* Three pixels: towards the light (the eye), across, away; the surface is (0.8, 0.4, 0.2). */
-static void begin(bench *b) {
-    memset(b, 0, sizeof *b);
-    b->setup.g = &b->g;
-    b->g.fx = b->g.fy = 100;
-    b->setup.shade.light[2] = 1;
-    b->run = (dp_shade_run){.nx = b->nx, .ny = b->ny, .nz = b->nz, .distance = b->distance, .n = N};
-    b->nz[0] = 1, b->nx[1] = 1, b->nz[2] = -1;
-    for (int i = 0; i < N; i++) {
-        static const float surface[3] = {0.8f, 0.4f, 0.2f};
-        for (int k = 0; k < 3; k++) b->run.color[k][i] = surface[k];
-        b->distance[i] = 1;
-    }
-}
-
-static void assert_color(const bench *b, int i, double red, double green, double blue) {
-    const double expected[3] = {red, green, blue};
-    for (int k = 0; k < 3; k++)
-        if (fabs((double)b->run.color[k][i] - expected[k]) > 1e-6)
-            fail_msg("pixel %d, channel %d: %g is not %g", i, k, (double)b->run.color[k][i], expected[k]);
-}
-
-static void lambert_is_the_cosine(void **state) {
-    (void)state;
-    bench b;
-    begin(&b);
-    dp_shade_lambert(&b.setup, &b.run);
-    assert_color(&b, 0, 0.8, 0.4, 0.2);
-    assert_color(&b, 1, 0.8 * 0.3, 0.4 * 0.3, 0.2 * 0.3);
-    assert_color(&b, 2, 0.8 * 0.3, 0.4 * 0.3, 0.2 * 0.3);
-}
-
-/* cool = (0, 0, b) + alpha k_d, warm = (y, y, 0) + beta k_d, half way where N·L is 0 */
-static void gooch_is_cool_to_warm(void **state) {
-    (void)state;
-    bench b;
-    begin(&b);
-    b.setup.shade.gooch_blue = 0.4f, b.setup.shade.gooch_yellow = 0.3f;
-    b.setup.shade.gooch_alpha = 0.25f, b.setup.shade.gooch_beta = 0.5f;
-    dp_shade_gooch(&b.setup, &b.run);
-    assert_color(&b, 0, 0.3 + 0.4, 0.3 + 0.2, 0.1);
-    assert_color(&b, 2, 0.2, 0.1, 0.4 + 0.05);
-    assert_color(&b, 1, (0.7 + 0.2) / 2, (0.5 + 0.1) / 2, (0.1 + 0.45) / 2);
-    begin(&b);
-    b.setup.shade.gooch_blue = 0.4f, b.setup.shade.gooch_yellow = 0.3f;
-    b.setup.shade.gooch_alpha = 0.25f, b.setup.shade.gooch_beta = 0.5f;
-    b.setup.shade.gooch_plain = true;
-    dp_shade_gooch(&b.setup, &b.run);
-    assert_color(&b, 0, 0.3 + 0.25, 0.3 + 0.25, 0.25);
-}
-
-static void highlights_lie_where_the_light_is_reflected(void **state) {
-    (void)state;
-    bench b;
-    begin(&b);
-    b.setup.shade.highlight = 0.5f;
-    dp_shade_highlight(&b.setup, &b.run);
-    assert_color(&b, 0, 0.9, 0.7, 0.6);
-    assert_color(&b, 1, 0.8, 0.4, 0.2);
-    assert_color(&b, 2, 0.8, 0.4, 0.2);
-}
-
-static void toon_looks_up_the_nearest_shade(void **state) {
-    (void)state;
-    static const uint8_t shades[4][4] = {{0, 0, 0, 255}, {51, 51, 51, 255}, {102, 102, 102, 255}, {255, 255, 255, 255}};
-    bench b;
-    begin(&b);
-    b.setup.shades = shades[0], b.setup.shade_count = 4;
-    dp_shade_toon(&b.setup, &b.run);
-    assert_color(&b, 0, 0.8, 0.4, 0.2);
-    assert_color(&b, 1, 0.8 * 0.4, 0.4 * 0.4, 0.2 * 0.4); /* a half begins the third quarter */
-    assert_color(&b, 2, 0, 0, 0);
-}
-
-/* ink = clamp(1/2 + 5 (priority - tone)) */
-static void hatching_is_a_smooth_threshold(void **state) {
-    (void)state;
-    static const uint8_t levels[4] = {0, 100, 200, 255};
-    for (int level = 0; level < 4; level++) {
-        const uint8_t values[4] = {levels[level], levels[level], levels[level], levels[level]};
-        bench b;
-        begin(&b);
-        b.setup.shade.stroke_scale = 1;
-        b.setup.strokes = (dp_strokes_texture){values, 2, 2};
-        b.setup.ink[0] = 0.1f;
-        dp_shade_hatch(&b.setup, &b.run);
-        const double tones[N] = {1.1776, 0.1976, 0.08}, priority = levels[level] / 255.0;
-        for (int i = 0; i < N; i++) {
-            const double ink = priority > 0 ? fmin(fmax(0.5 + 5 * (priority - tones[i]), 0), 1) : 0;
-            assert_color(&b, i, 0.8 + (0.1 - 0.8) * ink, 0.4 - 0.4 * ink, 0.2 - 0.2 * ink);
-        }
-    }
-}
-
-static double mean_of(const uint8_t *values, int threshold) {
-    int inked = 0;
-    for (int i = 0; i < DP_STROKES_SIZE * DP_STROKES_SIZE; i++) inked += values[i] > threshold;
-    return (double)inked / (DP_STROKES_SIZE * DP_STROKES_SIZE);
-}
-
-/* Built-in strokes: the same every time; the darker the tone the more ink, in small steps. */
-static void built_in_strokes_grow_with_darkness(void **state) {
-    (void)state;
-    static uint8_t values[2][DP_STROKES_SIZE * DP_STROKES_SIZE], again[DP_STROKES_SIZE * DP_STROKES_SIZE];
-    dp_make_hatching(values[0]);
-    dp_make_halftone(values[1]);
-    dp_make_hatching(again);
-    assert_memory_equal(values[0], again, sizeof again);
-    for (int t = 0; t < 2; t++) {
-        double before = 0;
-        for (int tone = 250; tone >= 0; tone -= 10) {
-            const double ink = mean_of(values[t], tone);
-            if (!(ink >= before && ink - before < 0.15)) fail_msg("texture %d, tone %d: %g after %g", t, tone, ink, before);
-            before = ink;
-        }
-        assert_true(before > 0.6);
-    }
-}
 
 /* ------- pictures ------- */
 
@@ -214,18 +86,69 @@ static void shared_pixels_are_mixed(void **state) {
     assert_true(mixed > 40); /* about three of four columns, at both borders */
 }
 
+/* Added polygons ink while tiles are found, before these are shaded: their lines lie over the shades all the same. */
+static void quads_lie_over_shades(void **state) {
+    (void)state;
+    static scene s;
+    static pixels flat, shaded;
+    memset(&s, 0, sizeof s);
+    scene_roof(&s, 80, 30);
+    const dp_batch batch = scene_batch(&s);
+    const dp_camera camera = scene_flat_camera();
+    for (int look = DP_SHADING_FLAT; look < DP_SHADING_COUNT; look++) {
+        const dp_style style = {.ink = DP_INK_QUADS, .line[DP_LINE_RIDGE] = {.width = 4, .color = DP_RGB(0, 90, 0)},
+                                .shade = {.shading = (dp_shading)look, .light = {0, 0, 1}}};
+        assert_int_equal(draw_batch(&batch, &camera, &style, look ? shaded : flat, NULL, NULL), DP_OK);
+        int inked = 0;
+        for (int y = 1; look && y < H - 1; y++)
+            for (int x = 1; x < W - 1; x++) {
+                const bool whole = flat[y][x][0] == 0 && flat[y][x][1] == 90;
+                if (whole && memcmp(flat[y][x], shaded[y][x], 4) != 0) fail_msg("%s: (%d, %d)", dp_shading_name((dp_shading)look), x, y);
+                inked += whole;
+            }
+        if (look) assert_true(inked > 100);
+    }
+}
+
 /* ------- the mirror ------- */
 
-/* A small scene before the plane x = -20. */
-static void make_rooms(scene *s, bool mirrored) {
+/* A ball of triangles. */
+static void add_ball(scene *s, double x, double y, double z, double radius) {
+    enum { U = 18, V = 10 };
+    float p[V + 1][U + 1][3];
+    for (int v = 0; v <= V; v++)
+        for (int u = 0; u <= U; u++) {
+            const double a = 2 * 3.14159265358979 * (u % U) / U, b = 3.14159265358979 * v / V;
+            p[v][u][0] = (float)(x + radius * sin(b) * cos(a)), p[v][u][1] = (float)(y + radius * cos(b));
+            p[v][u][2] = (float)(z - radius * sin(b) * sin(a));
+        }
+    for (int v = 0; v < V; v++)
+        for (int u = 0; u < U; u++) {
+            float t[3][3];
+            memcpy(t[0], p[v][u], sizeof *t), memcpy(t[1], p[v + 1][u], sizeof *t), memcpy(t[2], p[v + 1][u + 1], sizeof *t);
+            if (v < V - 1) scene_polygon(s, 3, (const float(*)[3])t);
+            memcpy(t[1], p[v + 1][u + 1], sizeof *t), memcpy(t[2], p[v][u + 1], sizeof *t);
+            if (v) scene_polygon(s, 3, (const float(*)[3])t);
+        }
+}
+
+/* A small scene before planes through about x = -20. */
+static void make_rooms(scene *s) {
     const float box[2][3] = {{-10, -25, -10}, {25, 5, 20}};
     memset(s, 0, sizeof *s);
     scene_box(s, box[0], box[1]);
     const float sheet[4][3] = {{30, -30, 25}, {60, -30, -20}, {60, 20, -20}, {30, 20, 25}};
     scene_polygon(s, 4, sheet);
-    if (!mirrored) return;
-    for (size_t c = 0; c < s->corners; c++) s->positions[c][0] = -40 - s->positions[c][0];
-    for (size_t f = 0; f < s->polygons; f++) /* fronts stay fronts */
+}
+
+/* The scene's mirror image, of the same coordinates as the library's: rounded once. Fronts stay fronts. */
+static void mirror_scene(scene *s, dp_vec3 n, double offset) {
+    for (size_t c = 0; c < s->corners; c++) {
+        float *const p = s->positions[c];
+        const double twice = 2 * (n.x * p[0] + n.y * p[1] + n.z * p[2] - offset), m[3] = {n.x, n.y, n.z};
+        for (int k = 0; k < 3; k++) p[k] = (float)(p[k] - twice * m[k]);
+    }
+    for (size_t f = 0; f < s->polygons; f++)
         for (uint32_t i = s->firsts[f], k = s->firsts[f + 1] - 1; i < k; i++, k--) {
             float swap[3];
             memcpy(swap, s->positions[i], sizeof swap);
@@ -234,47 +157,74 @@ static void make_rooms(scene *s, bool mirrored) {
         }
 }
 
-static void a_mirror_shows_the_mirrored_scene(void **state) {
-    (void)state;
+/* The light's image, in the camera's axes. */
+static void mirror_light(float light[3], const dp_camera *camera, dp_vec3 n) {
+    const double *const v = camera->view, l[3] = {(double)light[0], (double)light[1], (double)light[2]};
+    dp_vec3 world = dp_v3(v[0] * l[0] + v[1] * l[1] + v[2] * l[2], v[4] * l[0] + v[5] * l[1] + v[6] * l[2],
+                          v[8] * l[0] + v[9] * l[1] + v[10] * l[2]);
+    world = dp_mad(world, n, -2 * dp_dot(n, world));
+    for (int k = 0; k < 3; k++) light[k] = (float)(v[k] * world.x + v[4 + k] * world.y + v[8 + k] * world.z);
+}
+
+/* Inside the mirror, where lines of what stands before it do not reach. */
+static void compare_image(const pixels seen, const pixels expected, uint16_t ids[H][W], const char *what, int *drawn) {
+    int compared = 0;
+    for (int y = 3; y < H - 3; y++)
+        for (int x = 3; x < W - 3; x++) {
+            bool inside = true;
+            for (int i = -3; i <= 3; i++)
+                for (int k = -3; k <= 3; k++) inside &= ids[y + i][x + k] == 1 + DP_MIRROR_GROUP;
+            if (!inside) continue;
+            compared++;
+            *drawn += expected[y][x][0] != 255;
+            for (int k = 0; k < 4; k++)
+                if (abs(seen[y][x][k] - expected[y][x][k]) > 1)
+                    fail_msg("%s, (%d, %d): %d instead of %d", what, x, y, seen[y][x][k], expected[y][x][k]);
+        }
+    assert_true(compared > W * H / 20);
+}
+
+/* One look, with lines or the edge map, in a mirror and as the rendering of the mirrored scene. */
+static void check_mirror(dp_shading shading, bool edges, const float normal[3], const dp_camera *camera, int *drawn) {
     static scene s, image;
     static pixels seen, expected;
     static uint16_t ids[H][W];
-    make_rooms(&s, false);
-    make_rooms(&image, true);
+    const double offset = -22;
+    const dp_style wanted = {.surface = DP_RGB(200, 150, 90),
+                             .lines = edges ? DP_NO_LINES : DP_ALL_LINES,
+                             .shade = {.shading = shading, .light = {0, 0.6f, 0.8f}, .highlight = 0.4f},
+                             .edge_map = {.detector = edges ? DP_EDGE_MAP_DIAGONAL : DP_EDGE_MAP_OFF},
+                             .mirror = {.normal = {normal[0], normal[1], normal[2]}, .offset = (float)offset, .center = {0, -5, 0},
+                                        .size = 300}};
+    dp_style style;
+    assert_int_equal(dp_style_resolve(&wanted, &style, NULL), DP_OK);
+    const dp_vec3 n = dp_unit(dp_v3f(style.mirror.normal));
+    make_rooms(&s);
+    add_ball(&s, 10, 20, -20, 18);
+    add_ball(&s, 5, -20, 32, 13);
+    image = s;
+    mirror_scene(&image, n, offset);
     const dp_batch batch = scene_batch(&s), image_batch = scene_batch(&image);
-    const dp_camera camera = scene_camera(70, 20, 90, -15, -5, 0);
+    assert_int_equal(draw_batch(&batch, camera, &style, seen, ids[0], NULL), DP_OK);
+    style.mirror = (dp_mirror){0};
+    mirror_light(style.shade.light, camera, n);
+    assert_int_equal(draw_batch(&image_batch, camera, &style, expected, NULL, NULL), DP_OK);
+    compare_image((const uint8_t(*)[W][4])seen, (const uint8_t(*)[W][4])expected, ids, dp_shading_name(shading), drawn);
+}
+
+/* Within a grey level, in every pixel, where shades jump as well. */
+static void a_mirror_shows_the_mirrored_scene(void **state) {
+    static const float normals[2][3] = {{2, 0, 0}, {1, 0.2f, -0.15f}};
+    (void)state;
     for (int shading = 0; shading < DP_SHADING_COUNT; shading++)
         for (int edges = 0; edges < 2; edges++) {
+            int drawn = 0;
             if (shading == DP_SHADING_PENCIL) continue; /* strokes are not mirrored: a hand draws them again */
-            dp_style style = {.surface = DP_RGB(200, 150, 90),
-                              .lines = edges ? DP_NO_LINES : DP_ALL_LINES,
-                              .shade = {.shading = (dp_shading)shading, .light = {0, 0.6f, 0.8f}, .highlight = 0.4f},
-                              .edge_map = {.detector = edges ? DP_EDGE_MAP_DIAGONAL : DP_EDGE_MAP_OFF},
-                              .mirror = {.normal = {2, 0, 0}, .offset = -20, .center = {0, -5, 0}, .size = 300}};
-            assert_int_equal(draw_batch(&batch, &camera, &style, seen, ids[0], NULL), DP_OK);
-            style.mirror = (dp_mirror){0};
-            /* the light's image, in the camera's axes */
-            const double *v = camera.view;
-            const double world = v[1] * 0.6 + v[2] * 0.8; /* x of the light in world space */
-            for (int k = 0; k < 3; k++) style.shade.light[k] -= (float)(2 * world * v[k]);
-            assert_int_equal(draw_batch(&image_batch, &camera, &style, expected, NULL, NULL), DP_OK);
-            /* where a shade jumps, rounding may take one side in one picture and the other in the other */
-            const bool jumps = shading >= DP_SHADING_TOON;
-            int compared = 0, drawn = 0, off = 0;
-            for (int y = 3; y < H - 3; y++)
-                for (int x = 3; x < W - 3; x++) {
-                    bool inside = true; /* lines of what stands before the mirror reach into it */
-                    for (int i = -3; i <= 3; i++)
-                        for (int k = -3; k <= 3; k++) inside &= ids[y + i][x + k] == 1 + DP_MIRROR_GROUP;
-                    if (!inside) continue;
-                    compared++;
-                    drawn += expected[y][x][0] != 255;
-                    for (int k = 0; k < 4; k++)
-                        if (abs(seen[y][x][k] - expected[y][x][k]) > 1 && !(jumps && ++off <= 12))
-                            fail_msg("%s, edges %d, (%d, %d): %d instead of %d", dp_shading_name((dp_shading)shading), edges, x, y,
-                                     seen[y][x][k], expected[y][x][k]);
-                }
-            assert_true(compared > W * H / 8 && drawn > 50);
+            for (int k = 0; k < 8; k++) {
+                const dp_camera camera = scene_camera(70 + 6.85 * k, 20 - 5.5 * k, 90 - 11.5 * k, -15, -5, 0);
+                check_mirror((dp_shading)shading, edges, normals[k % 2], &camera, &drawn);
+            }
+            assert_true(drawn > 400);
         }
 }
 
@@ -321,7 +271,7 @@ static void any_texture_will_do(void **state) {
     (void)state;
     static scene s;
     static pixels p;
-    make_rooms(&s, false);
+    make_rooms(&s);
     dp_batch batch = scene_batch(&s);
     static float uv[SCENE_CORNERS][2];
     static uint8_t values[7 * 3] = {255, 0, 128, 3, 77, 200, 1, 90}, shades[5][4] = {{0}, {0, 0, 0, 255}, {9, 9, 9, 9}};
@@ -335,6 +285,15 @@ static void any_texture_will_do(void **state) {
             style = (dp_style){.shade = {.shading = DP_SHADING_TOON, .shades = {shades[0], size == 1 ? 1 : 5, 1}}};
             assert_int_equal(draw_batch(&batch, &camera, &style, p, NULL, NULL), DP_OK);
         }
+    static pixels plain_picture;
+    const dp_kernels *list[DP_KERNELS_MAX];
+    for (uint32_t k = 0, kinds = dp_kernels_list(list); k < kinds; k++) { /* with texture coordinates, by any kernels */
+        const dp_style style = {.shade = {.shading = DP_SHADING_HATCH, .object_space = true}};
+        assert_int_equal(setenv("DRYPOINT_CPU", list[k]->name, 1), 0);
+        assert_int_equal(draw_batch(&batch, &camera, &style, k ? p : plain_picture, NULL, NULL), DP_OK);
+        if (k) assert_memory_equal(p, plain_picture, sizeof p);
+    }
+    unsetenv("DRYPOINT_CPU");
     const dp_style empty = {.shade = {.shading = DP_SHADING_HATCH, .strokes = {values, 0, 3}}};
     assert_int_equal(draw_batch(&batch, &camera, &empty, p, NULL, NULL), DP_ERR_ARGUMENT);
 }
@@ -357,7 +316,7 @@ static void every_allocation_may_fail(void **state) {
     (void)state;
     static scene s;
     static pixels p, whole;
-    make_rooms(&s, false);
+    make_rooms(&s);
     const dp_batch batch = scene_batch(&s);
     const dp_camera camera = scene_camera(70, 20, 90, -15, -5, 0);
     const dp_allocator memory = {failing_alloc, failing_realloc, failing_free, NULL};
@@ -394,14 +353,9 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lambert_is_the_cosine),
-        cmocka_unit_test(gooch_is_cool_to_warm),
-        cmocka_unit_test(highlights_lie_where_the_light_is_reflected),
-        cmocka_unit_test(toon_looks_up_the_nearest_shade),
-        cmocka_unit_test(hatching_is_a_smooth_threshold),
-        cmocka_unit_test(built_in_strokes_grow_with_darkness),
         cmocka_unit_test(profile_edges_lie_over_inner_ones),
         cmocka_unit_test(shared_pixels_are_mixed),
+        cmocka_unit_test(quads_lie_over_shades),
         cmocka_unit_test(a_mirror_shows_the_mirrored_scene),
         cmocka_unit_test(mirrors_cut_what_they_cross),
         cmocka_unit_test(bad_mirrors_are_refused),
