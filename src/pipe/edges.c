@@ -183,14 +183,35 @@ static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
     }
 }
 
+/* Asks for the positions of a polygon's first corners. They lie scattered in the model. */
+static void ask_for(const dp_tile_worker *w, uint32_t polygon) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, w->polygons[polygon].id);
+    for (uint32_t i = 0; i < 3; i++) __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
+}
+
+enum { ENTRIES = 16 };
+
+/* Takes up to ENTRIES edges from the table from `*number` on, and has their polygons fetched meanwhile. */
+static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_entry entries[ENTRIES]) {
+    uint32_t count = 0;
+    while (count < ENTRIES && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX) {
+        const dp_edge_entry e = dp_edge_table_entry(w, (*number)++);
+        ask_for(w, e.a);
+        if (e.b != UINT32_MAX) ask_for(w, e.b);
+        entries[count++] = e;
+    }
+    return count;
+}
+
 void dp_tile_edges(dp_tile_worker *w) {
     if (w->frame->styles[0].edge_table_off) {
         leave_all(w);
         return;
     }
     if (!set_normals(w) || !dp_edge_table_fill(w)) return;
-    for (uint32_t i = dp_edge_table_next(w, 0); i != UINT32_MAX && !w->failed; i = dp_edge_table_next(w, i + 1)) {
-        const dp_edge_entry e = dp_edge_table_entry(w, i);
-        resolve(w, &e);
-    }
+    dp_edge_entry entries[ENTRIES];
+    uint32_t number = 0;
+    for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;)
+        for (uint32_t i = 0; i < count && !w->failed; i++) resolve(w, &entries[i]);
 }
