@@ -473,6 +473,13 @@ strokes() {
     done
     run 0 shape:gear $small --stroke pencil --stroke-u polar --stroke-k 0.2 --stroke-scale 2 -o polar.png
     cmp -s pencil.png polar.png && fail "--stroke-u polar changes nothing"
+    silent err
+    run 0 shape:gear $small --edges map --stroke pencil -o map.png
+    says err 'warning: an edge map is of pixels and has no strokes'
+    run 0 shape:gear $small --ink quads --stroke pencil -o quads.png
+    says err 'warning: with --ink quads lines are plain'
+    run 0 shape:gear $small --ink quads --stroke pencil --edges adjacency -o quads.png
+    silent err
 }
 wrong_strokes() {
     wrong shape:cube -o out.png --stroke pencl -- 'one of pencil, brush'
