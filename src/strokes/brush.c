@@ -158,8 +158,7 @@ static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32
     dp_color color = m->stroke.color;
     if (b->style->texture) {
         const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(m, &s), s.v);
-        if (t.ink < least_ink(m)) return;
-        s.cover *= t.ink;
+        s.cover *= t.ink < least_ink(m) ? 0 : t.ink; /* discarded, it is this mark's pixel all the same, no other's */
         if (b->style->texture->coloured)
             color = DP_RGB((uint32_t)(t.r + 0.5f), (uint32_t)(t.g + 0.5f), (uint32_t)(t.b + 0.5f));
     }

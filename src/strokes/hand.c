@@ -228,11 +228,12 @@ static float width_at(const hand *h, const hand_point *p, float length, bool clo
 
 /* ------- marks ------- */
 
-/* How many repeats of the texture one px is long. */
+/* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that begin where the texture
+ * does end where it does, so that no dot is cut, for a stretch of an eighth at most. */
 static float repeats_per_px(const hand *h, float width, float length, bool closed) {
     if (!h->style->texture) return 0;
     const float period = dp_texture_period(h->style->texture, width) * h->style->scale;
-    if (!closed || length < period / 2) return 1 / period;
+    if (length < (closed ? 0.5f : 4) * period || (!closed && h->style->jitter > 0)) return 1 / period;
     return floorf(length / period + 0.5f) / length;
 }
 

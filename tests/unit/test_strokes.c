@@ -307,6 +307,32 @@ static void test_creases_are_drawn_beside_extruded_outlines(void **state) {
     dp_texture_destroy(texture);
 }
 
+/* Between two dashes or dots there is nothing: a pixel belongs to its nearest mark also where that has no ink. Texels right
+ * of the middle are ink, the others none: along any line ink comes and goes once a repeat. */
+static void test_gaps_of_a_texture_stay_open(void **state) {
+    (void)state;
+    static uint8_t pixels[8][64][4];
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 64; x++) pixels[y][x][3] = x < 32 ? 0 : 255;
+    dp_texture *const t = texture_of(pixels[0][0], 64, 8, 4);
+    const dp_style style = {.lines = DP_SILHOUETTE, .line = {{.width = 8}}, .stroke = {.texture = t}};
+    triangles = 20000;
+    draw("sphere", &style, 2, pictures[0][0][0]);
+    triangles = 0;
+    uint32_t blots = 0, dashes = 0;
+    for (int y = 2; y + 2 < HEIGHT; y++) /* spots of ink, or of paper within ink, of one or two px */
+        for (int x = 2; x + 2 < WIDTH; x++) {
+            const bool ink = pictures[0][y][x][0] < 128;
+            uint32_t alike = 0;
+            for (int k = 0; k < 25; k++) alike += (pictures[0][y + k / 5 - 2][x + k % 5 - 2][0] < 128) == ink;
+            blots += alike < 6;
+            dashes += ink;
+        }
+    assert_true(dashes > 1000);
+    assert_int_equal(blots, 0);
+    dp_texture_destroy(t);
+}
+
 /* No gaps at 24 px: around the outline of a convex shape, every pixel up to 23 px outside is ink. */
 static void test_extruded_silhouettes_have_no_gaps(void **state) {
     (void)state;
@@ -390,6 +416,7 @@ int main(void) {
         cmocka_unit_test(test_u_goes_on_along_a_stroke_in_arc_mode),
         cmocka_unit_test(test_the_same_seed_draws_the_same_picture),
         cmocka_unit_test(test_creases_are_drawn_beside_extruded_outlines),
+        cmocka_unit_test(test_gaps_of_a_texture_stay_open),
         cmocka_unit_test(test_extruded_silhouettes_have_no_gaps),
         cmocka_unit_test(test_memory_may_run_out),
         cmocka_unit_test(test_strokes_out_of_range_are_refused),
