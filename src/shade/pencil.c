@@ -91,25 +91,31 @@ static inline void put_strand(dp_strands *s, uint32_t at, uint32_t pixel, float 
     s->pixel[at] = (int32_t)pixel, s->c[at] = cosine, s->s[at] = sine, s->weight[at] = weight;
 }
 
-/* A step's share goes to the pixel's strand that has that step already, else it is a new one. */
-static void add_step(const dp_pencil_table *p, dp_strands *s, uint32_t first, uint32_t pixel, uint32_t step, float weight) {
-    for (uint32_t i = first; i < s->count; i++)
-        if (s->c[i] == p->c[step]) { /* over half a turn no two cosines are equal */
-            s->weight[i] += weight;
-            return;
-        }
-    put_strand(s, s->count++, pixel, p->c[step], p->s[step], weight);
+/* The steps of one pixel. */
+typedef struct shares {
+    uint32_t count, step[DP_STRANDS_PER_PIXEL];
+    float weight[DP_STRANDS_PER_PIXEL];
+} shares;
+
+/* A share goes to its step if that is there already, else it is a new one. */
+static inline void add_share(shares *s, uint32_t step, float weight) {
+    uint32_t i = 0;
+    while (i < s->count && s->step[i] != step) i++;
+    if (i == s->count) s->step[s->count] = step, s->weight[s->count++] = weight;
+    else s->weight[i] += weight;
 }
 
 static uint32_t after(uint32_t step) { return step + 1 < DP_TURNS ? step + 1 : 0; }
 
 static void add_differing(const dp_pencil_table *p, const dp_turn turn[3], uint32_t pixel, dp_strands *s) {
-    const uint32_t first = s->count;
+    shares of = {.count = 0};
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t low = turn[k] >> 8, part = turn[k] & 0xff;
-        add_step(p, s, first, pixel, low, p->weight[255 - part]);
-        if (part) add_step(p, s, first, pixel, after(low), p->weight[part]);
+        add_share(&of, low, p->weight[255 - part]);
+        if (part) add_share(&of, after(low), p->weight[part]);
     }
+    for (uint32_t i = 0; i < of.count; i++)
+        put_strand(s, s->count++, pixel, p->c[of.step[i]], p->s[of.step[i]], of.weight[i]);
 }
 
 /* Mostly the three corners have the same step, and its strand, and the next one's if any has a part of it, are all. */
