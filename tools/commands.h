@@ -21,6 +21,8 @@ int make_camera(const tool_settings *s, const dp_extent *extent, dp_camera *came
 dp_style make_style(const tool_settings *s);
 /* The style's stroke; a texture is for the caller to destroy. 0, or the exit code after a message. */
 int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture);
+/* One that strokes are asked for where lines have none. */
+void warn_strokeless(const tool_settings *s, const dp_style *style);
 /* Size and samples; no planes yet. */
 dp_target make_target(const tool_settings *s);
 

@@ -45,6 +45,9 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     int code = look_make(s, d->source, &d->look, &style);
     if (!code) code = planes_prepare(s, &d->target);
     if (code) return code;
+    const char *const remark = style.shade.model_colors ? dp_source_remark(d->source) : NULL;
+    if (remark && !s->quiet) warn("%s", remark);
+    if (!s->quiet) warn_strokeless(s, &style);
     d->target.rgba = malloc((size_t)4 * d->target.width * d->target.height);
     if (!d->target.rgba) {
         wrong_usage("out of memory for %u x %u pixels; give a smaller --size", d->target.width,

@@ -104,8 +104,8 @@ const option option_table[] = {
      "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
      "above. Default: -40,42."},
     {"model-colors", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(model_colors), 0, 0, 0,
-     "Surfaces have the colours of the model's materials (formats read through Assimp). Default: on where there is "
-     "light (lambert, gooch, toon, hatch, halftone) and no --surface."},
+     "Surfaces have the colours of the model's materials (an OBJ's .mtl files, and formats read through Assimp). "
+     "Default: on where there is light (lambert, gooch, toon, hatch, halftone) and no --surface."},
     {"normals", 0, "model|smooth|facet", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(normals), 0, 0, 0,
      "What is shaded: the model's normals (made where it has none), made ones, or those of its polygons. "
      "Default: model."},

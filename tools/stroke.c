@@ -48,3 +48,14 @@ int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
     stroke->seed = s->seed;
     return 0;
 }
+
+/* Nothing that was asked for is left out without a word. */
+void warn_strokeless(const tool_settings *s, const dp_style *style) {
+    const bool asked = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 || s->repeats > 1 || s->width_by_depth > 0 ||
+                       s->width_by_light > 0;
+    if (!asked) return;
+    if (s->edges == EDGES_MAP)
+        warn("an edge map is of pixels and has no strokes: --edges both draws lines with them as well");
+    else if (style->ink == DP_INK_QUADS && style->edges != DP_EDGES_ADJACENCY)
+        warn("with --ink quads lines are plain: leave it out for strokes, or add --edges adjacency");
+}

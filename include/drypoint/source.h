@@ -60,6 +60,8 @@ typedef struct dp_source_callbacks {
     const char *(*group_name)(void *user, uint32_t group);
     /* The colour of group `group`, 0xRRGGBBAA, or 0: none. Optional. May be called from several threads at once. */
     uint32_t (*group_color)(void *user, uint32_t group);
+    /* A sentence about what was missing or wrong, though the source can be drawn; or NULL. Optional. */
+    const char *(*remark)(void *user);
 } dp_source_callbacks;
 
 /* Makes a source of one batch that the caller owns and keeps alive and unchanged while the source
@@ -77,7 +79,7 @@ typedef enum dp_file_format {
     DP_FORMAT_AUTO = 0, /* by content first, then by the name's ending */
     DP_FORMAT_STL,      /* ASCII or binary */
     DP_FORMAT_PLY,      /* ASCII, binary little or big endian; faces or tristrips */
-    DP_FORMAT_OBJ,      /* v, vn, vt, f, g, o, usemtl; relative indices */
+    DP_FORMAT_OBJ,      /* v, vn, vt, f, g, o, usemtl; relative indices; of its mtllib the colours */
     DP_FORMAT_OFF       /* OFF and COFF, NOFF, … without their extras; ASCII */
 } dp_file_format;
 
@@ -108,6 +110,9 @@ DP_API bool dp_source_rewindable(const dp_source *source);
 DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);
 /* Its colour (that of its material, say), 0xRRGGBBAA; 0 where it has none. */
 DP_API uint32_t dp_source_group_color(const dp_source *source, uint32_t group);
+/* What was missing or wrong when it was opened, though it can be drawn: a file of materials that is not there, say.
+ * Borrowed; NULL: nothing. */
+DP_API const char *dp_source_remark(const dp_source *source);
 
 /* NULL allowed. */
 DP_API void dp_source_destroy(dp_source *source);

@@ -2,20 +2,21 @@
  *
  * Polygons stay polygons. A face's group is named by what holds at its line,
  * "object/group/material" without the parts that were not given; groups are numbered as their first
- * face comes. An index that names no vertex (0, before the first vertex, beyond 32 bits) becomes
+ * face comes, and have the colour of their material (mtl.c), wherever in the file its library is named. An index that names no vertex (0, before the first vertex, beyond 32 bits) becomes
  * UINT32_MAX: the engine drops the face and counts it. One that names no normal or texture
  * coordinate is none.
  *
- * Does not handle: free-form curves and surfaces, points, lines, smoothing groups, material files;
- * their lines are passed over. */
+ * Does not handle: free-form curves and surfaces, points, lines, smoothing groups; their lines are passed
+ * over. */
 #include "io/readers.h"
 
+#include "io/mtl.h"
 #include "io/number.h"
 #include "io/text.h"
 
 #include <string.h>
 
-enum { NAME = 256 };
+enum { NAME = DP_MATERIAL_NAME, LIBRARIES = 4096 };
 
 enum { OBJECT, GROUP, MATERIAL, NAME_KINDS };
 
@@ -26,6 +27,9 @@ typedef struct obj {
     char names[NAME_KINDS][NAME];
     bool renamed;   /* since the last face */
     uint16_t group; /* of the last face */
+    dp_materials materials;
+    uint32_t *material_of; /* [material_count] by group: 1 + its material's number, 0: none */
+    size_t material_count, material_capacity;
 } obj;
 
 static dp_result read_vertex(obj *self) {
@@ -52,6 +56,28 @@ static dp_result read_value(obj *self, dp_builder_attribute *attribute, size_t w
     return DP_OK;
 }
 
+/* A group has one material: it is part of its name. */
+static bool note_material(obj *self) {
+    uint16_t number = 0;
+    const bool named = *self->names[MATERIAL];
+    if (named && !dp_materials_find(&self->materials, self->names[MATERIAL], &number)) return false;
+    if (!dp_reserve(&self->builder->allocator, &self->material_of, &self->material_capacity, (size_t)self->group + 1,
+                    sizeof *self->material_of))
+        return false;
+    while (self->material_count <= self->group) self->material_of[self->material_count++] = 0;
+    self->material_of[self->group] = named ? 1 + (uint32_t)number : 0;
+    return true;
+}
+
+static bool color_groups(obj *self) {
+    for (size_t g = 0; g < self->material_count; g++) {
+        if (!self->material_of[g]) continue;
+        const uint32_t color = dp_materials_color(&self->materials, (uint16_t)(self->material_of[g] - 1));
+        if (color && !dp_builder_color(self->builder, (uint16_t)g, color)) return false;
+    }
+    return true;
+}
+
 /* The names that hold, joined, as a group number. */
 static dp_result find_group(obj *self) {
     char joined[NAME_KINDS * NAME] = "";
@@ -64,7 +90,7 @@ static dp_result find_group(obj *self) {
         length += size;
     }
     self->renamed = false;
-    if (dp_groups_find(&self->builder->names, joined, &self->group)) return DP_OK;
+    if (dp_groups_find(&self->builder->names, joined, &self->group) && note_material(self)) return DP_OK;
     return dp_builder_fail(self->builder, self->diag);
 }
 
@@ -131,6 +157,17 @@ static dp_result read_name(obj *self, int kind) {
     return DP_OK;
 }
 
+/* What comes from no file has no folder to look into. */
+static dp_result read_libraries(obj *self) {
+    char names[LIBRARIES];
+    dp_text_blank(self->stream);
+    dp_text_rest(self->stream, names, sizeof names);
+    if (!self->stream->path ||
+        dp_open_mtl(self->stream->path, names, &self->materials, self->builder->remark, sizeof self->builder->remark))
+        return DP_OK;
+    return dp_builder_fail(self->builder, self->diag);
+}
+
 /* Passes over the line's first word if it is `word`, with something behind it. Byte by byte: the
  * file may end within. */
 static inline bool keyword(dp_stream *stream, const char *word) {
@@ -151,16 +188,25 @@ static dp_result read_line(obj *self) {
     if (keyword(stream, "o")) return read_name(self, OBJECT);
     if (dp_text_match(stream, "g")) return read_name(self, GROUP); /* may stand alone */
     if (keyword(stream, "usemtl")) return read_name(self, MATERIAL);
+    if (keyword(stream, "mtllib")) return read_libraries(self);
     return DP_OK;
+}
+
+static dp_result read_lines(obj *self) {
+    dp_text_skip_mark(self->stream);
+    while (dp_text_space(self->stream)) {
+        const dp_result result = read_line(self);
+        if (result) return result;
+        dp_text_skip_line(self->stream);
+    }
+    return color_groups(self) ? DP_OK : dp_builder_fail(self->builder, self->diag);
 }
 
 dp_result dp_read_obj(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
     obj self = {.stream = stream, .builder = builder, .diag = diag, .renamed = true};
-    dp_text_skip_mark(stream);
-    while (dp_text_space(stream)) {
-        const dp_result result = read_line(&self);
-        if (result) return result;
-        dp_text_skip_line(stream);
-    }
-    return DP_OK;
+    dp_materials_init(&self.materials, &builder->allocator);
+    const dp_result result = read_lines(&self);
+    dp_materials_destroy(&self.materials);
+    dp_free(&builder->allocator, self.material_of);
+    return result;
 }

@@ -57,5 +57,6 @@ dp_result dp_source_open(const char *path, const dp_file_options *options, dp_so
     dp_stream *stream = NULL;
     const dp_result result = dp_stream_open(path, options, &stream, diag);
     if (result) return result;
+    stream->path = stream->owns_descriptor ? path : NULL;
     return dp_read_stream(stream, path, options ? options->format : DP_FORMAT_AUTO, out, diag);
 }

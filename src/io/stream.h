@@ -27,6 +27,7 @@ typedef struct dp_stream {
     bool owns_descriptor;
     int64_t start;         /* where in the file the stream begins; -1: cannot go back */
     const uint8_t *memory; /* borrowed */
+    const char *path;      /* borrowed, while the file is being opened; NULL: it has none */
     int (*progress)(void *user, double fraction);
     void *user;
 } dp_stream;

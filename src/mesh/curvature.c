@@ -214,8 +214,8 @@ bool dp_curvatures(const dp_polygons *polygons, const dp_allocator *memory, dp_c
 
 /* ------- directions that can be drawn along ------- */
 
-/* Symmetric 3x3: xx, xy, xz, yy, yz, zz. */
-typedef float tensor[6];
+/* Symmetric 3x3: xx, xy, xz, yy, yz, zz; and two zeros, for vectors of four. */
+typedef float tensor[8];
 
 static void add_tensor(tensor out, dp_vec3 d, double weight) {
     out[0] += (float)(weight * d.x * d.x), out[1] += (float)(weight * d.x * d.y), out[2] += (float)(weight * d.x * d.z);
@@ -228,13 +228,13 @@ static void add_cross(tensor out, dp_vec3 d, dp_vec3 e, double weight) {
 }
 
 /* The tensor seen in a tangent plane: (uu - vv) / 2 and uv, twice the direction's angle. */
-static void in_plane(const tensor q, dp_vec3 u, dp_vec3 v, double *c, double *s) {
-    const double x[3] = {q[0] * u.x + q[1] * u.y + q[2] * u.z, q[1] * u.x + q[3] * u.y + q[4] * u.z,
-                         q[2] * u.x + q[4] * u.y + q[5] * u.z};
-    const double y[3] = {q[0] * v.x + q[1] * v.y + q[2] * v.z, q[1] * v.x + q[3] * v.y + q[4] * v.z,
-                         q[2] * v.x + q[4] * v.y + q[5] * v.z};
-    *c = 0.5 * (u.x * x[0] + u.y * x[1] + u.z * x[2] - (v.x * y[0] + v.y * y[1] + v.z * y[2]));
-    *s = v.x * x[0] + v.y * x[1] + v.z * x[2];
+static void in_plane(const tensor q, const float u[3], const float v[3], float *c, float *s) {
+    const float ux = q[0] * u[0] + q[1] * u[1] + q[2] * u[2], uy = q[1] * u[0] + q[3] * u[1] + q[4] * u[2];
+    const float uz = q[2] * u[0] + q[4] * u[1] + q[5] * u[2];
+    const float vx = q[0] * v[0] + q[1] * v[1] + q[2] * v[2], vy = q[1] * v[0] + q[3] * v[1] + q[4] * v[2];
+    const float vz = q[2] * v[0] + q[4] * v[1] + q[5] * v[2];
+    *c = 0.5f * (u[0] * ux + u[1] * uy + u[2] * uz - (v[0] * vx + v[1] * vy + v[2] * vz));
+    *s = v[0] * ux + v[1] * uy + v[2] * uz;
 }
 
 /* Level lines: across the model's height; where the surface lies level itself, along x. */
@@ -256,11 +256,16 @@ static void make_tensor(const bending *b, uint32_t v, double size, tensor q) {
     add_cross(q, f, dp_cross(n, f), STEADY);
 }
 
-/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns. */
+/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns. Frames do not change: they are
+ * made once. */
 typedef struct spreading {
     bending *b;
     uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as often as they share triangles */
     tensor *from, *to;
+    float (*across)[3];      /* [vertices] the frame's first axis, frame_of; the second is square to it and the normal */
+    const uint32_t *first;   /* who stands for a vertex */
+    double size;
+    float (*out)[3];
 } spreading;
 
 static uint64_t triangle_count(const dp_polygons *p) {
@@ -294,59 +299,80 @@ static void find_neighbours(const spreading *s) {
 }
 
 /* c (u u' - v v') + s (u v' + v u') */
-static void put_in_plane(tensor q, dp_vec3 u, dp_vec3 v, double c, double s) {
-    q[0] = (float)(c * (u.x * u.x - v.x * v.x) + 2 * s * u.x * v.x);
-    q[1] = (float)(c * (u.x * u.y - v.x * v.y) + s * (u.x * v.y + v.x * u.y));
-    q[2] = (float)(c * (u.x * u.z - v.x * v.z) + s * (u.x * v.z + v.x * u.z));
-    q[3] = (float)(c * (u.y * u.y - v.y * v.y) + 2 * s * u.y * v.y);
-    q[4] = (float)(c * (u.y * u.z - v.y * v.z) + s * (u.y * v.z + v.y * u.z));
-    q[5] = (float)(c * (u.z * u.z - v.z * v.z) + 2 * s * u.z * v.z);
+static void put_in_plane(tensor q, const float u[3], const float v[3], float c, float s) {
+    q[0] = c * (u[0] * u[0] - v[0] * v[0]) + 2 * s * u[0] * v[0];
+    q[1] = c * (u[0] * u[1] - v[0] * v[1]) + s * (u[0] * v[1] + v[0] * u[1]);
+    q[2] = c * (u[0] * u[2] - v[0] * v[2]) + s * (u[0] * v[2] + v[0] * u[2]);
+    q[3] = c * (u[1] * u[1] - v[1] * v[1]) + 2 * s * u[1] * v[1];
+    q[4] = c * (u[1] * u[2] - v[1] * v[2]) + s * (u[1] * v[2] + v[1] * u[2]);
+    q[5] = c * (u[2] * u[2] - v[2] * v[2]) + 2 * s * u[2] * v[2];
+    q[6] = q[7] = 0;
+}
+
+static void second_axis(const spreading *s, uint32_t v, float out[3]) {
+    const float *const n = s->b->normal[v], *const u = s->across[v];
+    out[0] = n[1] * u[2] - n[2] * u[1], out[1] = n[2] * u[0] - n[0] * u[2], out[2] = n[0] * u[1] - n[1] * u[0];
 }
 
 /* The mean of a vertex's own tensor and its neighbours', back in its tangent plane. */
 static void spread_vertex(const spreading *s, uint32_t v) {
     const uint32_t first = s->start[v], last = s->start[v + 1];
-    memcpy(s->to[v], s->from[v], sizeof(tensor));
-    if (first == last) return;
-    float sum[6] = {0, 0, 0, 0, 0, 0};
+    if (first == last) {
+        memcpy(s->to[v], s->from[v], sizeof(tensor));
+        return;
+    }
+    tensor mean = {0};
     for (uint32_t n = first; n < last; n++)
-        for (int i = 0; i < 6; i++) sum[i] += s->from[s->beside[n]][i];
+        for (int i = 0; i < 8; i++) mean[i] += s->from[s->beside[n]][i];
     const float share = 0.5f / (float)(last - first);
-    tensor mean;
-    for (int i = 0; i < 6; i++) mean[i] = 0.5f * s->from[v][i] + share * sum[i];
+    for (int i = 0; i < 8; i++) mean[i] = 0.5f * s->from[v][i] + share * mean[i];
+    float second[3], c, d;
+    second_axis(s, v, second);
+    in_plane(mean, s->across[v], second, &c, &d);
+    put_in_plane(s->to[v], s->across[v], second, c, d);
+}
+
+static void begin_vertex(const spreading *s, uint32_t v) {
     dp_vec3 x, y;
-    double c, d;
     frame_of(normal_at(s->b, v), &x, &y);
-    in_plane(mean, x, y, &c, &d);
-    put_in_plane(s->to[v], x, y, c, d);
+    s->across[v][0] = (float)x.x, s->across[v][1] = (float)x.y, s->across[v][2] = (float)x.z;
+    make_tensor(s->b, v, s->size, s->from[v]);
+}
+
+static void end_vertex(const spreading *s, uint32_t v) {
+    const uint32_t w = s->first[v];
+    float second[3], c, d;
+    second_axis(s, w, second);
+    in_plane(s->from[w], s->across[w], second, &c, &d);
+    const float angle = 0.5f * atan2f(d, c), cosine = cosf(angle), sine = sinf(angle);
+    for (int k = 0; k < 3; k++) s->out[v][k] = cosine * s->across[w][k] + sine * second[k];
 }
 
 enum { BLOCK = DP_TUNED(16384, 7) };
 
-static void spread_block(void *arg, uint32_t index, uint32_t worker) {
-    const spreading *const s = arg;
-    const uint32_t count = s->b->polygons->vertex_count, first = index * BLOCK;
+typedef void visit_vertex(const spreading *s, uint32_t vertex);
+
+typedef struct walk {
+    const spreading *s;
+    visit_vertex *with;
+} walk;
+
+static void walk_block(void *arg, uint32_t index, uint32_t worker) {
+    const walk *const w = arg;
+    const uint32_t count = w->s->b->polygons->vertex_count, first = index * BLOCK;
     (void)worker;
-    for (uint32_t v = first; v < count && v < first + BLOCK; v++) spread_vertex(s, v);
+    for (uint32_t v = first; v < count && v < first + BLOCK; v++) w->with(w->s, v);
+}
+
+static void for_vertices(const spreading *s, dp_threads *threads, visit_vertex *with) {
+    walk w = {s, with};
+    dp_parallel(threads, s->b->polygons->vertex_count / BLOCK + 1, walk_block, &w);
 }
 
 static void spread_once(spreading *s, dp_threads *threads) {
-    dp_parallel(threads, s->b->polygons->vertex_count / BLOCK + 1, spread_block, s);
+    for_vertices(s, threads, spread_vertex);
     tensor *const swap = s->from;
     s->from = s->to, s->to = swap;
-}
-
-static void put_directions(const spreading *s, const uint32_t *first, float (*out)[3]) {
-    for (uint32_t v = 0; v < s->b->polygons->vertex_count; v++) {
-        const uint32_t w = first[v];
-        dp_vec3 x, y;
-        double c, d;
-        frame_of(normal_at(s->b, w), &x, &y);
-        in_plane(s->from[w], x, y, &c, &d);
-        const double angle = 0.5 * atan2(d, c);
-        const dp_vec3 along = dp_add(dp_scale(x, cos(angle)), dp_scale(y, sin(angle)));
-        out[v][0] = (float)along.x, out[v][1] = (float)along.y, out[v][2] = (float)along.z;
-    }
 }
 
 /* The finer the mesh, the more steps the same way takes. */
@@ -374,22 +400,24 @@ static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *
     if (6 * triangle_count(p) > UINT32_MAX) return false; /* 700 million triangles: as good as no memory */
     spreading s = {.b = &b, .start = dp_alloc_array(memory, n, sizeof *s.start),
                    .beside = dp_alloc_array(memory, 6 * triangle_count(p) + 1, sizeof *s.beside),
-                   .from = dp_alloc_array(memory, n, sizeof *s.from), .to = dp_alloc_array(memory, n, sizeof *s.to)};
-    const bool enough = begin(&b, memory, &first) && s.start && s.beside && s.from && s.to;
+                   .from = dp_alloc_array(memory, n, sizeof *s.from), .to = dp_alloc_array(memory, n, sizeof *s.to),
+                   .across = dp_alloc_array(memory, n, sizeof *s.across), .size = size_of(p), .out = out};
+    const bool enough = begin(&b, memory, &first) && s.start && s.beside && s.from && s.to && s.across;
     if (enough) {
-        const double size = size_of(p);
+        s.first = first;
         const int spreads = spreads_for(p->vertex_count);
         find_forms(&b);
         find_neighbours(&s);
-        for (uint32_t v = 0; v < p->vertex_count; v++) make_tensor(&b, v, size, s.from[v]);
+        for_vertices(&s, threads, begin_vertex);
         for (int i = 0; i < spreads; i++) spread_once(&s, threads);
-        put_directions(&s, first, out);
+        for_vertices(&s, threads, end_vertex);
     }
     end(&b, memory, first);
     dp_free(memory, s.start);
     dp_free(memory, s.beside);
     dp_free(memory, s.from);
     dp_free(memory, s.to);
+    dp_free(memory, s.across);
     return enough;
 }
 

@@ -119,6 +119,11 @@ uint32_t dp_source_group_color(const dp_source *source, uint32_t group) {
     return source->callbacks.group_color(source->callbacks.user, group);
 }
 
+const char *dp_source_remark(const dp_source *source) {
+    if (!source || !source->callbacks.remark) return NULL;
+    return source->callbacks.remark(source->callbacks.user);
+}
+
 void dp_source_destroy(dp_source *source) {
     if (!source) return;
     const dp_allocator memory = source->allocator;

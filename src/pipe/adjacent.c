@@ -8,6 +8,7 @@
 
 #include "mesh/adjacency.h"
 #include "pipe/classify.h"
+#include "pipe/fringe.h"
 
 typedef struct shared_edge {
     uint32_t a, b;          /* owner; partner or UINT32_MAX */
@@ -30,6 +31,7 @@ static shared_edge owned(const dp_frame *frame, uint32_t polygon, uint32_t corne
 static void add_line(dp_tile_worker *w, const shared_edge *e, dp_line line, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->frame->polygons;
     if (!(dp_polygon_style(w->frame, e->a)->lines & (1u << line))) return;
+    if (1u << line & DP_OUTLINES && dp_is_fringed(w->frame)) return; /* fringe.c draws them */
     const uint32_t first = dp_first_corner(polygons, e->a), n = dp_corner_count(polygons, e->a);
     const uint32_t va = dp_corner_vertex(polygons, first + e->edge_a);
     const uint32_t vb = dp_corner_vertex(polygons, first + (e->edge_a + 1) % n);
@@ -91,8 +93,7 @@ static void add_polygon(dp_tile_worker *w, const dp_tile_polygon *p, bool crease
 }
 
 void dp_tile_adjacent_edges(dp_tile_worker *w) {
-    /* extruded geometry lies outside of outlines: creases have no outside */
-    const bool creases = w->frame->lines & (DP_RIDGE | DP_VALLEY) && w->frame->styles[0].ink == DP_INK_STROKES;
+    const bool creases = w->frame->lines & (DP_RIDGE | DP_VALLEY);
     for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         if (p->flags & DP_POLYGON_HIDDEN) continue;

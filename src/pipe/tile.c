@@ -103,6 +103,30 @@ void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
     w->candidate_count = w->probe_count = w->loose_count = 0;
 }
 
+/* Visible pieces of lines, for strokes. */
+static void find_pieces(dp_tile_worker *w) {
+    if (w->frame->adjacency) dp_tile_adjacent_edges(w);
+    else dp_tile_edges(w);
+    dp_tile_emerge(w);
+    dp_tile_intersections(w);
+    dp_tile_probe(w);
+}
+
+/* Silhouettes and borders as geometry; what has no outside, as strokes. */
+static void find_fringes(dp_tile_worker *w) {
+    if (w->frame->styles[0].passes == 1) dp_tile_fringe_one_pass(w);
+    else dp_tile_fringe_two_passes(w);
+    if (!w->failed && w->frame->lines & ~DP_OUTLINES) find_pieces(w);
+}
+
+static void find_lines(dp_tile_worker *w) {
+    dp_tile_faces(w);
+    dp_tile_surface(w);
+    if (!w->frame->lines) return;
+    if (w->frame->styles[0].ink == DP_INK_QUADS && !w->frame->adjacency) dp_tile_quads(w);
+    else find_pieces(w);
+}
+
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     const size_t first = w->piece_count;
     dp_tile_open(w, tile);
@@ -116,21 +140,7 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     }
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(w);
-    if (w->frame->lines && dp_is_fringed(w->frame)) {
-        if (w->frame->styles[0].passes == 1) dp_tile_fringe_one_pass(w);
-        else dp_tile_fringe_two_passes(w);
-        return;
-    }
-    dp_tile_faces(w);
-    dp_tile_surface(w);
-    if (w->frame->lines && w->frame->styles[0].ink == DP_INK_QUADS && !w->frame->adjacency) {
-        dp_tile_quads(w);
-    } else if (w->frame->lines) {
-        if (w->frame->adjacency) dp_tile_adjacent_edges(w);
-        else dp_tile_edges(w);
-        dp_tile_emerge(w);
-        dp_tile_intersections(w);
-        dp_tile_probe(w);
-    }
+    if (w->frame->lines && dp_is_fringed(w->frame)) find_fringes(w);
+    else find_lines(w);
     out->count = w->piece_count - first;
 }

@@ -84,6 +84,7 @@ static bool make_graphite(dp_shade_store *s, uint32_t tones, const dp_allocator 
         s->tooth = dp_alloc(memory, one);
         if (!s->tooth) return false;
         dp_make_tooth(s->tooth);
+        dp_make_pencil_table(&s->pencil);
     }
     const dp_shade *const shade = &s->setup.shade;
     if (!s->powers || s->powers_of[0] != shade->pencil_s || s->powers_of[1] != shade->pencil_o) {
@@ -116,6 +117,7 @@ static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
     s->setup.frame = frame;
     s->setup.tooth = s->tooth;
     s->setup.powers = s->powers;
+    s->setup.pencil = &s->pencil;
     s->setup.tone_count = tones;
     for (uint32_t i = 0; i < tones; i++)
         s->setup.tones[i] = (dp_strokes_texture){s->graphite + i * (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE,

@@ -16,15 +16,16 @@
 #include "shade/pencil.h"
 
 #include "base/hostile.h"
-#include "texture/graphite.h"
+#include "kernel/kernels.h"
+#include "shade/pencil_rows.h"
 
 enum { BLOCK = DP_TUNED(16384, 5) };
 static const float PI = 3.14159265f;
-static const float TOOTH = 0.55f; /* how much the paper's tooth takes or leaves */
 
 /* ------- vertex stage ------- */
 
 typedef struct turning {
+    const dp_pencil_rows *rows;
     const float (*along)[3];
     dp_turn *turns;
     bool printed;
@@ -32,39 +33,18 @@ typedef struct turning {
     uint32_t count;
 } turning;
 
-/* An angle between two steps; mostly one of them, with a short cross-fade half way between. */
-static dp_turn to_steps(float angle) {
-    const float steps = angle * ((float)DP_TURNS / PI), low = floorf(steps);
-    const float t = dp_minf(dp_maxf((steps - low - 0.5f) * 2.5f + 0.5f, 0), 1);
-    return (dp_turn)((uint32_t)low % DP_TURNS << 8 | (uint32_t)(t * t * (3 - 2 * t) * 255 + 0.5f));
-}
-
-/* The angle of a direction without sign, [0, pi): an odd polynomial for the arc tangent of [0, 1], within 2e-5. */
-static float angle_of(float x, float y) {
-    const float ax = fabsf(x), ay = fabsf(y), most = dp_maxf(ax, ay), z = most > 0 ? dp_minf(ax, ay) / most : 0, z2 = z * z;
-    const float p = z * (0.99997726f + z2 * (-0.33262347f + z2 * (0.19354346f + z2 * (-0.11643287f + z2 * (0.05265332f - z2 * 0.01172120f)))));
-    const float quarter = ay > ax ? PI / 2 - p : p;
-    return x * y < 0 ? PI - quarter : quarter;
-}
-
 static void turn_block(void *arg, uint32_t index, uint32_t worker) {
     const turning *const t = arg;
+    const uint32_t first = index * BLOCK, n = t->count - first < BLOCK ? t->count - first : BLOCK;
     (void)worker;
-    const uint32_t first = index * BLOCK, last = t->count - first < BLOCK ? t->count : first + BLOCK;
-    for (uint32_t v = first; v < last; v++) {
-        const float *const d = t->along[v];
-        const float x = t->right[0] * d[0] + t->right[1] * d[1] + t->right[2] * d[2];
-        const float y = t->up[0] * d[0] + t->up[1] * d[1] + t->up[2] * d[2];
-        const float angle = angle_of(x, y);
-        /* as printed: 16 bits of the angle; half a turn is the same */
-        t->turns[v] = t->printed ? (dp_turn)((uint32_t)(angle / PI * 65536) & 0xffff) : to_steps(angle);
-    }
+    if (t->printed) t->rows->turn_exactly(t->along + first, t->right, t->up, n, t->turns + first);
+    else t->rows->turn(t->along + first, t->right, t->up, n, t->turns + first);
 }
 
 void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn *turns) {
     const dp_view *const view = &frame->view;
     const uint32_t count = frame->polygons.vertex_count;
-    turning t = {.along = along, .turns = turns, .count = count, .printed = frame->styles[0].shade.pencil_printed};
+    turning t = {.rows = dp_pencil_rows_for(frame->kernels->lanes), .along = along, .turns = turns, .count = count, .printed = frame->styles[0].shade.pencil_printed};
     const dp_vec3 x = dp_v3(view->clip[0][0], view->clip[0][1], view->clip[0][2]);
     const dp_vec3 right = dp_unit(dp_sub(x, dp_scale(view->forward, dp_dot(x, view->forward))));
     const dp_vec3 up = dp_cross(right, view->forward);
@@ -75,69 +55,96 @@ void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn 
 
 /* ------- pixel stage ------- */
 
-/* Brightness at (x, y), texels, bilinear; repeats. Sizes need not be powers of two. */
-static float sample(const dp_strokes_texture *t, float x, float y) {
-    int32_t x0 = (int32_t)(x + 65536) - 65536, y0 = (int32_t)(y + 65536) - 65536; /* floor, without a call */
-    const float s = x - (float)x0, r = y - (float)y0;
-    const int32_t w = (int32_t)t->width, h = (int32_t)t->height;
-    if (w == DP_GRAPHITE_SIZE && h == DP_GRAPHITE_SIZE) {
-        x0 &= DP_GRAPHITE_SIZE - 1, y0 &= DP_GRAPHITE_SIZE - 1;
-    } else {
-        x0 = (x0 % w + w) % w, y0 = (y0 % h + h) % h;
+/* The run's surface, pixel by pixel, with the turns of three corners of each one's polygon. */
+typedef struct corners {
+    uint32_t count;
+    uint32_t pixel[DP_TILE];
+    uint32_t vertex[DP_TILE][3];
+    dp_turn turn[DP_TILE][3];
+} corners;
+
+/* In loops of their own: memory answers to many look-ups at once. */
+static void find_corners(const dp_shading_setup *setup, const dp_shade_run *run, corners *c) {
+    const dp_polygons *const polygons = &setup->frame->polygons;
+    const uint32_t *const shown = setup->g->polygon + (size_t)run->y * setup->g->stride + run->x;
+    c->count = 0;
+    for (uint32_t i = 0; i < run->n; i++) {
+        c->pixel[c->count] = i;
+        c->count += run->id[i] != 0;
     }
-    const int32_t x1 = x0 + 1 < w ? x0 + 1 : 0, y1 = y0 + 1 < h ? y0 + 1 : 0;
-    const uint8_t *const top = t->values + (ptrdiff_t)y0 * w, *const low = t->values + (ptrdiff_t)y1 * w;
-    const float a = (float)top[x0] + s * ((float)top[x1] - (float)top[x0]);
-    const float b = (float)low[x0] + s * ((float)low[x1] - (float)low[x0]);
-    return a + r * (b - a); /* 0 to 255 */
+    for (uint32_t i = 0; i < c->count; i++) {
+        const uint32_t polygon = shown[c->pixel[i]], first = dp_first_corner(polygons, polygon);
+        const uint32_t n = polygons->firsts ? dp_corner_count(polygons, polygon) : 3; /* of more corners: three of them */
+        for (uint32_t k = 0; k < 3; k++) c->vertex[i][k] = dp_corner_vertex(polygons, first + k * n / 3);
+    }
+    for (uint32_t i = 0; i < c->count; i++)
+        for (uint32_t k = 0; k < 3; k++) c->turn[i][k] = setup->turns[c->vertex[i][k]];
 }
 
-/* A direction and how much of it there is in a pixel. */
-typedef struct strand {
-    float c, s, weight;
-} strand;
-
-typedef struct pencil {
-    const dp_shading_setup *setup;
-    float c[DP_TURNS], s[DP_TURNS]; /* the steps */
-    float scale;                    /* texels per px */
-} pencil;
-
-static uint32_t add_step(strand *strands, uint32_t n, const pencil *p, uint32_t step, float weight) {
-    for (uint32_t i = 0; i < n; i++)
-        if (strands[i].c == p->c[step]) { /* over half a turn no two cosines are equal */
-            strands[i].weight += weight;
-            return n;
-        }
-    strands[n] = (strand){p->c[step], p->s[step], weight};
-    return n + 1;
+void dp_make_pencil_table(dp_pencil_table *p) {
+    for (uint32_t i = 0; i < DP_TURNS; i++)
+        p->c[i] = cosf((float)i * PI / DP_TURNS), p->s[i] = sinf((float)i * PI / DP_TURNS);
+    for (uint32_t i = 0; i < 256; i++) p->weight[i] = (float)i / 765;
 }
 
-static uint32_t add_turn(strand *strands, uint32_t n, const pencil *p, dp_turn turn) {
-    const uint32_t low = turn >> 8, part = turn & 0xff;
-    if (part < 255) n = add_step(strands, n, p, low, (float)(255 - part) / 765);
-    return part ? add_step(strands, n, p, low + 1 < DP_TURNS ? low + 1 : 0, (float)part / 765) : n;
+static inline void put_strand(dp_strands *s, uint32_t at, uint32_t pixel, float cosine, float sine, float weight) {
+    s->pixel[at] = (int32_t)pixel, s->c[at] = cosine, s->s[at] = sine, s->weight[at] = weight;
 }
 
-/* The three directions of the pixel's polygon; of one with more corners, of three of them. */
-static uint32_t find_strands(const pencil *p, uint32_t polygon, strand strands[6]) {
-    const dp_polygons *const polygons = &p->setup->frame->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), corners = polygons->firsts ? dp_corner_count(polygons, polygon) : 3;
-    uint32_t n = 0;
+/* The steps of one pixel. */
+typedef struct shares {
+    uint32_t count, step[DP_STRANDS_PER_PIXEL];
+    float weight[DP_STRANDS_PER_PIXEL];
+} shares;
+
+/* A share goes to its step if that is there already, else it is a new one. */
+static inline void add_share(shares *s, uint32_t step, float weight) {
+    uint32_t i = 0;
+    while (i < s->count && s->step[i] != step) i++;
+    if (i == s->count) s->step[s->count] = step, s->weight[s->count++] = weight;
+    else s->weight[i] += weight;
+}
+
+static uint32_t after(uint32_t step) { return step + 1 < DP_TURNS ? step + 1 : 0; }
+
+static void add_differing(const dp_pencil_table *p, const dp_turn turn[3], uint32_t pixel, dp_strands *s) {
+    shares of = {.count = 0};
     for (uint32_t k = 0; k < 3; k++) {
-        const dp_turn turn = p->setup->turns[dp_corner_vertex(polygons, first + k * corners / 3)];
-        if (!p->setup->shade.pencil_printed) n = add_turn(strands, n, p, turn);
-        else strands[n++] = (strand){cosf((float)turn * (PI / 65536)), sinf((float)turn * (PI / 65536)), 1.0f / 3};
+        const uint32_t low = turn[k] >> 8, part = turn[k] & 0xff;
+        add_share(&of, low, p->weight[255 - part]);
+        if (part) add_share(&of, after(low), p->weight[part]);
     }
-    return n;
+    for (uint32_t i = 0; i < of.count; i++)
+        put_strand(s, s->count++, pixel, p->c[of.step[i]], p->s[of.step[i]], of.weight[i]);
 }
 
-/* Brightness of one texture along all strands, 0 to 255. y runs down, directions up. */
-static float blend(const strand *strands, uint32_t n, const dp_strokes_texture *texture, float x, float y) {
-    float sum = 0;
-    for (uint32_t i = 0; i < n; i++)
-        sum += strands[i].weight * sample(texture, x * strands[i].c - y * strands[i].s, x * strands[i].s + y * strands[i].c);
-    return sum;
+/* Mostly the three corners have the same step, and its strand, and the next one's if any has a part of it, are all. */
+static void find_strands(const dp_pencil_table *p, const corners *c, dp_strands *s) {
+    s->count = 0;
+    for (uint32_t i = 0; i < c->count; i++) {
+        const dp_turn *const turn = c->turn[i];
+        const uint32_t pixel = c->pixel[i], low = turn[0] >> 8, next = after(low);
+        if (((turn[0] ^ turn[1]) | (turn[0] ^ turn[2])) >> 8) {
+            add_differing(p, turn, pixel, s);
+            continue;
+        }
+        const uint32_t a = turn[0] & 0xff, b = turn[1] & 0xff, d = turn[2] & 0xff;
+        put_strand(s, s->count, pixel, p->c[low], p->s[low], p->weight[255 - a] + p->weight[255 - b] + p->weight[255 - d]);
+        put_strand(s, s->count + 1, pixel, p->c[next], p->s[next], p->weight[a] + p->weight[b] + p->weight[d]);
+        s->count += 1 + ((a | b | d) != 0); /* without a jump, which nobody could foresee */
+    }
+}
+
+/* As printed: each corner's exact angle. Neighbours with the same corners have the same. */
+static void find_strands_printed(const corners *c, dp_strands *s) {
+    s->count = 3 * c->count;
+    for (uint32_t i = 0; i < c->count; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint32_t at = 3 * i + k;
+            const float angle = (float)c->turn[i][k] * (PI / 65536);
+            const bool same = i && c->turn[i - 1][k] == c->turn[i][k];
+            put_strand(s, at, c->pixel[i], same ? s->c[at - 3] : cosf(angle), same ? s->s[at - 3] : sinf(angle), 1.0f / 3);
+        }
 }
 
 void dp_make_powers(uint8_t *powers, float s, float o) {
@@ -146,34 +153,11 @@ void dp_make_powers(uint8_t *powers, float s, float o) {
             powers[256 * dark + v] = (uint8_t)(255 * powf((float)v / 255, (float)dark / 255 * s + dp_maxf(o, 0)) + 0.5f);
 }
 
-static float tone_of(const pencil *p, const strand *strands, uint32_t n, float dark, float x, float y) {
-    const dp_shading_setup *const setup = p->setup;
-    const uint32_t tones = setup->tone_count;
-    if (tones < 2) {
-        const float value = blend(strands, n, &setup->tones[0], x, y);
-        return (float)setup->powers[256 * (uint32_t)(dark * 255 + 0.5f) + (uint32_t)(dp_minf(value, 255) + 0.5f)] * (1 / 255.0f);
-    }
-    const float at = dp_minf(dark * (float)(tones - 1), (float)(tones - 1) - 0.001f);
-    const uint32_t low = (uint32_t)at;
-    const float a = blend(strands, n, &setup->tones[low], x, y), b = blend(strands, n, &setup->tones[low + 1], x, y);
-    return (a + (b - a) * (at - (float)low)) * (1 / 255.0f);
-}
-
 void dp_shade_pencil(const dp_shading_setup *setup, dp_shade_run *run) {
-    const dp_shade *const shade = &setup->shade;
-    const uint32_t *const polygons = setup->g->polygon + (size_t)run->y * setup->g->stride + run->x;
-    pencil p = {.setup = setup, .scale = 1 / shade->stroke_scale};
-    for (uint32_t i = 0; i < DP_TURNS; i++)
-        p.c[i] = cosf((float)i * PI / DP_TURNS), p.s[i] = sinf((float)i * PI / DP_TURNS);
-    for (uint32_t i = 0; i < run->n; i++) {
-        if (!run->id[i]) continue;
-        strand strands[6];
-        const uint32_t n = find_strands(&p, polygons[i], strands), px = run->x + i;
-        const float x = ((float)px + 0.5f) * p.scale, y = ((float)run->y + 0.5f) * p.scale;
-        const float lit = run->nx[i] * shade->light[0] + run->ny[i] * shade->light[1] + run->nz[i] * shade->light[2];
-        const float value = tone_of(&p, strands, n, 1 - dp_minf(dp_maxf(lit, 0), 1), x, y);
-        const float tooth = (float)setup->tooth[(run->y % DP_GRAPHITE_SIZE) * DP_GRAPHITE_SIZE + px % DP_GRAPHITE_SIZE] / 127;
-        const float graphite = dp_minf((1 - value) * (1 + TOOTH * tooth), 1);
-        for (int k = 0; k < 3; k++) run->color[k][i] += (setup->ink[k] - run->color[k][i]) * graphite;
-    }
+    corners c;
+    dp_strands strands;
+    find_corners(setup, run, &c);
+    if (setup->shade.pencil_printed) find_strands_printed(&c, &strands);
+    else find_strands(setup->pencil, &c, &strands);
+    dp_pencil_rows_for(setup->frame->kernels->lanes)->shade(setup, &strands, run);
 }

@@ -28,6 +28,11 @@ enum { DP_TURNS = 18 };
  * pencil_printed: half a turn in 65536 parts. */
 typedef uint16_t dp_turn;
 
+/* Cosines and sines of the steps; what each of 255 parts of one of three corners weighs. */
+typedef struct dp_pencil_table {
+    float c[DP_TURNS], s[DP_TURNS], weight[256];
+} dp_pencil_table;
+
 /* What an operator needs to know besides. */
 typedef struct dp_shading_setup {
     dp_shade shade;          /* resolved; light of length 1 */
@@ -39,6 +44,7 @@ typedef struct dp_shading_setup {
 
     const dp_frame *frame;        /* pencil: whose polygons */
     const dp_turn *turns;         /* by vertex */
+    const dp_pencil_table *pencil;
     const uint8_t *powers;        /* [256][256] */
     dp_strokes_texture tones[8];
     uint32_t tone_count;
@@ -94,6 +100,7 @@ typedef struct dp_shade_store {
     dp_turn *turns;           /* the same on the screen */
     uint8_t *powers;          /* of powers_of: S and O */
     float powers_of[2];
+    dp_pencil_table pencil;
     uint32_t *polygon;        /* the G-buffer's plane */
     uint8_t *graphite;        /* [graphite_tones] textures */
     int8_t *tooth;

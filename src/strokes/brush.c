@@ -22,9 +22,11 @@ typedef struct brush {
     const float *depth; /* the tile's samples; NULL: there is no surface */
     uint32_t x0, y0, x1, y1;
     const dp_stroke_style *style;
-    bool outside;
-    float least; /* texels with less ink are discarded */
+    bool outlines_outside;
 } brush;
+
+/* Texels with less ink are discarded. */
+static float least_ink(const dp_mark *m) { return m->outside ? 0.1f : 1.0f / 512; }
 
 static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
     const dp_frame *const frame = arg;
@@ -74,9 +76,12 @@ static void cover_centred(const dp_mark *m, spot *s) {
     s->v = 0.5f + 0.5f * s->across / half;
 }
 
+/* Does a chain begin here? */
+static bool starts(const dp_mark *m) { return m->before[0] == 0 && m->before[1] == 0; }
+
 /* The sector at the joint with the mark before: beyond that one's end, before this one's start. */
 static bool in_joint(const dp_mark *m, float dx, float dy) {
-    if (m->before[0] == 0 && m->before[1] == 0) return false;
+    if (starts(m)) return false;
     return m->before[0] * dx + m->before[1] * dy >= -0.5f && m->length > 0 && m->middle[0] * dx + m->middle[1] * dy > 0;
 }
 
@@ -93,8 +98,7 @@ static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
         return;
     }
     if (!(out > -0.5f)) return;
-    const bool starts = m->before[0] == 0 && m->before[1] == 0;
-    if ((ahead > 0 && starts) || (past > 0 && m->ends)) { /* round ends */
+    if ((ahead > 0 && starts(m)) || (past > 0 && m->ends)) { /* round ends */
         s->cover = overlap(s->distance, INSIDE, width) * clamp01(out + 0.75f);
         s->v = s->distance / width;
         return;
@@ -106,9 +110,16 @@ static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
 
 /* u in repeats of the texture. It stands still around a joint and runs on beyond the ends. */
 static float u_at(const dp_mark *m, const spot *s) {
-    const bool starts = m->before[0] == 0 && m->before[1] == 0;
-    const float along = (s->along < 0 && starts) || (s->along > 1 && m->ends) ? s->along : s->t;
+    const float along = (s->along < 0 && starts(m)) || (s->along > 1 && m->ends) ? s->along : s->t;
     return m->arc[0] + (m->arc[1] - m->arc[0]) * along;
+}
+
+/* The distance by which dp_visible_share lets a surface come nearer and still not hide the stroke. Around a line's end no further
+ * than at the end itself, or a thin arc of its round end would stand out over what hides the rest of it. And where
+ * outlines lie outside, they do not cover what stands out beside a crease that runs under one: less all along. */
+static float trusted_distance(const brush *b, const dp_mark *m, const spot *s) {
+    const bool beyond = (s->along < 0 && starts(m)) || (s->along > 1 && m->ends);
+    return (beyond ? dp_minf(s->distance, 1) : s->distance) * (b->outlines_outside ? 0.375f : 1);
 }
 
 /* Share of the pixel's samples over which extruded ink shows: those that fall away behind the outline, by at least an
@@ -134,21 +145,20 @@ static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32
     dp_ink_worker *const w = b->worker;
     const bool set = w->row[py] >> px & 1;
     const size_t at = py * DP_TILE + px;
-    if (!b->outside && set && s.distance >= w->nearest[at]) return;
-    if (b->outside && !m->core) cover_outside(m, &s, fx, fy);
+    if (!m->outside && set && s.distance >= w->nearest[at]) return;
+    if (m->outside && !m->core) cover_outside(m, &s, fx, fy);
     else cover_centred(m, &s);
     if (!(s.cover > 0)) return;
     if (m->core) s.v = 0;
-    const float rank = b->outside ? s.distance + 1000 * (1 - s.cover) : s.distance;
+    const float rank = m->outside ? s.distance + 1000 * (1 - s.cover) : s.distance;
     if (set && rank >= w->nearest[at]) return;
-    s.cover *= b->outside && !m->core ? beyond_share(b, m, &s, x, y)
-                          : dp_visible_share(b->frame, b->depth, b->x0, b->y0, &m->stroke, x, y, s.t, s.distance);
+    s.cover *= m->outside && !m->core ? beyond_share(b, m, &s, x, y)
+                          : dp_visible_share(b->frame, b->depth, b->x0, b->y0, &m->stroke, x, y, s.t, trusted_distance(b, m, &s));
     if (!(s.cover > 0)) return;
     dp_color color = m->stroke.color;
     if (b->style->texture) {
         const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(m, &s), s.v);
-        if (t.ink < b->least) return;
-        s.cover *= t.ink;
+        s.cover *= t.ink < least_ink(m) ? 0 : t.ink; /* discarded, it is this mark's pixel all the same, no other's */
         if (b->style->texture->coloured)
             color = DP_RGB((uint32_t)(t.r + 0.5f), (uint32_t)(t.g + 0.5f), (uint32_t)(t.b + 0.5f));
     }
@@ -168,7 +178,7 @@ static void cover(const brush *b, const dp_mark *m) {
     const uint32_t y0 = clamp_to(dp_minf(k->a.y, k->b.y) - r, b->y0, b->y1), y1 = clamp_to(dp_maxf(k->a.y, k->b.y) + r + 1, b->y0, b->y1);
     const uint32_t x0 = clamp_to(dp_minf(k->a.x, k->b.x) - r, b->x0, b->x1), x1 = clamp_to(dp_maxf(k->a.x, k->b.x) + r + 1, b->x0, b->x1);
     const dp_texture *const texture = b->style->texture;
-    const uint32_t level = texture ? dp_texture_level(texture, b->outside ? k->half_width : 2 * k->half_width) : 0;
+    const uint32_t level = texture ? dp_texture_level(texture, m->outside ? k->half_width : 2 * k->half_width) : 0;
     for (uint32_t y = y0; y < y1; y++)
         for (uint32_t x = x0; x < x1; x++) cover_pixel(b, m, level, x, y);
 }
@@ -212,12 +222,11 @@ void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) 
     if (!count) return;
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
-    const brush b = {.frame = frame, .worker = worker, .style = &frame->styles[0].stroke,
+    const brush b = {.frame = frame, .worker = worker, .style = &frame->styles[0].stroke, .outlines_outside = dp_lies_outside(frame),
                      .depth = frame->tile_pieces[tile].bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
-                     .x0 = x0, .y0 = y0, .outside = dp_lies_outside(frame),
+                     .x0 = x0, .y0 = y0,
                      .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
-                     .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height,
-                     .least = dp_lies_outside(frame) ? 0.1f : 1.0f / 512};
+                     .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);
     for (int i = 0; i < DP_LINE_COUNT; i++) ink_layer(&b, worker->strokes, count, dp_layers[i]);
 }

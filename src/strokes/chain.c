@@ -66,13 +66,14 @@ static float straightness(const chaining *c, uint32_t e, uint32_t f) {
     return length > 0 ? (ax * bx + ay * by) / length : 1;
 }
 
+static int8_t side_at(const chaining *c, uint32_t end) { return c->rule->side ? c->rule->side[end / 2] : 0; }
+
 static bool may_join(const chaining *c, uint32_t e, uint32_t f) {
     if (e / 2 == f / 2) return false;
-    if (straightness(c, e, f) < c->rule->sharpest) return false;
-    if (!c->rule->side) return true;
+    if (!side_at(c, e)) return straightness(c, e, f) >= c->rule->sharpest;
     /* entered at b one goes from a to b, left at a as well: then the sides must agree */
     const bool along = (e & 1) != (f & 1);
-    return along == (c->rule->side[e / 2] == c->rule->side[f / 2]);
+    return along == (side_at(c, e) == side_at(c, f));
 }
 
 static void mate_node(const chaining *c, uint32_t first) {
@@ -129,7 +130,7 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
     const dp_point p = end_point(c, e), q = end_point(c, f);
     *distance = hypotf(q.x - p.x, q.y - p.y);
-    return *distance <= c->rule->gap && fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
+    return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) && fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
            may_join(c, e, f);
 }
 

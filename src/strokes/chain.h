@@ -26,11 +26,13 @@ typedef struct dp_chain_store {
 
 /* What may be joined. */
 typedef struct dp_chain_rule {
-    float sharpest;     /* cosine of the largest turn at which a chain goes on; below -1: any */
+    float sharpest;     /* cosine of the largest turn at which a chain goes on; with a side: any */
     float gap;          /* px over which loose ends are joined all the same: outlines of fine meshes are full of holes */
+    float side_gap;     /* the same for segments with a side, at most `gap` */
     float step;         /* as far in depth d as that, at most */
     const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must stay on one
-                           side of a chain. NULL: no matter */
+                           side of a chain. 0: it has none. All of a class have one, or none has.
+                           NULL: none at all */
 } dp_chain_rule;
 
 /* Chains strokes[count] where ends of one class and colour are equal, bit for bit, then over small gaps. Where more than two meet, the

@@ -9,6 +9,7 @@
  * the chain begins: nothing depends on threads or on what else is in the picture. */
 #include "strokes/mark.h"
 
+#include "pipe/fringe.h"
 #include "pipe/normals.h"
 #include "pipe/outline.h"
 #include "texture/texture.h"
@@ -71,7 +72,7 @@ typedef struct hand {
     dp_mark_store *store;
     const dp_piece *pieces;
     const dp_stroke_style *style;
-    bool outside;
+    bool outside; /* the line that is being drawn lies beside its spine */
     float nearest, farthest; /* distances of all lines */
     double nearest_depth;    /* d of the nearest */
 } hand;
@@ -227,11 +228,12 @@ static float width_at(const hand *h, const hand_point *p, float length, bool clo
 
 /* ------- marks ------- */
 
-/* How many repeats of the texture one px is long. */
+/* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that begin where the texture
+ * does end where it does, so that no dot is cut, for a stretch of an eighth at most. */
 static float repeats_per_px(const hand *h, float width, float length, bool closed) {
     if (!h->style->texture) return 0;
     const float period = dp_texture_period(h->style->texture, width) * h->style->scale;
-    if (!closed || length < period / 2) return 1 / period;
+    if (length < (closed ? 0.5f : 4) * period || (!closed && h->style->jitter > 0)) return 1 / period;
     return floorf(length / period + 0.5f) / length;
 }
 
@@ -271,7 +273,7 @@ static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_
     for (size_t i = 0; i + 1 < n; i++) {
         const bool closed = chain->closed;
         dp_mark *const m = &s->marks[s->count++];
-        *m = (dp_mark){.stroke = h->frame->strokes[p[i].segment], .chain = id, .ends = i + 2 == n && !chain->closed};
+        *m = (dp_mark){.stroke = h->frame->strokes[p[i].segment], .chain = id, .outside = h->outside, .ends = i + 2 == n && !chain->closed};
         m->stroke.a = (dp_point){p[i].x, p[i].y, p[i].d}, m->stroke.b = (dp_point){p[i + 1].x, p[i + 1].y, p[i + 1].d};
         m->half[0] = full * width_at(h, &p[i], length, closed);
         m->half[1] = full * width_at(h, &p[i + 1], length, closed);
@@ -308,7 +310,7 @@ static bool add_core(hand *h, const run *r, size_t first_mark, uint32_t id) {
     for (uint32_t i = 0; i < r->count && total > 0; i++) {
         const dp_link *const l = link_at(r, i);
         dp_mark *const m = &s->marks[s->count++];
-        *m = (dp_mark){.stroke = h->frame->strokes[l->segment], .chain = id, .core = true, .half = {CORE, CORE}};
+        *m = (dp_mark){.stroke = h->frame->strokes[l->segment], .chain = id, .outside = true, .core = true, .half = {CORE, CORE}};
         m->stroke.a = link_start(h->frame, l), m->stroke.b = link_end(h->frame, l);
         m->stroke.half_width = CORE;
         m->length = hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
@@ -356,6 +358,7 @@ static bool is_cut(const hand *h, const run *r, uint32_t i) {
 
 /* A chain's runs, each as often as the style says. */
 static bool draw_chain(hand *h, const dp_chain *chain, uint32_t *id) {
+    h->outside = h->store->sides[h->store->chains.links[chain->first].segment];
     run r = {.links = h->store->chains.links + chain->first, .total = chain->count, .count = chain->count, .closed = chain->closed};
     const uint32_t repeats = h->outside ? 1 : h->style->repeats;
     for (uint32_t i = 0; !h->outside && r.closed && i < r.total; i++)
@@ -371,7 +374,16 @@ static bool draw_chain(hand *h, const dp_chain *chain, uint32_t *id) {
     return true;
 }
 
-/* Which side is outside, for chains to keep to; and how lit lines are. */
+/* Which side of an extruded line is outside, for chains to keep to. */
+static int8_t side_of(const hand *h, size_t i) {
+    const dp_stroke *const k = &h->frame->strokes[i];
+    double out[2] = {0, 0};
+    if (!dp_lies_outside(h->frame) || !(1u << k->line & DP_OUTLINES)) return 0;
+    dp_find_outside(h->frame, h->pieces[i].a, (dp_pointd){k->a.x, k->a.y, 0}, (dp_pointd){k->b.x, k->b.y, 0}, out);
+    return (k->b.x - k->a.x) * out[1] - (k->b.y - k->a.y) * out[0] < 0 ? -1 : 1;
+}
+
+/* Sides; and how lit lines are. */
 static bool look_at_segments(hand *h) {
     dp_frame *const f = h->frame;
     dp_mark_store *const s = h->store;
@@ -379,11 +391,7 @@ static bool look_at_segments(hand *h) {
         !dp_reserve(f->memory, &s->lights, &s->lights_cap, f->segment_count, sizeof *s->lights))
         return false;
     for (size_t i = 0; i < f->segment_count; i++) {
-        const dp_stroke *const k = &f->strokes[i];
-        double out[2] = {0, 0};
-        if (h->outside)
-            dp_find_outside(f, h->pieces[i].a, (dp_pointd){k->a.x, k->a.y, 0}, (dp_pointd){k->b.x, k->b.y, 0}, out);
-        s->sides[i] = (k->b.x - k->a.x) * out[1] - (k->b.y - k->a.y) * out[0] < 0 ? -1 : 1;
+        s->sides[i] = side_of(h, i);
         if (h->style->light > 0) s->lights[i] = light_of(f, &h->pieces[i]);
     }
     return true;
@@ -395,12 +403,11 @@ static float gap_outside(const dp_frame *f) {
 }
 
 bool dp_make_marks(dp_frame *frame, const dp_piece *pieces, dp_mark_store *store) {
-    hand h = {.frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke,
-              .outside = dp_lies_outside(frame)};
+    hand h = {.frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke};
     store->count = 0;
     if (!look_at_segments(&h)) return false;
     find_distances(&h);
-    const dp_chain_rule rule = {.sharpest = h.outside ? -2 : TURN, .side = h.outside ? store->sides : NULL, .gap = h.outside ? gap_outside(frame) : GAP,
+    const dp_chain_rule rule = {.sharpest = TURN, .side = store->sides, .gap = GAP, .side_gap = gap_outside(frame),
                                 .step = (float)dp_depth_step(&frame->view, h.nearest_depth, 30)};
     if (!dp_make_chains(frame->strokes, (uint32_t)frame->segment_count, &rule, frame->memory, &store->chains)) return false;
     uint32_t id = 0;

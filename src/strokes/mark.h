@@ -15,7 +15,8 @@ typedef struct dp_mark {
     float length;           /* px */
     uint32_t chain;         /* marks of one chain and repeat lie together */
     bool ends;              /* the chain ends at b */
-    bool core;              /* lying outside: the edge itself, thin, on both sides of the spine */
+    bool outside;           /* it lies beside its spine */
+    bool core;              /* … the edge itself, thin, on both sides of the spine */
 } dp_mark;
 
 typedef struct dp_mark_store {
@@ -29,7 +30,7 @@ typedef struct dp_mark_store {
 
 /* Are lines drawn as marks rather than as plain strokes? */
 bool dp_is_by_hand(const dp_frame *frame);
-/* Do they lie beside their spines, on the outside, as extruded silhouettes do? */
+/* Do outlines lie beside their spines, on the outside, as extruded silhouettes do? */
 bool dp_lies_outside(const dp_frame *frame);
 
 /* Fills frame->marks from frame->strokes and the pieces they were made of. False when memory is out. */

@@ -353,6 +353,18 @@ dropped_are_counted() {
     run 0 some.obj $small --quiet -o out.png
     silent err
 }
+missing_materials_are_told() {
+    printf 'mtllib gone.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >red.obj
+    run 0 red.obj $small -o out.png # no colours are asked for
+    silent err
+    run 0 red.obj $small --style lambert -o plain.png
+    one_line
+    says err 'warning: no colours from gone.mtl: No such file'
+    printf 'newmtl red\nKd 1 0 0\n' >gone.mtl
+    run 0 red.obj $small --style lambert -o out.png
+    silent err
+    cmp -s out.png plain.png && fail "the material's colour is not seen"
+}
 
 # ---- outputs ----
 
@@ -461,6 +473,13 @@ strokes() {
     done
     run 0 shape:gear $small --stroke pencil --stroke-u polar --stroke-k 0.2 --stroke-scale 2 -o polar.png
     cmp -s pencil.png polar.png && fail "--stroke-u polar changes nothing"
+    silent err
+    run 0 shape:gear $small --edges map --stroke pencil -o map.png
+    says err 'warning: an edge map is of pixels and has no strokes'
+    run 0 shape:gear $small --ink quads --stroke pencil -o quads.png
+    says err 'warning: with --ink quads lines are plain'
+    run 0 shape:gear $small --ink quads --stroke pencil --edges adjacency -o quads.png
+    silent err
 }
 wrong_strokes() {
     wrong shape:cube -o out.png --stroke pencl -- 'one of pencil, brush'
@@ -629,7 +648,7 @@ absurd_thresholds() {
 tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
-    cut_files huge_counts dropped_are_counted old_file_stays_on_error full_disk devices unwritable_places
+    cut_files huge_counts dropped_are_counted missing_materials_are_told old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
 
 for test in $tests; do

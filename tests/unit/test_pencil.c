@@ -1,7 +1,9 @@
 /* Pencil rendering: Hermosilla and Vázquez 2010, 2.4. */
 #include <drypoint/drypoint.h>
 
+#include "kernel/kernels.h"
 #include "shade/pencil.h"
+#include "shade/pencil_rows.h"
 #include "texture/graphite.h"
 
 #include <setjmp.h>
@@ -109,6 +111,55 @@ static void test_pictures_do_not_depend_on_threads(void **state) {
     }
 }
 
+/* Fine and coarse meshes, every way to look textures up: on any processor the same bits. */
+static void test_every_kernel_draws_the_same(void **state) {
+    static const uint8_t odd[3 * 5] = {0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0};
+    const dp_shade ways[] = {{0}, {.pencil_printed = true}, {.pencil_tones = 6}, {.strokes = {odd, 3, 5}, .stroke_scale = 0.05f}};
+    const char *const shapes[] = {"torus", "gear"};
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    (void)state;
+    for (size_t k = 0; k < 2 * sizeof ways / sizeof *ways; k++) {
+        dp_shade shade = ways[k / 2];
+        shade.shading = DP_SHADING_PENCIL;
+        for (uint32_t i = 0; i < count; i++) {
+            assert_int_equal(setenv("DRYPOINT_CPU", list[i]->name, 1), 0);
+            draw(shapes[k % 2], &shade, 1, pictures[i > 0][0][0]);
+            if (i > 0) assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
+        }
+    }
+    unsetenv("DRYPOINT_CPU");
+}
+
+/* Directions and turns of 10 degrees: what lies near the middle between two steps is in part both. */
+static void test_turns(void **state) {
+    static const float right[3] = {1, 0, 0}, up[3] = {0, 1, 0};
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    float along[64][3];
+    dp_turn turns[64];
+    (void)state;
+    for (int i = 0; i < 64; i++) {
+        const double angle = (i - 20) * 3.14159265358979 / 36; /* each 5 degrees, beyond half a turn on either side */
+        along[i][0] = (float)cos(angle), along[i][1] = (float)sin(angle), along[i][2] = 7;
+    }
+    along[63][0] = along[63][1] = 0; /* towards the eye: none is as good as any */
+    for (uint32_t k = 0; k < count; k++) {
+        dp_pencil_rows_for(list[k]->lanes)->turn((const float(*)[3])along, right, up, 64, turns);
+        for (int i = 0; i < 63; i++) {
+            const int step = (i - 20 + 72) % 36 / 2, part = turns[i] & 0xff;
+            if (i % 2 == 0) assert_int_equal(turns[i], step << 8);
+            else assert_true(turns[i] >> 8 == step && part > 126 && part < 129);
+        }
+        assert_int_equal(turns[63], 0);
+        dp_pencil_rows_for(list[k]->lanes)->turn_exactly((const float(*)[3])along, right, up, 64, turns);
+        for (int i = 0; i < 63; i++) {
+            const int wanted = (i - 20 + 72) % 36 * 65536 / 36;
+            assert_true((uint16_t)(turns[i] - wanted + 2) <= 4);
+        }
+    }
+}
+
 static void test_any_texture_will_do(void **state) {
     (void)state;
     static const uint8_t one = 128, odd[3 * 5] = {0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0};
@@ -169,6 +220,8 @@ int main(void) {
         cmocka_unit_test(test_strokes_run_along_a_cylinder),
         cmocka_unit_test(test_s_and_o_are_the_paper_s),
         cmocka_unit_test(test_pictures_do_not_depend_on_threads),
+        cmocka_unit_test(test_every_kernel_draws_the_same),
+        cmocka_unit_test(test_turns),
         cmocka_unit_test(test_any_texture_will_do),
         cmocka_unit_test(test_wrong_values_are_refused),
         cmocka_unit_test(test_memory_may_run_out),

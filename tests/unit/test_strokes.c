@@ -268,6 +268,71 @@ static void test_the_same_seed_draws_the_same_picture(void **state) {
     dp_texture_destroy(texture);
 }
 
+static int pixels_of(const uint8_t p[HEIGHT][WIDTH][4], int channel) {
+    int count = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) count += p[y][x][channel] > 200 && p[y][x][(channel + 1) % 3] < 80 && p[y][x][(channel + 2) % 3] < 80;
+    return count;
+}
+
+/* Outlines may be extruded, as printed or not: what has no outside is drawn as the same textured strokes. */
+static void test_creases_are_drawn_beside_extruded_outlines(void **state) {
+    (void)state;
+    dp_texture *texture = NULL;
+    assert_int_equal(dp_texture_named("dashes", 0, NULL, &texture, NULL), DP_OK);
+    const dp_style ways[] = {{.ink = DP_INK_STROKES},
+                             {.ink = DP_INK_QUADS},
+                             {.ink = DP_INK_QUADS, .method = DP_METHOD_PAPER},
+                             {.ink = DP_INK_QUADS, .method = DP_METHOD_PAPER, .passes = 2}};
+    int found[4][3];
+    for (int i = 0; i < 4; i++)
+        for (int textured = 0; textured < 2; textured++) {
+            dp_style style = ways[i];
+            style.edges = DP_EDGES_ADJACENCY;
+            style.line[DP_LINE_SILHOUETTE] = (dp_line_style){3, DP_RGB(0, 0, 255)};
+            style.line[DP_LINE_RIDGE] = (dp_line_style){3, DP_RGB(255, 0, 0)};
+            style.line[DP_LINE_VALLEY] = (dp_line_style){3, DP_RGB(0, 255, 0)};
+            style.stroke = (dp_stroke_style){.texture = textured ? texture : NULL};
+            draw("gear", &style, 2, pictures[0][0][0]);
+            int now[3];
+            for (int k = 0; k < 3; k++) now[k] = pixels_of((const uint8_t(*)[WIDTH][4])pictures[0], k);
+            if (!textured) memcpy(found[i], now, sizeof now);
+            for (int k = 0; textured && k < 2; k++) /* dashes leave something out */
+                assert_true(now[k] < 0.85 * found[i][k] && now[k] > 0.3 * found[i][k]);
+        }
+    assert_true(found[0][0] > 300 && found[0][1] > 50);
+    for (int i = 1; i < 4; i++)
+        for (int k = 0; k < 2; k++) /* outlines lie over fewer of them, or more */
+            assert_true(found[i][k] > 0.8 * found[0][k] && found[i][k] < 1.6 * found[0][k] && found[i][2] > 300);
+    dp_texture_destroy(texture);
+}
+
+/* Between two dashes or dots there is nothing: a pixel belongs to its nearest mark also where that has no ink. Texels right
+ * of the middle are ink, the others none: along any line ink comes and goes once a repeat. */
+static void test_gaps_of_a_texture_stay_open(void **state) {
+    (void)state;
+    static uint8_t pixels[8][64][4];
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 64; x++) pixels[y][x][3] = x < 32 ? 0 : 255;
+    dp_texture *const t = texture_of(pixels[0][0], 64, 8, 4);
+    const dp_style style = {.lines = DP_SILHOUETTE, .line = {{.width = 8}}, .stroke = {.texture = t}};
+    triangles = 20000;
+    draw("sphere", &style, 2, pictures[0][0][0]);
+    triangles = 0;
+    uint32_t blots = 0, dashes = 0;
+    for (int y = 2; y + 2 < HEIGHT; y++) /* spots of ink, or of paper within ink, of one or two px */
+        for (int x = 2; x + 2 < WIDTH; x++) {
+            const bool ink = pictures[0][y][x][0] < 128;
+            uint32_t alike = 0;
+            for (int k = 0; k < 25; k++) alike += (pictures[0][y + k / 5 - 2][x + k % 5 - 2][0] < 128) == ink;
+            blots += alike < 6;
+            dashes += ink;
+        }
+    assert_true(dashes > 1000);
+    assert_int_equal(blots, 0);
+    dp_texture_destroy(t);
+}
+
 /* No gaps at 24 px: around the outline of a convex shape, every pixel up to 23 px outside is ink. */
 static void test_extruded_silhouettes_have_no_gaps(void **state) {
     (void)state;
@@ -350,6 +415,8 @@ int main(void) {
         cmocka_unit_test(test_png_files_become_textures),
         cmocka_unit_test(test_u_goes_on_along_a_stroke_in_arc_mode),
         cmocka_unit_test(test_the_same_seed_draws_the_same_picture),
+        cmocka_unit_test(test_creases_are_drawn_beside_extruded_outlines),
+        cmocka_unit_test(test_gaps_of_a_texture_stay_open),
         cmocka_unit_test(test_extruded_silhouettes_have_no_gaps),
         cmocka_unit_test(test_memory_may_run_out),
         cmocka_unit_test(test_strokes_out_of_range_are_refused),

@@ -1,0 +1,128 @@
+/* Material libraries: of each `newmtl` its `Kd`, the colour of what is lit, taken as the file has it.
+ *
+ * Nothing here stops a model from being read: what is missing or broken has no colour. Kd with one number is grey;
+ * numbers beyond [0, 1] are held to it. Only regular files are opened, so that no pipe and no device is waited for.
+ *
+ * Does not handle: textures (map_Kd), Kd as a spectrum or as CIE XYZ, transparency. */
+#include "io/mtl.h"
+
+#include "io/text.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { PATH = 4096, NO_MATERIAL = -1 };
+
+void dp_materials_init(dp_materials *m, const dp_allocator *allocator) {
+    *m = (dp_materials){.names = {.allocator = *allocator}};
+}
+
+void dp_materials_destroy(dp_materials *m) {
+    dp_free(&m->names.allocator, m->colors);
+    dp_groups_destroy(&m->names);
+}
+
+bool dp_materials_find(dp_materials *m, const char *name, uint16_t *number) {
+    if (!dp_groups_find(&m->names, name, number) ||
+        !dp_reserve(&m->names.allocator, &m->colors, &m->color_capacity, (size_t)*number + 1, sizeof *m->colors))
+        return false;
+    while (m->color_count <= *number) m->colors[m->color_count++] = 0;
+    return true;
+}
+
+uint32_t dp_materials_color(const dp_materials *m, uint16_t number) {
+    return number < m->color_count ? m->colors[number] : 0;
+}
+
+/* ------- one library ------- */
+
+static uint32_t to_byte(float v) { return v <= 0 ? 0 : v >= 1 ? 255 : (uint32_t)(v * 255 + 0.5f); }
+
+/* Behind `Kd`: 0 where there is no colour. */
+static uint32_t read_color(dp_stream *stream) {
+    float rgb[3] = {0, 0, 0};
+    int n = 0;
+    while (n < 3 && dp_text_blank(stream) && dp_text_float(stream, &rgb[n])) {
+        if (isnan(rgb[n])) return 0;
+        n++;
+    }
+    const bool grey = n == 1 && (!dp_text_blank(stream) || *stream->cursor == '#');
+    if (grey) rgb[1] = rgb[2] = rgb[0];
+    return grey || n == 3 ? to_byte(rgb[0]) << 24 | to_byte(rgb[1]) << 16 | to_byte(rgb[2]) << 8 | 255 : 0;
+}
+
+bool dp_read_mtl(dp_stream *stream, dp_materials *materials) {
+    int32_t current = NO_MATERIAL;
+    if (dp_stream_have(stream, 1)) dp_text_skip_mark(stream);
+    while (dp_text_space(stream)) {
+        if (dp_text_match(stream, "newmtl")) {
+            char name[DP_MATERIAL_NAME];
+            uint16_t number;
+            dp_text_rest(stream, name, sizeof name);
+            if (!dp_materials_find(materials, name, &number)) return false;
+            current = number;
+        } else if (dp_text_match(stream, "kd") && current != NO_MATERIAL) {
+            materials->colors[current] = read_color(stream);
+        }
+        dp_text_skip_line(stream);
+    }
+    return true;
+}
+
+/* ------- finding libraries ------- */
+
+/* The library's place: beside the model, unless its name begins with a slash. Backslashes are another system's slashes. False
+ * where it is too long. */
+static bool find_place(const char *path, const char *name, size_t length, char place[PATH]) {
+    const char *const slash = strrchr(path, '/');
+    const size_t folder = *name == '/' || *name == '\\' || !slash ? 0 : (size_t)(slash + 1 - path);
+    if (folder + length + 3 > PATH) return false;
+    memcpy(place, path, folder);
+    size_t at = folder;
+    if (!folder && *name != '/' && *name != '\\') place[at++] = '.', place[at++] = '/'; /* "-" is a file, too */
+    for (size_t i = 0; i < length; i++) place[at++] = name[i] == '\\' ? '/' : name[i];
+    place[at] = 0;
+    return true;
+}
+
+typedef enum opened { READ, NOT_THERE, NO_MEMORY } opened;
+
+static opened read_library(const char *path, const char *name, size_t length, dp_materials *materials) {
+    char place[PATH];
+    struct stat status;
+    dp_stream *stream = NULL;
+    errno = ENAMETOOLONG;
+    if (!find_place(path, name, length, place) || stat(place, &status)) return NOT_THERE;
+    errno = EINVAL;
+    const dp_file_options options = {.allocator = &materials->names.allocator};
+    if (!S_ISREG(status.st_mode)) return NOT_THERE;
+    const dp_result result = dp_stream_open(place, &options, &stream, NULL);
+    if (result) return result == DP_ERR_MEMORY ? NO_MEMORY : NOT_THERE;
+    const bool enough = dp_read_mtl(stream, materials);
+    dp_stream_close(stream);
+    return enough ? READ : NO_MEMORY;
+}
+
+static void note_missing(const char *name, size_t length, char *remark, size_t size) {
+    if (*remark) return;
+    snprintf(remark, size, "no colours from %.*s: %s", length < 120 ? (int)length : 120, name,
+             errno == EINVAL ? "not a file" : strerror(errno));
+    for (char *p = remark; *p; p++)
+        if ((uint8_t)*p < ' ' || *p == 0x7f) *p = '?';
+}
+
+bool dp_open_mtl(const char *path, const char *names, dp_materials *materials, char *remark, size_t size) {
+    const opened whole = *names ? read_library(path, names, strlen(names), materials) : READ;
+    if (whole != NOT_THERE) return whole == READ;
+    for (const char *word = names; *word; word += strspn(word, " \t")) {
+        const size_t length = strcspn(word, " \t");
+        const opened o = length == strlen(names) ? NOT_THERE : read_library(path, word, length, materials);
+        if (o == NO_MEMORY) return false;
+        if (o == NOT_THERE) note_missing(word, length, remark, size);
+        word += length;
+    }
+    return true;
+}

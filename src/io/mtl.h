@@ -1,0 +1,30 @@
+/* Wavefront material libraries (.mtl): the colours of an OBJ's materials. */
+#ifndef DP_IO_MTL_H
+#define DP_IO_MTL_H
+
+#include "io/groups.h"
+#include "io/stream.h"
+
+/* Materials by name, defined or only used. */
+typedef struct dp_materials {
+    dp_groups names;
+    uint32_t *colors; /* by number, 0xRRGGBBAA, 0: none */
+    size_t color_count, color_capacity;
+} dp_materials;
+
+enum { DP_MATERIAL_NAME = 256 }; /* bytes of a name that count, with the 0 behind it */
+
+void dp_materials_init(dp_materials *materials, const dp_allocator *allocator);
+void dp_materials_destroy(dp_materials *materials);
+/* The number of a name, new or not. False when memory is out. */
+bool dp_materials_find(dp_materials *materials, const char *name, uint16_t *number);
+uint32_t dp_materials_color(const dp_materials *materials, uint16_t number);
+
+/* Reads a library to its end; what it holds of no use is passed over. False when memory is out. */
+bool dp_read_mtl(dp_stream *stream, dp_materials *materials);
+
+/* The libraries that a `mtllib` line names, beside the model at `path`: one name with spaces, or several. Those that
+ * cannot be read leave a sentence in `remark`, where there is none yet. False when memory is out. */
+bool dp_open_mtl(const char *path, const char *names, dp_materials *materials, char *remark, size_t size);
+
+#endif

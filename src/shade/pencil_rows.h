@@ -1,0 +1,31 @@
+/* Pencil rendering's two stages, over many vertices and over a run of pixels, compiled for several kinds of processors (pencil_….c): the same
+ * C, and so the same bits. */
+#ifndef DP_SHADE_PENCIL_ROWS_H
+#define DP_SHADE_PENCIL_ROWS_H
+
+#include "shade/shade.h"
+
+enum { DP_STRANDS_PER_PIXEL = 6, DP_STRANDS_MOST = DP_STRANDS_PER_PIXEL * DP_TILE };
+
+/* What the pixels of a run are drawn of: look-ups along a direction (c, s), cosine and sine of its angle, and how much of
+ * each there is in its pixel. Pixel by pixel, in order; a pixel without any is not surface. */
+typedef struct dp_strands {
+    uint32_t count;
+    int32_t pixel[DP_STRANDS_MOST]; /* of the run */
+    float c[DP_STRANDS_MOST], s[DP_STRANDS_MOST], weight[DP_STRANDS_MOST];
+} dp_strands;
+
+typedef struct dp_pencil_rows {
+    /* Directions along a surface to turns on the screen, whose axes are `right` and `up`: to steps, or exactly. */
+    void (*turn)(const float (*along)[3], const float right[3], const float up[3], uint32_t n, dp_turn *turns);
+    void (*turn_exactly)(const float (*along)[3], const float right[3], const float up[3], uint32_t n, dp_turn *turns);
+    /* Look-ups, tone (Listing 2.5) and the paper's tooth, over the run's colours. */
+    void (*shade)(const dp_shading_setup *setup, const dp_strands *strands, dp_shade_run *run);
+} dp_pencil_rows;
+
+extern const dp_pencil_rows dp_pencil_base, dp_pencil_avx2, dp_pencil_avx512;
+
+/* Those for kernels of so many lanes (kernel/kernels.h). */
+const dp_pencil_rows *dp_pencil_rows_for(uint32_t lanes);
+
+#endif
