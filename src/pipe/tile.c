@@ -14,7 +14,8 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->piece_count = 0;
     worker->away = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
-    worker->finds_edges = frame->lines && frame->styles[0].ink == DP_INK_STROKES && !frame->styles[0].edge_table_off;
+    worker->finds_edges = frame->lines && frame->styles[0].ink == DP_INK_STROKES && !frame->styles[0].edge_table_off &&
+                          frame->styles[0].edges != DP_EDGES_ADJACENCY;
     dp_sampling_init(&worker->sampling, frame->target.samples);
     dp_block_init(&worker->block, frame->target.samples);
     return dp_reserve(&worker->memory, &worker->winner, &worker->winner_cap, frame->tile_samples,
@@ -80,9 +81,7 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
 static void find_plane_normal(dp_tile_worker *w) {
     const dp_view *const view = &w->frame->view;
     const double px = w->tile_x, py = w->tile_y;
-    const dp_vec3 at = dp_unproject(view, (dp_pointd){px, py, 1});
-    const dp_vec3 x = dp_sub(dp_unproject(view, (dp_pointd){px + 1, py, 1}), at);
-    const dp_vec3 y = dp_sub(dp_unproject(view, (dp_pointd){px, py + 1, 1}), at);
+    const dp_vec3 at = dp_unproject(view, (dp_pointd){px, py, 1}), x = view->across, y = view->down;
     const dp_vec3 o = dp_sub(at, view->perspective ? view->eye : dp_unproject(view, (dp_pointd){px, py, 0}));
     const dp_vec3 dual[3] = {dp_cross(x, y), dp_cross(y, o), dp_cross(o, x)};
     const double inverse = -1 / dp_dot(o, dual[0]);

@@ -56,6 +56,9 @@ dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, u
         return dp_fail(diag, DP_ERR_ARGUMENT, "the camera's view matrix is singular");
     view->focal = fabs(p[5]) / scale * height / 2;
     place_eye(view, camera);
+    view->corner = dp_unproject(view, (dp_pointd){0, 0, 1});
+    view->across = dp_sub(dp_unproject(view, (dp_pointd){1, 0, 1}), view->corner);
+    view->down = dp_sub(dp_unproject(view, (dp_pointd){0, 1, 1}), view->corner);
     return DP_OK;
 }
 

@@ -20,6 +20,8 @@ typedef struct dp_view {
     double sight[4];        /* row: world to distance along the line of sight */
     dp_vec3 eye, forward;   /* world space; forward is the paper's camera axis C, unit */
     double focal;           /* px per unit at distance 1 (perspective), px per unit (orthographic) */
+    dp_vec3 corner;         /* the screen's point (0, 0) at d = 1, world space */
+    dp_vec3 across, down;   /* what it moves by per px of x and y there */
     double guard;           /* vertices further than guard * w from the axis are clipped */
 } dp_view;
 

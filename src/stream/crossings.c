@@ -145,6 +145,7 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
         own->failed = true;
         return;
     }
+    w->finds_edges = false;
     dp_tile_open(w, tile);
     w->depth = own->depth;
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;

@@ -61,6 +61,7 @@ static void draw_faces(void *arg, uint32_t tile, uint32_t worker) {
     dp_frame *const f = &s->context->frame;
     dp_tile_worker *const w = &s->context->tile_workers[worker];
     if (!dp_bins_tile_count(&f->polygon_bins, tile)) return;
+    w->finds_edges = false;
     dp_tile_open(w, tile);
     if (w->watching) w->away = s->away + (size_t)tile * f->tile_samples / 64;
     dp_tile_assemble(w);
@@ -163,6 +164,7 @@ static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_worker *const w = &s->context->tile_workers[worker];
     dp_tile_lines *const lines = &s->lines[tile];
     if (!dp_bins_tile_count(&s->context->frame.polygon_bins, tile)) return;
+    w->finds_edges = true;
     dp_tile_open(w, tile);
     dp_tile_assemble(w);
     dp_tile_faces(w);
@@ -225,6 +227,7 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_lines *const lines = &s->lines[tile];
     if (!lines->candidate_count || !dp_bins_tile_count(&s->context->frame.polygon_bins, tile)) return;
     const bool watching = w->watching;
+    w->finds_edges = false;
     dp_tile_open(w, tile);
     swap_lines(w, lines);
     renumber_probes(s, w);

@@ -78,9 +78,7 @@ static void store_end(const dp_frame *frame, dp_pointd p, float screen[3], float
 /* Depth of the plane through `at` with unit normal `n`, as an affine function of the screen. */
 static void screen_plane(const dp_view *view, dp_vec3 at, dp_vec3 n, float plane[3]) {
     const double c = dp_dot(n, at);
-    const dp_vec3 o = dp_unproject(view, (dp_pointd){0, 0, 1});
-    const dp_vec3 x = dp_sub(dp_unproject(view, (dp_pointd){1, 0, 1}), o);
-    const dp_vec3 y = dp_sub(dp_unproject(view, (dp_pointd){0, 1, 1}), o);
+    const dp_vec3 o = view->corner, x = view->across, y = view->down;
     /* perspective: rays from the eye, d = n·ray / (c - n·eye); orthographic: o lies at d = 1 and the
      * plane is met after (c - n·o) / n·forward */
     const double under = view->perspective ? c - dp_dot(n, view->eye) : dp_dot(n, view->forward);
