@@ -17,6 +17,7 @@ typedef struct dp_crowd {
     dp_f4 least, most; /* x, y (px, tile space), d, 0 of a polygon's points */
     uint32_t polygon;
     uint32_t next;     /* in the same pixel, or UINT32_MAX */
+    uint8_t x0, y0;    /* first pixel of its box */
 } dp_crowd;
 
 /* How many corner positions two polygons share (their keys are hashes: a false match costs one
@@ -194,7 +195,7 @@ static dp_crowd bounds(const dp_tile_worker *w, uint32_t index) {
         const dp_f4 at = {v[i].x, v[i].y, v[i].d, 0};
         least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
     }
-    return (dp_crowd){least, most, index, UINT32_MAX};
+    return (dp_crowd){least, most, index, UINT32_MAX, p->x0, p->y0};
 }
 
 static bool are_apart(const dp_crowd *p, const dp_crowd *q) { return dp_any((p->most < q->least) | (q->most < p->least)); }
@@ -223,19 +224,29 @@ static inline bool comes_near(const dp_tile_polygon *p, const pixels *near) {
     return false;
 }
 
-/* Puts a polygon into the suspect pixels of its box and tests it against those already there. */
-static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[DP_TILE],
+/* Tests a polygon against those that came before to pixel (x, y). `met_left`, `met_above`: all pairs of the pixel
+ * before in the row, or above, that both cover were tested there. */
+static void test_against(dp_tile_worker *w, const dp_crowd *self, uint32_t head, uint32_t x, uint32_t y, bool met_left, bool met_above) {
+    for (uint32_t i = head; i != UINT32_MAX; i = w->crowd[i].next) {
+        const dp_crowd *const other = &w->crowd[i];
+        if ((met_left & (other->x0 < x)) | (met_above & (other->y0 < y)) || are_apart(other, self)) continue;
+        test_pair(w, other->polygon, self->polygon);
+    }
+}
+
+/* Puts a polygon into the suspect pixels of its box and tests it against those already there. `all` are the pixels
+ * that whatever faces joins. */
+static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[DP_TILE], const uint64_t all[DP_TILE],
                         uint32_t heads[DP_TILE][DP_TILE], uint32_t *count) {
     const dp_tile_polygon *const p = &w->polygons[index];
     const uint64_t span = dp_box_span(p);
-    dp_crowd self;
-    bool met = false;
+    dp_crowd self = bounds(w, index);
     for (uint32_t y = p->y0; y <= p->y1; y++)
         for (uint64_t bits = rows[y] & span; bits && !w->failed; bits &= bits - 1) {
-            uint32_t *const head = &heads[y][__builtin_ctzll(bits)];
-            if (!met) self = bounds(w, index), met = true;
-            for (uint32_t i = *head; i != UINT32_MAX; i = w->crowd[i].next)
-                if (!are_apart(&w->crowd[i], &self)) test_pair(w, w->crowd[i].polygon, index);
+            const uint32_t x = (uint32_t)__builtin_ctzll(bits);
+            uint32_t *const head = &heads[y][x];
+            const bool met_left = x > p->x0 && all[y] >> (x - 1) & 1, met_above = y > p->y0 && all[y - 1] >> x & 1;
+            test_against(w, &self, *head, x, y, met_left, met_above);
             if (!DP_WORKER_RESERVE(w, crowd, crowd_cap, *count + 1u)) return;
             self.next = *head;
             w->crowd[*count] = self;
@@ -251,6 +262,8 @@ void dp_tile_intersections(dp_tile_worker *w) {
     for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
     dp_drop_lone(w->suspects[0]);
     if (!look_around(w->suspects[0], &front)) return;
+    uint64_t all[DP_TILE];
+    for (int y = 0; y < DP_TILE; y++) all[y] = front.row[y] & (mixed ? back.row[y] : ~(uint64_t)0);
     memset(heads, 0xff, sizeof heads);
     if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
     w->pair_count = 0;
@@ -259,6 +272,6 @@ void dp_tile_intersections(dp_tile_worker *w) {
         const dp_tile_polygon *const p = &w->polygons[index];
         if (!(p->flags & DP_POLYGON_TOUCHES) || !(mixed || p->flags & DP_POLYGON_FRONT)) continue;
         const pixels *const near = p->flags & DP_POLYGON_FRONT ? &front : &back;
-        if (comes_near(p, near)) join_crowds(w, index, near->row, heads, &count);
+        if (comes_near(p, near)) join_crowds(w, index, near->row, all, heads, &count);
     }
 }
