@@ -192,14 +192,6 @@ DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
 #endif
 }
 
-DP_LANES_INLINE dp_lf li_float(dp_li v) {
-#if DP_LANES == 1
-    return (float)v;
-#else
-    return __builtin_convertvector(v, dp_lf);
-#endif
-}
-
 DP_LANES_INLINE dp_lm l_gt(dp_lf a, dp_lf b) { return l_lt(b, a); }
 DP_LANES_INLINE dp_lm l_ge(dp_lf a, dp_lf b) { return l_le(b, a); }
 

@@ -6,6 +6,7 @@
 #include "pipe/bin.h"
 #include "pipe/frame.h"
 #include "pipe/outline.h"
+#include "strokes/stroke.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -143,6 +144,55 @@ static void places_agree(void **state) {
     }
 }
 
+/* Strokes of any length and width, also a point, with and without polygons, in both kinds of views. */
+static dp_stroke random_stroke(uint32_t *seed) {
+    dp_stroke s = {.half_width = (float)(next_random(seed) % 4000) / 100, .line = (uint8_t)(next_random(seed) % DP_LINE_COUNT)};
+    float *const ends[2] = {&s.a.x, &s.b.x};
+    for (int e = 0; e < 2; e++)
+        for (int k = 0; k < 3; k++) ends[e][k] = (float)(next_random(seed) % 6400) / 100 + (float)(k == 2);
+    if (next_random(seed) % 5 == 0) s.b = s.a;
+    for (int p = 0; p < 2; p++)
+        for (int k = 0; k < 3; k++) s.plane[p][k] = next_random(seed) % 3 ? (float)(next_random(seed) % 100) / 50 - 1 : NAN;
+    return s;
+}
+
+/* What the kernel says of a pixel, by the definition: distance to the spine, and dp_stroke_limit. */
+static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t x, uint32_t y, float share, float limit) {
+    const double ex = (double)s->b.x - s->a.x, ey = (double)s->b.y - s->a.y, length2 = ex * ex + ey * ey;
+    const double px = x + 0.5 - s->a.x, py = y + 0.5 - s->a.y;
+    const double t = length2 > 0 ? dp_min(dp_max((px * ex + py * ey) / length2, 0), 1) : 0;
+    const double distance = hypot(px - t * ex, py - t * ey), half = (double)s->half_width;
+    const double in = dp_min(dp_max(dp_min(distance + 0.5, half) - dp_max(distance - 0.5, -half), 0), 1);
+    assert_float_equal(share, in, 1e-4);
+    const float want = dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, (float)t, (float)distance);
+    assert_float_equal(limit, want, 1e-4 * (1 + fabs((double)want)));
+}
+
+static void coverages_agree(void **state) {
+    enum { STROKES = 500, WIDE = 64 };
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    (void)state;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t seed = 3;
+        double spent = 0;
+        for (uint32_t k = 0; k < STROKES; k++) {
+            const dp_frame frame = {.view = make_view(k % 2), .step_scale = k % 2 ? 0 : 1e-3f, .step_offset = k % 2 ? 1e-2f : 0};
+            const dp_stroke s = random_stroke(&seed);
+            const uint32_t n = 1 + next_random(&seed) % WIDE, y = next_random(&seed) % WIDE;
+            dp_row_coverage truth, row;
+            const uint64_t bits = dp_kernels_plain.cover(&frame, &s, 64, y, n, &truth);
+            const double start = now_ns();
+            assert_true(list[i]->cover(&frame, &s, 64, y, n, &row) == bits);
+            spent += now_ns() - start;
+            assert_memory_equal(row.share, truth.share, n * sizeof *row.share);
+            assert_memory_equal(row.limit, truth.limit, n * sizeof *row.limit);
+            for (uint32_t x = 0; x < n && !i; x++) expect_coverage(&frame, &s, 64 + x, y, truth.share[x], truth.limit[x]);
+        }
+        if (getenv("DRYPOINT_BENCH")) print_message("%-10s %-7s %6.2f ns a row\n", "cover", list[i]->name, spent / STROKES);
+    }
+}
+
 static int set_up(void **state) {
     (void)state;
     make_model();
@@ -154,6 +204,7 @@ int main(void) {
         cmocka_unit_test(transforms_agree),
         cmocka_unit_test(equal_positions_have_equal_keys),
         cmocka_unit_test(places_agree),
+        cmocka_unit_test(coverages_agree),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }
