@@ -41,7 +41,7 @@ static dp_tile_rect place_polygon(const job *j, uint32_t polygon, dp_bin_worker 
     case DP_OUTLINE_MEMORY: self->failed = true; return NOWHERE;
     case DP_OUTLINE_OK: break;
     }
-    if (dp_outline_facing(j->frame, polygon, &outline).edge_on && dp_polygon_has_no_area(j->frame, polygon)) {
+    if (dp_outline_is_edge_on(&outline) && dp_polygon_has_no_area(j->frame, polygon)) {
         self->stats.dropped_area++;
         return NOWHERE;
     }

@@ -83,19 +83,32 @@ bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
     return dp_dot(dp_polygon_normal(frame, polygon), dp_view_vector(&frame->view, at)) < -1e-12;
 }
 
-/* The screen's y runs down, so a front face's area is negative. */
-dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline) {
+typedef struct extent {
+    double area;  /* twice that on the screen; the screen's y runs down, so a front face's is negative */
+    double reach; /* longest side of the box around the first point, px */
+} extent;
+
+static extent extent_of(const dp_outline *outline) {
     const dp_point *const p = outline->points;
-    double area = 0, reach = 0;
+    extent e = {0, 0};
     for (uint32_t i = 1; i < outline->count; i++) {
         const double ax = (double)p[i].x - p[0].x, ay = (double)p[i].y - p[0].y;
-        reach = dp_max(reach, dp_max(fabs(ax), fabs(ay)));
+        e.reach = dp_max(e.reach, dp_max(fabs(ax), fabs(ay)));
         if (i + 1 == outline->count) break;
         const double bx = (double)p[i + 1].x - p[0].x, by = (double)p[i + 1].y - p[0].y;
-        area += ax * by - ay * bx;
+        e.area += ax * by - ay * bx;
     }
-    if (fabs(area) > (double)frame->nearly_edge_on * reach) return (dp_facing){area < 0, false};
-    return (dp_facing){dp_polygon_faces_eye(frame, polygon), fabs(area) <= EDGE_ON * reach};
+    return e;
+}
+
+static bool is_edge_on(extent e) { return fabs(e.area) <= EDGE_ON * e.reach; }
+
+bool dp_outline_is_edge_on(const dp_outline *outline) { return is_edge_on(extent_of(outline)); }
+
+dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline) {
+    const extent e = extent_of(outline);
+    if (fabs(e.area) > (double)frame->nearly_edge_on * e.reach) return (dp_facing){e.area < 0, false};
+    return (dp_facing){dp_polygon_faces_eye(frame, polygon), is_edge_on(e)};
 }
 
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {

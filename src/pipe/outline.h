@@ -43,6 +43,9 @@ typedef struct dp_facing {
 } dp_facing;
 dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline);
 
+/* dp_facing.edge_on alone: the outline tells, and the polygon need not be fetched. */
+bool dp_outline_is_edge_on(const dp_outline *outline);
+
 /* Unit normal by Newell's method, world space; zero for a polygon without area. */
 dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon);
 
