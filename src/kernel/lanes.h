@@ -192,6 +192,14 @@ DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
 #endif
 }
 
+/* At the end of a kernel that calls functions with vectors as arguments: compilers then leave the registers' upper halves
+ * set, and all code of 16-byte vectors that runs afterwards, anywhere, is up to half as fast. */
+DP_LANES_INLINE void l_done(void) {
+#if DP_LANES >= 8
+    _mm256_zeroupper();
+#endif
+}
+
 DP_LANES_INLINE dp_lm l_gt(dp_lf a, dp_lf b) { return l_lt(b, a); }
 DP_LANES_INLINE dp_lm l_ge(dp_lf a, dp_lf b) { return l_le(b, a); }
 
