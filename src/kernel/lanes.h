@@ -213,7 +213,6 @@ DP_LANES_INLINE dp_ld ld_splat(double v) { return v; }
 DP_LANES_INLINE dp_ld ld_load(const float *p) { return *p; }
 DP_LANES_INLINE void ld_store(float *p, dp_ld v) { *p = (float)v; }
 DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return m ? a : b; }
-DP_LANES_INLINE dp_lb ld_not(dp_lb m) { return !m; }
 #else
 enum { DP_HALF = DP_LANES / 2 };
 typedef double dp_ld __attribute__((vector_size(4 * DP_LANES)));
@@ -230,7 +229,6 @@ DP_LANES_INLINE void ld_store(float *p, dp_ld v) {
     memcpy(p, &h, sizeof h);
 }
 DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return (dp_ld)((m & (dp_lb)a) | (~m & (dp_lb)b)); }
-DP_LANES_INLINE dp_lb ld_not(dp_lb m) { return ~m; }
 #endif
 
 /* ------- records of four words, one per lane -------

@@ -7,7 +7,7 @@
  *
  * The depths compared are those of samples, so "well behind" must cover what the surface does between
  * two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. Where that is
- * beyond the tile, a strip of samples stands for it, as wide as the margin within which polygons are binned. */
+ * beyond the tile, a strip of samples half a pixel outside stands for it, within the margin of binning. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
