@@ -11,6 +11,7 @@
 struct dp_tile_worker;
 struct dp_tile_polygon;
 struct dp_vertex;
+struct dp_crowd;
 struct dp_frame;
 struct dp_tile_rect;
 struct dp_brush;
@@ -39,8 +40,12 @@ typedef struct dp_kernels {
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* The unit normals of the tile's unsure triangles that are not hidden (normals.inc). */
     void (*normals)(struct dp_tile_worker *worker);
-    /* Unmarks edges whose pair of triangles is flat (flatten.inc). */
-    void (*flatten)(struct dp_tile_worker *worker);
+    /* Appends the edges of the tile's seen triangles to its list (edges.inc). */
+    void (*list_edges)(struct dp_tile_worker *worker);
+    /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong together (edges.inc). */
+    bool (*flatten)(struct dp_tile_worker *worker);
+    /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its; returns how many (meet.inc). */
+    uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */

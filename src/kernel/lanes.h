@@ -370,6 +370,34 @@ DP_LANES_INLINE dp_lf l_power_below(dp_lf v) {
 #endif
 }
 
+/* The numbers of the lanes that have a bit, ascending; others follow. */
+DP_LANES_INLINE dp_li li_order(uint32_t bits) {
+#if DP_LANES == 1
+    (void)bits;
+    return 0;
+#elif DP_LANES == 16
+    return (dp_li)_mm512_maskz_compress_epi32((__mmask16)bits, _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+#else
+    uint32_t order[DP_LANES + 1] = {0}, n = 0;
+    for (uint32_t l = 0; l < DP_LANES; l++) order[n] = l, n += bits >> l & 1;
+    return li_load(order);
+#endif
+}
+
+/* Lane l is v[order[l]]. */
+DP_LANES_INLINE dp_li li_permute(dp_li v, dp_li order) {
+#if DP_LANES == 1
+    (void)order;
+    return v;
+#elif DP_LANES == 8
+    return (dp_li)_mm256_permutevar8x32_epi32((__m256i)v, (__m256i)order);
+#elif DP_LANES == 16
+    return (dp_li)_mm512_permutexvar_epi32((__m512i)order, (__m512i)v);
+#else
+    return (dp_li){v[order[0]], v[order[1]], v[order[2]], v[order[3]]};
+#endif
+}
+
 /* Stores the lanes of `mask`. */
 DP_LANES_INLINE void l_store_some(float *p, dp_lm mask, dp_lf v) {
 #if DP_LANES == 16

@@ -6,9 +6,11 @@
  * line the positions themselves are compared. Of those that make no line that is not asked: two neighbours of
  * one vertex whose keys are equal would have to meet, which one mesh of a million triangles in a thousand has.
  *
- * Data structure: open addressing; edges have numbers in the order of the seen polygons, and a byte per number
- * tells whether the edge may be a line, so that what is found does not depend on the hash. Pairs are gathered and
- * told flat by many at once (kernel/flatten.inc). Invariant: at most half of the slots are used. Hidden
+ * Data structure: a list of edges (kernel/edges.inc), and open addressing of 8 bytes a slot, which is less than a name:
+ * a slot's number stands for the rest. So two edges may be taken for one, in one tile of a million; whoever looks at
+ * a pair sees that, and the table is filled again with the names themselves compared. Edges that met are pairs, told
+ * flat by many at once; a byte per listed edge tells whether it may be a line, so that what is found does not
+ * depend on the hash. Invariant: at most two of three slots are used. Hidden
  * polygons stay away: their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that
  * too. Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/edge_table.h"
@@ -17,19 +19,8 @@
 
 #include <string.h>
 
-/* A triangle's edges are numbered from four times its own number, those of other polygons one after the other. */
-enum { TRIANGLE_STEP = 4 };
-
-static uint32_t edge_hash(uint32_t ka, uint32_t kb) { return (ka + kb) * 0x9e3779b1u ^ (ka ^ kb); }
-
-static uint32_t place_of(uint32_t hash, uint32_t slots) { return (uint32_t)((uint64_t)hash * slots >> 32); }
-
-static bool is_of_triangles(const dp_tile_worker *w) { return !w->frame->polygons.firsts; }
-
 dp_edge_place dp_edge_place_of(const dp_tile_worker *w, uint32_t number) {
-    if (is_of_triangles(w)) return (dp_edge_place){number / TRIANGLE_STEP, number % TRIANGLE_STEP};
-    const uint32_t polygon = w->edge_owners[number];
-    return (dp_edge_place){polygon, number - w->first_edges[polygon]};
+    return (dp_edge_place){w->edges.polygon[number], w->edges.edge[number]};
 }
 
 static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
@@ -50,6 +41,11 @@ static ends ends_of(const dp_tile_worker *w, dp_edge_place at) {
                   dp_corner_vertex(polygons, first + (at.edge + 1 == n ? 0 : at.edge + 1))};
 }
 
+void dp_edge_ends(const dp_tile_worker *w, dp_edge_place edge, uint32_t *va, uint32_t *vb) {
+    const ends e = ends_of(w, edge);
+    *va = e.va, *vb = e.vb;
+}
+
 bool dp_edge_runs_between(const dp_tile_worker *w, dp_edge_place edge, uint32_t va, uint32_t vb) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const ends e = ends_of(w, edge);
@@ -57,74 +53,7 @@ bool dp_edge_runs_between(const dp_tile_worker *w, dp_edge_place edge, uint32_t 
            (same_position(polygons, e.va, vb) && same_position(polygons, e.vb, va));
 }
 
-/* ------- entering ------- */
-
-/* A third or later polygon at an edge. */
-static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
-    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u) ||
-        !DP_WORKER_RESERVE(w, slot_meetings, slot_meetings_cap, w->slot_count))
-        return;
-    dp_edge_slot *const s = &w->edge_slots[slot];
-    w->meetings[w->meeting_count] = (dp_meeting){s->first - 1, number, s->second & DP_SLOT_MORE ? w->slot_meetings[slot] : 0};
-    w->slot_meetings[slot] = ++w->meeting_count;
-    s->second |= DP_SLOT_MORE;
-}
-
-/* The second polygon at a slot that runs the edge as the first does, or a later one. */
-static void meet_otherwise(dp_tile_worker *w, uint32_t slot, uint32_t number) {
-    dp_edge_slot *const s = &w->edge_slots[slot];
-    if (s->second) {
-        add_meeting(w, slot, number);
-        return;
-    }
-    s->second = (number + 1) | DP_SLOT_SAME_WAY;
-    w->stats.edges_resolved++;
-}
-
-/* The table while it is filled, apart from the worker so that compilers keep it in registers. */
-typedef struct filling {
-    dp_tile_worker *w;
-    dp_edge_slot *slots;
-    uint8_t *marks;
-    uint32_t *first, *second;
-    uint32_t count; /* slots */
-    uint32_t pairs;
-} filling;
-
-/* Compilers know nothing of the value, so that they make no branches of what is computed from it. */
-#define OPAQUE(value) __asm__("" : "+r"(value))
-
-/* Is the slot taken by another edge? */
-static inline __attribute__((always_inline)) uint32_t is_other(const dp_edge_slot *slot, uint64_t name, uint64_t opposed) {
-    uint32_t other = (uint32_t)(slot->first != 0) & (uint32_t)(slot->name != opposed) & (uint32_t)(slot->name != name);
-    OPAQUE(other);
-    return other;
-}
-
-/* Enters edge `number` from the corner with key ka to that with kb, or meets the one that is there. Which of
- * the two it is cannot be foreseen, so no branch asks: both are written, selected. */
-static inline __attribute__((always_inline)) void enter(filling *f, uint32_t number, uint32_t ka, uint32_t kb) {
-    const uint64_t name = (uint64_t)ka << 32 | kb, opposed = name << 32 | name >> 32;
-    uint32_t s = place_of(edge_hash(ka, kb), f->count);
-    while (is_other(&f->slots[s], name, opposed)) s = s + 1 == f->count ? 0 : s + 1;
-    dp_edge_slot *const slot = &f->slots[s];
-    const uint64_t had = slot->name;
-    uint32_t first = slot->first, otherwise = (uint32_t)(first != 0) & ((uint32_t)(had != opposed) | (uint32_t)(slot->second != 0));
-    OPAQUE(otherwise);
-    if (otherwise) {
-        meet_otherwise(f->w, s, number);
-        return;
-    }
-    OPAQUE(first);
-    const uint32_t is_free = !first, mask = 0 - is_free;
-    slot->name = had ^ ((had ^ name) & (0 - (uint64_t)is_free));
-    slot->first = first | ((number + 1) & mask);
-    slot->second = (number + 1) & ~mask;
-    f->marks[number] = (uint8_t)is_free;
-    f->first[f->pairs] = first - 1;
-    f->second[f->pairs] = number;
-    f->pairs += !is_free;
-}
+/* ------- listing ------- */
 
 /* Keys come from the tile's points where these are the corners, else from the vertices. */
 static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, uint32_t first) {
@@ -132,122 +61,159 @@ static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32
     return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
 }
 
-static void enter_polygon(filling *f, uint32_t index, uint32_t number) {
-    const dp_tile_worker *const w = f->w;
+void dp_edge_list_polygon(dp_tile_worker *w, uint32_t index) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const dp_tile_polygon *const p = &w->polygons[index];
+    dp_edge_list *const list = &w->edges;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
     const uint32_t k0 = key_of(w, p, 0, first);
     uint32_t ka = k0;
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t next = i + 1 == n ? 0 : i + 1, kb = next ? key_of(w, p, next, first) : k0;
+        const uint32_t next = i + 1 == n ? 0 : i + 1, kb = next ? key_of(w, p, next, first) : k0, at = list->count;
         const bool real = ka != kb || !same_position(polygons, dp_corner_vertex(polygons, first + i),
                                                      dp_corner_vertex(polygons, first + next));
-        if (real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i)) enter(f, number + i, ka, kb);
+        list->polygon[at] = index, list->edge[at] = i;
+        list->from[at] = ka, list->name[at] = ka ^ kb, list->place[at] = ka + kb;
+        list->count += real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i);
         ka = kb;
     }
 }
 
-static void enter_polygons(filling *f) {
-    const dp_tile_worker *const w = f->w;
-    for (uint32_t i = 0; i < w->seen_count; i++) {
-        const uint32_t index = w->seen[i];
-        enter_polygon(f, index, is_of_triangles(w) ? TRIANGLE_STEP * index : w->first_edges[index]);
+static bool make_list(dp_tile_worker *w) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    dp_edge_list *const list = &w->edges;
+    size_t corners = 3 * (size_t)w->seen_count;
+    if (polygons->firsts) {
+        corners = 0;
+        for (uint32_t i = 0; i < w->seen_count; i++) corners += dp_corner_count(polygons, w->polygons[w->seen[i]].id);
     }
+    list->count = 0;
+    const size_t room = corners + DP_EDGES_ROOM;
+    if (room >= DP_SLOT_MORE || !DP_WORKER_RESERVE(w, edges.polygon, edges.polygon_cap, room) ||
+        !DP_WORKER_RESERVE(w, edges.edge, edges.edge_cap, room) || !DP_WORKER_RESERVE(w, edges.from, edges.from_cap, room) ||
+        !DP_WORKER_RESERVE(w, edges.name, edges.name_cap, room) || !DP_WORKER_RESERVE(w, edges.place, edges.place_cap, room))
+        return false;
+    if (!polygons->firsts && !polygons->edge_flags) w->frame->kernels->list_edges(w);
+    else
+        for (uint32_t i = 0; i < w->seen_count; i++) dp_edge_list_polygon(w, w->seen[i]);
+    return true;
 }
 
-/* The same for triangles without edge flags, most of which are not clipped and have three edges. */
-static void enter_triangles(filling *out) {
-    filling f = *out;
-    const dp_tile_worker *const w = f.w;
-    const uint32_t *const seen = w->seen, count = w->seen_count;
-    const dp_tile_polygon *const polygons = w->polygons;
-    const dp_vertex *const points = w->points;
+/* ------- entering ------- */
+
+static uint32_t place_of(uint32_t sum, uint32_t slots) { return (uint32_t)((uint64_t)(sum * 0x9e3779b1u) * slots >> 32); }
+
+static inline uint32_t met_at(dp_edge_slot slot) { return (uint32_t)(slot >> 32); }
+
+/* The edge of the list that came first to a slot. */
+static uint32_t first_of(const dp_tile_worker *w, uint32_t met) {
+    return met & DP_SLOT_PAIR ? w->pair_first[met & DP_SLOT_NUMBER] : met - 1;
+}
+
+static bool is_same_edge(const dp_edge_list *list, uint32_t a, uint32_t b) {
+    return list->name[a] == list->name[b] && (list->from[a] == list->from[b] || list->from[a] == (list->from[b] ^ list->name[b]));
+}
+
+/* A third or later polygon at an edge. */
+static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
+    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u) ||
+        !DP_WORKER_RESERVE(w, slot_meetings, slot_meetings_cap, w->slot_count))
+        return;
+    const uint32_t met = met_at(w->edge_slots[slot]);
+    w->meetings[w->meeting_count] = (dp_meeting){first_of(w, met), number, met & DP_SLOT_MORE ? w->slot_meetings[slot] : 0};
+    w->slot_meetings[slot] = ++w->meeting_count;
+    w->edge_slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
+}
+
+/* Compilers know nothing of the value, so that they make no branches of what is computed from it. */
+#define OPAQUE(value) __asm__("" : "+r"(value))
+
+/* Is the slot taken by another edge? */
+static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot, uint32_t name) {
+    uint32_t other = (uint32_t)(met_at(slot) != 0) & (uint32_t)((uint32_t)slot != name);
+    OPAQUE(other);
+    return other;
+}
+
+/* The slot of edge `number`, or a free one. Unless `exact` it may be that of another edge of equal name. */
+static inline __attribute__((always_inline)) uint32_t find_slot(const dp_tile_worker *w, const dp_edge_slot *slots, uint32_t count,
+                                                                uint32_t number, uint32_t sum, uint32_t name, const bool exact) {
+    uint32_t s = place_of(sum, count);
+    s += is_other(slots[s], name); /* the last slot is never the first choice */
+    while (is_other(slots[s], name) || (exact && slots[s] && !is_same_edge(&w->edges, first_of(w, met_at(slots[s])), number)))
+        s = s == count ? 0 : s + 1;
+    return s;
+}
+
+/* Enters all edges of the list: each takes a slot or meets the one that is there. Which of
+ * the two it is cannot be foreseen, so no branch asks: both are written, selected. */
+static inline __attribute__((always_inline)) void enter_all(dp_tile_worker *w, const bool exact) {
+    const dp_edge_list *const list = &w->edges;
+    const uint32_t *const sums = list->place, *const names = list->name, count = list->count, slot_count = w->slot_count - 1;
+    dp_edge_slot *const slots = w->edge_slots;
+    uint32_t *const first = w->pair_first, *const second = w->pair_second, pairs = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t index = seen[i], number = TRIANGLE_STEP * index, flags = polygons[index].flags;
-        const dp_vertex *const at = points + polygons[index].point;
-        const uint32_t k0 = at[0].key, k1 = at[1].key, k2 = at[2].key;
-        if ((flags & DP_POLYGON_CLIPPED) | (k0 == k1) | (k1 == k2) | (k2 == k0)) {
-            *out = f;
-            enter_polygon(out, index, number);
-            f = *out;
+        const uint32_t name = names[i];
+        const uint32_t at = find_slot(w, slots, slot_count, i, sums[i], name, exact), met = met_at(slots[at]);
+        if (met & DP_SLOT_PAIR) {
+            add_meeting(w, at, i);
             continue;
         }
-        if (flags & DP_POLYGON_NEAR) enter(&f, number, k0, k1);
-        if (flags & DP_POLYGON_NEAR << 1) enter(&f, number + 1, k1, k2);
-        if (flags & DP_POLYGON_NEAR << 2) enter(&f, number + 2, k2, k0);
+        uint32_t is_free = !met;
+        OPAQUE(is_free);
+        first[pairs] = met - 1, second[pairs] = i;
+        const uint32_t paired = DP_SLOT_PAIR | pairs, meets = paired ^ ((paired ^ (i + 1)) & (0 - is_free));
+        slots[at] = name | (dp_edge_slot)meets << 32;
+        pairs += 1 - is_free;
     }
-    *out = f;
-}
-
-/* ------- filling ------- */
-
-/* Numbers the edges of polygons that are not all triangles. */
-static bool number_edges(dp_tile_worker *w, size_t *corners) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    *corners = 0;
-    for (uint32_t i = 0; i < w->seen_count; i++) *corners += dp_corner_count(polygons, w->polygons[w->seen[i]].id);
-    if (*corners >= DP_SLOT_MORE || !DP_WORKER_RESERVE(w, first_edges, first_edges_cap, (size_t)w->polygon_count) ||
-        !DP_WORKER_RESERVE(w, edge_owners, edge_owners_cap, *corners))
-        return false;
-    uint32_t number = 0;
-    for (uint32_t i = 0; i < w->seen_count; i++) {
-        const uint32_t n = dp_corner_count(polygons, w->polygons[w->seen[i]].id);
-        w->first_edges[w->seen[i]] = number;
-        for (uint32_t e = 0; e < n; e++) w->edge_owners[number++] = w->seen[i];
-    }
-    return true;
+    w->edge_pairs = pairs;
 }
 
 static bool clear_table(dp_tile_worker *w) {
-    const bool triangles = is_of_triangles(w);
-    size_t corners = 3 * (size_t)w->seen_count;
-    if (!triangles && !number_edges(w, &corners)) return false;
-    const size_t numbers = triangles ? TRIANGLE_STEP * (size_t)w->polygon_count : corners;
-    const size_t slots = 2 * corners + 64, marks = (numbers + 8) / 8 * 8;
-    if (marks >= DP_SLOT_MORE || slots >= UINT32_MAX || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
+    const size_t count = w->edges.count, slots = count + count / 2 + 64, marks = (count + 8) / 8 * 8;
+    if (slots >= UINT32_MAX || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
         !DP_WORKER_RESERVE(w, edge_marks, edge_marks_cap, marks) ||
-        !DP_WORKER_RESERVE(w, pair_first, pair_first_cap, corners / 2 + DP_PAIRS_ROOM) ||
-        !DP_WORKER_RESERVE(w, pair_second, pair_second_cap, corners / 2 + DP_PAIRS_ROOM))
+        !DP_WORKER_RESERVE(w, pair_first, pair_first_cap, count / 2 + DP_EDGES_ROOM) ||
+        !DP_WORKER_RESERVE(w, pair_second, pair_second_cap, count / 2 + DP_EDGES_ROOM))
         return false;
     w->meeting_count = w->edge_pairs = 0;
     w->slot_count = (uint32_t)slots;
-    w->edge_mark_count = (uint32_t)marks;
     memset(w->edge_slots, 0, slots * sizeof *w->edge_slots);
-    memset(w->edge_marks, 0, marks);
+    memset(w->edge_marks, 1, count);
+    memset(w->edge_marks + count, 0, marks - count);
     return true;
 }
 
-/* Pairs of polygons that are not all triangles, one by one. */
-static void flatten_polygons(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->edge_pairs; i++) {
-        const float *const p = w->normals[w->edge_owners[w->pair_first[i]]];
-        const float *const q = w->normals[w->edge_owners[w->pair_second[i]]];
-        const float cosine = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
-        w->edge_marks[w->pair_first[i]] = !(cosine > w->frame->flat_cosine);
-    }
+/* Meetings are few, and seldom of another edge. */
+static bool are_meetings_sound(const dp_tile_worker *w) {
+    for (uint32_t i = 0; i < w->meeting_count; i++)
+        if (!is_same_edge(&w->edges, w->meetings[i].first, w->meetings[i].number)) return false;
+    return true;
+}
+
+static bool fill(dp_tile_worker *w, bool exact) {
+    if (!clear_table(w)) return !(w->failed = true);
+    if (exact) enter_all(w, true);
+    else enter_all(w, false);
+    return !w->failed;
 }
 
 bool dp_edge_table_fill(dp_tile_worker *w) {
-    if (!clear_table(w)) {
-        w->failed = true;
-        return false;
+    if (!make_list(w)) return !(w->failed = true);
+    if (!fill(w, false)) return false;
+    if (!w->frame->kernels->flatten(w) || !are_meetings_sound(w)) {
+        if (!fill(w, true)) return false;
+        w->frame->kernels->flatten(w);
     }
-    filling f = {w, w->edge_slots, w->edge_marks, w->pair_first, w->pair_second, w->slot_count, 0};
-    if (is_of_triangles(w) && !w->frame->polygons.edge_flags) enter_triangles(&f);
-    else enter_polygons(&f);
-    w->edge_pairs = f.pairs;
     w->stats.edges_resolved += w->edge_pairs;
-    if (is_of_triangles(w)) w->frame->kernels->flatten(w);
-    else flatten_polygons(w);
-    for (uint32_t i = 0; i < w->meeting_count; i++) w->edge_marks[w->meetings[i].first] = 1;
-    return !w->failed;
+    for (uint32_t i = 0; i < w->meeting_count; i++) w->edge_marks[w->meetings[i].first] = 1, w->edge_marks[w->meetings[i].number] = 0;
+    return true;
 }
 
 /* ------- taking ------- */
 
 uint32_t dp_edge_table_next(const dp_tile_worker *w, uint32_t number) {
-    while (number < w->edge_mark_count) {
+    while (number < w->edges.count) {
         uint64_t word;
         memcpy(&word, w->edge_marks + number / 8 * 8, sizeof word);
         if (!word) {
@@ -260,25 +226,18 @@ uint32_t dp_edge_table_next(const dp_tile_worker *w, uint32_t number) {
     return UINT32_MAX;
 }
 
-static uint32_t find_slot(const dp_tile_worker *w, uint32_t number, dp_edge_place at) {
-    const dp_tile_polygon *const p = &w->polygons[at.polygon];
-    const uint32_t first = dp_first_corner(&w->frame->polygons, p->id), n = dp_corner_count(&w->frame->polygons, p->id);
-    const uint32_t ka = key_of(w, p, at.edge, first), kb = key_of(w, p, at.edge + 1 == n ? 0 : at.edge + 1, first);
-    uint32_t s = place_of(edge_hash(ka, kb), w->slot_count);
-    while (w->edge_slots[s].first != number + 1) s = s + 1 == w->slot_count ? 0 : s + 1;
-    return s;
-}
-
 dp_edge_entry dp_edge_table_entry(const dp_tile_worker *w, uint32_t number) {
+    const dp_edge_list *const list = &w->edges;
     const dp_edge_place a = dp_edge_place_of(w, number);
-    const uint32_t at = find_slot(w, number, a);
-    const dp_edge_slot *const s = &w->edge_slots[at];
+    const uint32_t at = find_slot(w, w->edge_slots, w->slot_count - 1, number, list->place[number], list->name[number], true);
+    const uint32_t met = met_at(w->edge_slots[at]);
     const ends e = ends_of(w, a);
     dp_edge_entry out = {.va = e.va, .vb = e.vb, .a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
-    if (!s->second) return out;
-    const dp_edge_place b = dp_edge_place_of(w, (s->second & DP_SLOT_NUMBER) - 1);
+    if (!(met & DP_SLOT_PAIR)) return out;
+    const uint32_t second = w->pair_second[met & DP_SLOT_NUMBER];
+    const dp_edge_place b = dp_edge_place_of(w, second);
     out.b = b.polygon, out.edge_b = b.edge;
-    out.more = s->second & DP_SLOT_MORE ? w->slot_meetings[at] : 0;
-    out.opposed = !(s->second & DP_SLOT_SAME_WAY);
+    out.more = met & DP_SLOT_MORE ? w->slot_meetings[at] : 0;
+    out.opposed = list->from[second] == (list->from[number] ^ list->name[number]);
     return out;
 }

@@ -28,8 +28,9 @@ uint32_t dp_edge_table_next(const dp_tile_worker *worker, uint32_t number);
 /* What met at such an edge. */
 dp_edge_entry dp_edge_table_entry(const dp_tile_worker *worker, uint32_t number);
 
-/* Whose edge a number is; and does it run between these vertices, one way or the other? */
+/* Whose edge a number is; its vertices, in that polygon's direction; and does it run between these vertices, one way or the other? */
 dp_edge_place dp_edge_place_of(const dp_tile_worker *worker, uint32_t number);
+void dp_edge_ends(const dp_tile_worker *worker, dp_edge_place edge, uint32_t *va, uint32_t *vb);
 bool dp_edge_runs_between(const dp_tile_worker *worker, dp_edge_place edge, uint32_t va, uint32_t vb);
 
 #endif

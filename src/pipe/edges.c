@@ -31,7 +31,7 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
     if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                        dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
         return;
-    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = w->polygons[e->b].id, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
+    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
                           &spine);
 }
 
@@ -107,10 +107,21 @@ static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polyg
     return f;
 }
 
-/* Keeps the flap that is nearest to the eye on its side. */
-static void offer_flap(flap best[2], uint32_t count[2], flap f) {
+/* Keeps the flap that is nearest to the eye on its side; of those in one place, the first in the source. */
+static void offer_flap(const dp_tile_worker *w, flap best[2], uint32_t count[2], flap f) {
     const int side = f.side < 0;
-    if (!count[side]++ || f.rise > best[side].rise) best[side] = f;
+    const flap had = best[side];
+    const bool is_earlier = count[side] && f.rise == had.rise && w->polygons[f.polygon].id < w->polygons[had.polygon].id;
+    if (!count[side]++ || f.rise > had.rise || is_earlier) best[side] = f;
+}
+
+/* The edge as these two have it, the first in the source first; `q` may be none. */
+static dp_edge_entry owned_by_flaps(const dp_tile_worker *w, const flap *p, const flap *q) {
+    const bool swap = q && w->polygons[q->polygon].id < w->polygons[p->polygon].id;
+    const flap *const a = swap ? q : p, *const b = swap ? p : q;
+    dp_edge_entry e = {.a = a->polygon, .edge_a = a->edge, .b = b ? b->polygon : UINT32_MAX, .edge_b = b ? b->edge : 0};
+    dp_edge_ends(w, (dp_edge_place){e.a, e.edge_a}, &e.va, &e.vb);
+    return e;
 }
 
 /* Edges where the winding disagrees or more than two polygons meet: what the eye sees decides. The
@@ -124,23 +135,25 @@ static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
         return;
     flap best[2] = {{0}};
     uint32_t count[2] = {0, 0};
-    offer_flap(best, count, make_flap(w, &s, e->a, e->edge_a));
-    offer_flap(best, count, make_flap(w, &s, e->b, e->edge_b));
+    offer_flap(w, best, count, make_flap(w, &s, e->a, e->edge_a));
+    offer_flap(w, best, count, make_flap(w, &s, e->b, e->edge_b));
     for (uint32_t i = e->more; i; i = w->meetings[i - 1].next) {
         const dp_edge_place at = dp_edge_place_of(w, w->meetings[i - 1].number);
-        offer_flap(best, count, make_flap(w, &s, at.polygon, at.edge));
+        offer_flap(w, best, count, make_flap(w, &s, at.polygon, at.edge));
     }
     if (!count[0] || !count[1]) {
         const flap f = best[count[0] ? 0 : 1];
+        const dp_edge_entry owned = owned_by_flaps(w, &f, NULL);
         dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[f.polygon].id);
         if (!f.front) normal = dp_scale(normal, -1);
-        add_line(w, e, DP_LINE_SILHOUETTE, normal);
+        add_line(w, &owned, DP_LINE_SILHOUETTE, normal);
         return;
     }
     if (!best[0].front && !best[1].front) return;
+    const dp_edge_entry owned = owned_by_flaps(w, &best[0], &best[1]);
     const dp_fold fold = dp_fold_seen(w->frame, w->polygons[best[0].polygon].id, best[0].front,
                                       w->polygons[best[1].polygon].id, best[1].front, best[1].edge);
-    add_fold(w, e, &fold);
+    add_fold(w, &owned, &fold);
 }
 
 /* Every edge of every polygon is left to emerge (dp_style.edge_table_off). */

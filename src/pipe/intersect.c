@@ -7,18 +7,13 @@
  * suspects, all pairs of polygons are then tested exactly, and each crossing segment becomes a
  * candidate line like an edge, with the same probes.
  *
- * Data structure: polygons in lists by suspect pixel (`crowd`); a set of pairs that were tested. */
+ * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that what may meet
+ * one of them follows soon after it; bounding boxes are compared many at once (kernel/meet.inc). */
+#include "kernel/kernels.h"
 #include "pipe/crossing.h"
 #include "pipe/tile.h"
 
 #include <string.h>
-
-typedef struct dp_crowd {
-    dp_f4 least, most; /* x, y (px, tile space), d, 0 of a polygon's points */
-    uint32_t polygon;
-    uint32_t next;     /* in the same pixel, or UINT32_MAX */
-    uint8_t x0, y0;    /* first pixel of its box */
-} dp_crowd;
 
 /* How many corner positions two polygons share (their keys are hashes: a false match costs one
  * crossing in four thousand million). */
@@ -107,37 +102,6 @@ static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_T
 
 /* ------- pairs ------- */
 
-static bool grow_pairs(dp_tile_worker *w) {
-    const uint32_t slots = w->pair_slots ? 2 * w->pair_slots : 1024;
-    uint64_t *const pairs = dp_alloc_zeroed(&w->memory, slots * sizeof *pairs);
-    if (!pairs) {
-        w->failed = true;
-        return false;
-    }
-    for (uint32_t i = 0; i < w->pair_slots; i++) {
-        if (!w->pairs[i]) continue;
-        uint32_t s = (uint32_t)(w->pairs[i] * 0x9e3779b97f4a7c15u >> 32) & (slots - 1);
-        while (pairs[s]) s = (s + 1) & (slots - 1);
-        pairs[s] = w->pairs[i];
-    }
-    dp_free(&w->memory, w->pairs);
-    w->pairs = pairs;
-    w->pair_slots = slots;
-    return true;
-}
-
-/* Adds a pair to those tested; false when it was there. */
-static bool is_new_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
-    if (2 * (w->pair_count + 1) > w->pair_slots && !grow_pairs(w)) return false;
-    const uint64_t pair = (uint64_t)(a + 1) << 32 | (b + 1);
-    uint32_t s = (uint32_t)(pair * 0x9e3779b97f4a7c15u >> 32) & (w->pair_slots - 1);
-    for (; w->pairs[s]; s = (s + 1) & (w->pair_slots - 1))
-        if (w->pairs[s] == pair) return false;
-    w->pairs[s] = pair;
-    w->pair_count++;
-    return true;
-}
-
 /* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes, as above. Others, and
  * what is clipped, have none, and take `shared_corners`. */
 static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t *of_p, uint32_t *of_q) {
@@ -174,7 +138,7 @@ static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const 
 
 static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
-    if (are_beside(w, p, q) || shared_corners(w->frame, p->id, q->id) > 1 || !is_new_pair(w, a, b)) return;
+    if (are_beside(w, p, q) || shared_corners(w->frame, p->id, q->id) > 1) return;
     dp_vec3 from, to, normal;
     dp_spine spine;
     if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
@@ -185,20 +149,7 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
                           &spine);
 }
 
-/* ------- crowds ------- */
-
-static dp_crowd bounds(const dp_tile_worker *w, uint32_t index) {
-    const dp_tile_polygon *const p = &w->polygons[index];
-    const dp_vertex *const v = w->points + p->point;
-    dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
-    for (uint32_t i = 1; i < p->points; i++) {
-        const dp_f4 at = {v[i].x, v[i].y, v[i].d, 0};
-        least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
-    }
-    return (dp_crowd){least, most, index, UINT32_MAX, p->x0, p->y0};
-}
-
-static bool are_apart(const dp_crowd *p, const dp_crowd *q) { return dp_any((p->most < q->least) | (q->most < p->least)); }
+/* ------- the crowd ------- */
 
 /* Pixels by rows, and which rows hold any. */
 typedef struct pixels {
@@ -224,54 +175,83 @@ static inline bool comes_near(const dp_tile_polygon *p, const pixels *near) {
     return false;
 }
 
-/* Tests a polygon against those that came before to pixel (x, y). `met_left`, `met_above`: all pairs of the pixel
- * before in the row, or above, that both cover were tested there. */
-static void test_against(dp_tile_worker *w, const dp_crowd *self, uint32_t head, uint32_t x, uint32_t y, bool met_left, bool met_above) {
-    for (uint32_t i = head; i != UINT32_MAX; i = w->crowd[i].next) {
-        const dp_crowd *const other = &w->crowd[i];
-        if ((met_left & (other->x0 < x)) | (met_above & (other->y0 < y)) || are_apart(other, self)) continue;
-        test_pair(w, other->polygon, self->polygon);
+/* Suspects' surroundings, for front faces and for back faces. */
+typedef struct surroundings {
+    pixels front, back;
+    bool mixed; /* back faces have any */
+} surroundings;
+
+static const pixels *pixels_for(const surroundings *near, const dp_tile_polygon *p) {
+    return p->flags & DP_POLYGON_FRONT ? &near->front : &near->back;
+}
+
+/* Do both polygons' boxes hold one of the pixels that are theirs? */
+static bool meet_near(const surroundings *near, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+    const uint64_t span = dp_box_span(p) & dp_box_span(q);
+    const pixels *const of_p = pixels_for(near, p), *const of_q = pixels_for(near, q);
+    const uint32_t first = p->y0 > q->y0 ? p->y0 : q->y0, last = p->y1 < q->y1 ? p->y1 : q->y1;
+    for (uint32_t y = first; y <= last; y++)
+        if (of_p->row[y] & of_q->row[y] & span) return true;
+    return false;
+}
+
+/* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their boxes. */
+static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
+    dp_crowd *const crowd = &w->crowd;
+    crowd->count = 0;
+    for (uint32_t i = 0; i < w->seen_count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
+        if (!(p->flags & DP_POLYGON_TOUCHES) || !(near->mixed || p->flags & DP_POLYGON_FRONT)) continue;
+        if (!comes_near(p, pixels_for(near, p))) continue;
+        polygon[crowd->count++] = w->seen[i];
+        rows[p->y0 + 1]++;
+    }
+    const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
+    return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) && DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
+           DP_WORKER_RESERVE(w, crowd.bounds, crowd.bounds_cap, DP_CROWD_BOUNDS * room);
+}
+
+static void put_bounds(const dp_tile_worker *w, const dp_tile_polygon *p, float *bounds, size_t stride) {
+    const dp_vertex *const v = w->points + p->point;
+    dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
+    for (uint32_t i = 1; i < p->points; i++) {
+        const dp_f4 at = {v[i].x, v[i].y, v[i].d, 0};
+        least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
+    }
+    for (uint32_t k = 0; k < 3; k++) bounds[k * stride] = least[k], bounds[(3 + k) * stride] = most[k];
+}
+
+/* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row starts. */
+static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
+    dp_crowd *const crowd = &w->crowd;
+    uint32_t next[DP_TILE];
+    crowd->stride = crowd->count + DP_CROWD_ROOM;
+    for (int y = 0; y < DP_TILE; y++) next[y] = rows[y], rows[y + 1] += rows[y];
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[polygon[i]];
+        const uint32_t at = next[p->y0]++;
+        crowd->polygon[at] = polygon[i];
+        put_bounds(w, p, crowd->bounds + at, crowd->stride);
     }
 }
 
-/* Puts a polygon into the suspect pixels of its box and tests it against those already there. `all` are the pixels
- * that whatever faces joins. */
-static void join_crowds(dp_tile_worker *w, uint32_t index, const uint64_t rows[DP_TILE], const uint64_t all[DP_TILE],
-                        uint32_t heads[DP_TILE][DP_TILE], uint32_t *count) {
-    const dp_tile_polygon *const p = &w->polygons[index];
-    const uint64_t span = dp_box_span(p);
-    dp_crowd self = bounds(w, index);
-    for (uint32_t y = p->y0; y <= p->y1; y++)
-        for (uint64_t bits = rows[y] & span; bits && !w->failed; bits &= bits - 1) {
-            const uint32_t x = (uint32_t)__builtin_ctzll(bits);
-            uint32_t *const head = &heads[y][x];
-            const bool met_left = x > p->x0 && all[y] >> (x - 1) & 1, met_above = y > p->y0 && all[y - 1] >> x & 1;
-            test_against(w, &self, *head, x, y, met_left, met_above);
-            if (!DP_WORKER_RESERVE(w, crowd, crowd_cap, *count + 1u)) return;
-            self.next = *head;
-            w->crowd[*count] = self;
-            *head = (*count)++;
-        }
-}
-
+/* Each pair is tested once, when its upper polygon's turn has come, or the first one's of a row. */
 void dp_tile_intersections(dp_tile_worker *w) {
-    pixels front, back;
-    uint32_t heads[DP_TILE][DP_TILE], count = 0;
+    surroundings near;
     keep_seen_back_faces(w, w->suspects[1]);
-    const bool mixed = look_around(w->suspects[1], &back);
+    near.mixed = look_around(w->suspects[1], &near.back);
     for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
     dp_drop_lone(w->suspects[0]);
-    if (!look_around(w->suspects[0], &front)) return;
-    uint64_t all[DP_TILE];
-    for (int y = 0; y < DP_TILE; y++) all[y] = front.row[y] & (mixed ? back.row[y] : ~(uint64_t)0);
-    memset(heads, 0xff, sizeof heads);
-    if (w->pair_slots) memset(w->pairs, 0, w->pair_slots * sizeof *w->pairs);
-    w->pair_count = 0;
-    for (uint32_t i = 0; i < w->seen_count && !w->failed; i++) {
-        const uint32_t index = w->seen[i];
-        const dp_tile_polygon *const p = &w->polygons[index];
-        if (!(p->flags & DP_POLYGON_TOUCHES) || !(mixed || p->flags & DP_POLYGON_FRONT)) continue;
-        const pixels *const near = p->flags & DP_POLYGON_FRONT ? &front : &back;
-        if (comes_near(p, near)) join_crowds(w, index, near->row, all, heads, &count);
+    if (!look_around(w->suspects[0], &near.front)) return;
+    uint32_t rows[DP_TILE + 1] = {0};
+    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap, (size_t)w->seen_count) || !list_crowd(w, &near, w->crowd.listed, rows)) return;
+    sort_crowd(w, w->crowd.listed, rows);
+    for (uint32_t i = 0; i < w->crowd.count && !w->failed; i++) {
+        const uint32_t a = w->crowd.polygon[i];
+        const uint32_t met = w->frame->kernels->meet(&w->crowd, i, rows[w->polygons[a].y1 + 1]);
+        for (uint32_t k = 0; k < met; k++) {
+            const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
+            if (meet_near(&near, &w->polygons[a], &w->polygons[b])) test_pair(w, a < b ? a : b, a < b ? b : a);
+        }
     }
 }

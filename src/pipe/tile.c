@@ -36,15 +36,20 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->edge_marks);
     dp_free(&memory, worker->pair_first);
     dp_free(&memory, worker->pair_second);
-    dp_free(&memory, worker->first_edges);
-    dp_free(&memory, worker->edge_owners);
+    dp_free(&memory, worker->edges.polygon);
+    dp_free(&memory, worker->edges.edge);
+    dp_free(&memory, worker->edges.from);
+    dp_free(&memory, worker->edges.name);
+    dp_free(&memory, worker->edges.place);
     dp_free(&memory, worker->slot_meetings);
     dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
     dp_free(&memory, worker->loose);
     dp_free(&memory, worker->lookups);
-    dp_free(&memory, worker->crowd);
-    dp_free(&memory, worker->pairs);
+    dp_free(&memory, worker->crowd.polygon);
+    dp_free(&memory, worker->crowd.bounds);
+    dp_free(&memory, worker->crowd.met);
+    dp_free(&memory, worker->crowd.listed);
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);
     dp_free(&memory, worker->sorted.x);
@@ -66,9 +71,10 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
     return sizeof *w + w->winner_cap * sizeof *w->winner + (w->ids_cap + w->backs_cap) * sizeof *w->ids +
            w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
            w->points_cap * sizeof *w->points + w->edge_marks_cap + w->meetings_cap * sizeof *w->meetings +
-           (w->unsure_cap + w->pair_first_cap + w->pair_second_cap + w->first_edges_cap + w->edge_owners_cap) * 4 +
+           (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
+           (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap + w->edges.place_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
-           w->seen_cap * sizeof *w->seen + w->candidates_cap * sizeof *w->candidates +
+           (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.met_cap + w->crowd.listed_cap) * 4 + w->seen_cap * sizeof *w->seen + w->candidates_cap * sizeof *w->candidates +
            w->probes_cap * sizeof *w->probes +
            (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap + w->sorted.own_b_cap) * 4 + w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);

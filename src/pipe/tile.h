@@ -42,28 +42,34 @@ typedef struct dp_tile_polygon {
 
 _Static_assert(sizeof(dp_tile_polygon) == 32, "kernel/assemble.inc writes it as two vectors");
 
-/* A slot of the tile's table of edges (edge_table.c): which polygons met there. */
-typedef struct dp_edge_slot {
-    uint64_t name;   /* the keys of both ends, as the polygon runs it that came first */
-    uint32_t first;  /* 1 + that polygon's number of the edge; 0: the slot is free */
-    uint32_t second; /* 1 + the number that the second has, 0 while the first is alone; and DP_SLOT_… */
-} dp_edge_slot;
+/* Edges of seen polygons, each member for itself, with room for one vector beyond the last. */
+typedef struct dp_edge_list {
+    uint32_t *polygon, *edge; /* tile polygon; number of the corner that the edge starts from */
+    uint32_t *from;           /* that corner's key */
+    uint32_t *name, *place;   /* exclusive or, and sum, of the keys of both ends */
+    size_t polygon_cap, edge_cap, from_cap, name_cap, place_cap;
+    uint32_t count;
+} dp_edge_list;
 
-#define DP_SLOT_SAME_WAY (1u << 31) /* both run the edge the same way: the winding disagrees */
-#define DP_SLOT_MORE (1u << 30)     /* there are meetings beyond the second */
+enum { DP_EDGES_ROOM = 16 };
+
+/* A slot of the tile's table of edges (edge_table.c): an edge's name, and above it which of the list met there. 0: the
+ * slot is free; else 1 + an edge that is alone, or DP_SLOT_PAIR + number of a pair, and DP_SLOT_MORE. */
+typedef uint64_t dp_edge_slot;
+
+#define DP_SLOT_PAIR (1u << 31)
+#define DP_SLOT_MORE (1u << 30) /* there are meetings beyond the second */
 #define DP_SLOT_NUMBER (DP_SLOT_MORE - 1)
 
 /* A third or later polygon at an edge. */
 typedef struct dp_meeting {
-    uint32_t first, number; /* of the edge, as the first polygon and as this one has it */
+    uint32_t first, number; /* of the edge in the list, as the first polygon and as this one has it */
     uint32_t next;          /* 1 + meeting, 0: none */
 } dp_meeting;
 
 /* What stands for the normals of back faces: its square is more than any cosine. */
 #define DP_AWAY 2
 static const float dp_away[4] = {0, 0, 0, DP_AWAY};
-
-enum { DP_PAIRS_ROOM = 16 }; /* so many pairs may be read beyond the last */
 
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
@@ -94,6 +100,18 @@ typedef struct dp_sorted_probes {
     uint32_t first[DP_TILE * DP_TILE + 1];   /* by pixel */
     float least[DP_TILE * DP_TILE];          /* limit, by pixel that holds any */
 } dp_sorted_probes;
+
+/* Polygons around pixels where faces may cross (intersect.c), sorted by the first row of their boxes. */
+typedef struct dp_crowd {
+    uint32_t *polygon;
+    float *bounds; /* least x, y (px, tile space) and d, then the most, `stride` floats from one to the next */
+    uint32_t *met; /* those that one of them may cross */
+    uint32_t *listed;
+    size_t polygon_cap, bounds_cap, met_cap, listed_cap;
+    uint32_t count, stride;
+} dp_crowd;
+
+enum { DP_CROWD_BOUNDS = 6, DP_CROWD_ROOM = 16 };
 
 /* Points in lists by the tile's pixels. */
 typedef struct dp_pixel_lists {
@@ -137,33 +155,30 @@ struct dp_tile_worker {
     dp_tile_polygon *polygons;
     bool finds_edges;      /* by the table of edges: normals are wanted */
     float plane_normal[3][3]; /* what d0, dx, dy (perspective) or -1, dx, dy of a plane are times to give its normal */
-    float (*normals)[4];   /* by polygon: unit normal and 0, or dp_away (kernel/flatten.inc) */
+    float (*normals)[4];   /* by polygon: unit normal and 0, or dp_away (kernel/edges.inc) */
     uint32_t *unsure;      /* front faces whose normals are still to be made */
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     uint32_t *seen; /* polygons that are not hidden, ascending */
+    dp_edge_list edges;
     dp_edge_slot *edge_slots;
-    uint8_t *edge_marks;     /* by number of an edge: it may be a line */
-    uint32_t *pair_first, *pair_second; /* edges, as either of two polygons has them that met there */
-    uint32_t *first_edges, *edge_owners; /* where not all are triangles: by polygon, number; by number, polygon */
+    uint8_t *edge_marks;     /* by number in the list: it may be a line */
+    uint32_t *pair_first, *pair_second; /* edges of the list: one as either of two polygons has it */
     dp_meeting *meetings;
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, meetings_cap, slots_cap;
-    size_t unsure_cap, edge_marks_cap, pair_first_cap, pair_second_cap, first_edges_cap, edge_owners_cap;
+    size_t unsure_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
     uint32_t undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     uint32_t polygon_count, point_count, seen_count, unsure_count, meeting_count, slot_count;
-    uint32_t edge_pairs, edge_mark_count;
+    uint32_t edge_pairs;
     uint32_t candidate_count, probe_count;
     size_t piece_count;
 
     uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
-    struct dp_crowd *crowd;     /* intersect.c: polygons by suspect pixel */
-    uint64_t *pairs;            /* pairs of polygons that were tested; open addressing, 0: free */
-    size_t crowd_cap;
-    uint32_t pair_slots, pair_count;
+    dp_crowd crowd;
 
     dp_sorted_probes sorted;
     dp_pixel_lists lookup_pixels;
@@ -238,6 +253,9 @@ static inline bool dp_tile_edge_is_near(const dp_tile_worker *w, const dp_tile_p
     if (p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED)) return p->flags & (uint32_t)DP_POLYGON_NEAR << i;
     return dp_tile_edge_reaches(w, p, i, DP_BESIDE);
 }
+
+/* Appends a polygon's edges to the list, which has room (edge_table.c). */
+void dp_edge_list_polygon(dp_tile_worker *worker, uint32_t polygon);
 
 /* Does the edge that starts at this corner bound the polygon, or split it? */
 static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
