@@ -34,8 +34,8 @@ typedef struct dp_kernels {
     void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count, bool backs);
     /* Keeps those triangles that the tile's front faces do not hide; returns how many (cull.inc). */
     uint32_t (*cull)(struct dp_tile_worker *worker, uint32_t *ids, uint32_t count);
-    /* Lists those of the tile's polygons that are not hidden, and flags the others (cull.inc). */
-    void (*see)(struct dp_tile_worker *worker);
+    /* Lists those of the tile's polygons that are not hidden, and flags the others; all unless `culling` (cull.inc). */
+    void (*see)(struct dp_tile_worker *worker, bool culling);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* The unit normals of the tile's unsure triangles that are not hidden (normals.inc). */

@@ -329,6 +329,19 @@ DP_LANES_INLINE dp_lm lm_of_bits(uint32_t bits) {
 #endif
 }
 
+/* ------- the same bits ------- */
+
+DP_LANES_INLINE dp_li li_of_bits(dp_lf v) {
+    dp_li bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits;
+}
+DP_LANES_INLINE dp_lf l_of_bits(dp_li v) {
+    dp_lf value;
+    memcpy(&value, &v, sizeof value);
+    return value;
+}
+
 /* ------- 16 bits within words ------- */
 
 DP_LANES_INLINE dp_lf l_from_int(dp_li v) {

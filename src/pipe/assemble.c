@@ -140,6 +140,8 @@ void dp_tile_assemble(dp_tile_worker *w) {
         dp_tile_find_farthest(w);
         return;
     }
+    w->keys_stride = count + back_count + DP_SEEN_ROOM;
+    if (!DP_WORKER_RESERVE(w, keys, keys_cap, 3 * (size_t)w->keys_stride)) return;
     kernels->assemble(w, w->ids, count, false);
     w->undrawn = w->polygon_count;
     dp_tile_find_farthest(w);

@@ -89,10 +89,17 @@ bool dp_tile_is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
     return hides(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
 }
 
-void dp_tile_faces(dp_tile_worker *w) {
+bool dp_tile_see(dp_tile_worker *w, bool culling) {
+    const size_t room = (size_t)w->polygon_count + DP_SEEN_ROOM;
     w->seen_count = 0;
-    if (!DP_WORKER_RESERVE(w, seen, seen_cap, (size_t)w->polygon_count + 1)) return;
-    w->frame->kernels->see(w);
+    if (!DP_WORKER_RESERVE(w, seen, seen_cap, room) || !DP_WORKER_RESERVE(w, seen_words, seen_words_cap, DP_SEEN_MEMBERS * room)) return false;
+    w->seen_stride = (uint32_t)room;
+    w->frame->kernels->see(w, culling);
+    return true;
+}
+
+void dp_tile_faces(dp_tile_worker *w) {
+    if (!dp_tile_see(w, true)) return;
     for (uint32_t i = 0; i < w->seen_count && w->seen[i] < w->undrawn; i++) {
         const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, w->seen[i]);

@@ -199,13 +199,11 @@ void dp_tile_fringe_two_passes(dp_tile_worker *w) {
 }
 
 void dp_tile_fringe_one_pass(dp_tile_worker *w) {
-    w->seen_count = 0;
-    if (!begin(w) || !DP_WORKER_RESERVE(w, seen, seen_cap, (size_t)w->polygon_count)) return;
+    if (!begin(w) || !dp_tile_see(w, false)) return; /* nothing is known to be hidden */
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, i);
         add_fringes(w, p->id);
-        w->seen[w->seen_count++] = i; /* nothing is known to be hidden */
     }
     dp_tile_surface(w);
     put_ink(w);

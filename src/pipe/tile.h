@@ -96,9 +96,10 @@ typedef struct dp_sorted_probes {
     float *x, *y, *limit;     /* limit is infinite once it is hidden */
     uint32_t *own_a, *own_b;
     size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
-    uint64_t row[DP_TILE + 4];               /* pixels that hold any; some rows more that hold none */
-    uint32_t first[DP_TILE * DP_TILE + 1];   /* by pixel */
-    float least[DP_TILE * DP_TILE];          /* limit, by pixel that holds any */
+    uint64_t row[DP_TILE + 4];                       /* pixels that hold any; some rows more that hold none */
+    uint32_t first[DP_TILE * DP_TILE + 1];           /* by pixel */
+    float least[DP_TILE * DP_TILE + DP_TILE + 16];   /* limit, by pixel, infinite where there is none; a row and a vector more */
+    float window[DP_TILE * DP_TILE];                 /* kernel/hide.inc */
 } dp_sorted_probes;
 
 /* Polygons around pixels where faces may cross (intersect.c), sorted by the first row of their boxes. */
@@ -134,6 +135,9 @@ typedef float dp_farthest[2][2][DP_RINGED][DP_RINGED]; /* [sy][sx][by][bx] */
 enum { DP_STRIP_SIDES = 4, DP_STRIP = 2 * DP_TILE };
 typedef float dp_strip[DP_STRIP_SIDES][DP_STRIP];
 
+/* What is wanted of all seen polygons one after the other: box, flags and `nearest` of the records, keys of triangles. */
+enum { DP_SEEN_BOX, DP_SEEN_FLAGS, DP_SEEN_NEAREST, DP_SEEN_KEYS, DP_SEEN_MEMBERS = DP_SEEN_KEYS + 3, DP_SEEN_ROOM = 16 };
+
 struct dp_tile_worker {
     const dp_frame *frame;
     dp_sampling sampling;
@@ -158,7 +162,9 @@ struct dp_tile_worker {
     float (*normals)[4];   /* by polygon: unit normal and 0, or dp_away (kernel/edges.inc) */
     uint32_t *unsure;      /* front faces whose normals are still to be made */
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
+    uint32_t *keys; /* of the triangles' corners, by corner: `keys_stride` from one to the next */
     uint32_t *seen; /* polygons that are not hidden, ascending */
+    uint32_t *seen_words; /* dp_seen_words */
     dp_edge_list edges;
     dp_edge_slot *edge_slots;
     uint8_t *edge_marks;     /* by number in the list: it may be a line */
@@ -172,6 +178,8 @@ struct dp_tile_worker {
     size_t unsure_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
     uint32_t undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
+    size_t keys_cap, seen_words_cap;
+    uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count, meeting_count, slot_count;
     uint32_t edge_pairs;
     uint32_t candidate_count, probe_count;
@@ -220,6 +228,7 @@ void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c; draws faces, but for … */
 void dp_tile_find_farthest(dp_tile_worker *worker);                        /* cull.c */
 void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c; … some back faces */
+bool dp_tile_see(dp_tile_worker *worker, bool culling);                    /* cull.c: lists what is not hidden, or all */
 void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
 void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
 void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
@@ -299,6 +308,11 @@ static inline uint32_t dp_pixel_push(dp_pixel_lists *lists, float x, float y, ui
 /* The pixels of row y that a polygon's box covers. */
 static inline uint64_t dp_box_span(const dp_tile_polygon *polygon) {
     return (~(uint64_t)0 >> (63 - (polygon->x1 - polygon->x0))) << polygon->x0;
+}
+
+/* Of seen polygon i, member DP_SEEN_…; room for a vector lies beyond the last. */
+static inline uint32_t *dp_seen_words(const dp_tile_worker *w, uint32_t member) {
+    return w->seen_words + (size_t)member * w->seen_stride;
 }
 
 /* Does a polygon cover a point of the tile? Of two polygons that share an edge exactly one does (probes.c). */
