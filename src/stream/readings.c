@@ -15,22 +15,25 @@ typedef struct job {
     dp_reading reading;
 } job;
 
+/* Written without asking, and counted where it is meant: what comes next cannot be foretold. */
 static void leave_covering(const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, dp_chunk_rest *rest) {
-    rest->covering = 0;
+    uint32_t left = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
-        if (!(chunk->state[t] & DP_TRIANGLE_COVERS)) continue;
-        memcpy(rest->corners[rest->covering], triangles->corners + t * triangles->stride, sizeof *rest->corners);
-        rest->numbers[rest->covering++] = number + t;
+        memcpy(rest->corners[left], triangles->corners + t * triangles->stride, sizeof *rest->corners);
+        rest->numbers[left] = number + t;
+        left += (chunk->state[t] & DP_TRIANGLE_COVERS) != 0;
     }
+    rest->covering = left;
 }
 
-static void leave_kept(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, dp_chunk_rest *rest) {
+static void leave_kept(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+                       dp_chunk_rest *rest) {
     rest->kept_count = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
         if (!(chunk->lines[t] | chunk->alone[t])) continue;
         dp_kept_triangle *const k = &rest->kept[rest->kept_count];
+        dp_triangle_corners(triangles, t, k->corners);
         for (int i = 0; i < 3; i++) {
-            memcpy(k->corners + 3 * i, chunk->position[chunk->corner[3 * t + (uint32_t)i]], 3 * sizeof(float));
             const bool line = chunk->lines[t] >> i & 1, alone = chunk->alone[t] >> i & 1;
             k->edges[i] = line ? DP_EDGE_LINE : alone ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
         }
@@ -48,7 +51,9 @@ static void leave_crowd(const dp_stream_draw *stream, const dp_chunk *chunk, uin
     rest->kept_count = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
         if (!(chunk->state[t] & DP_TRIANGLE_CROWD)) continue;
-        rest->pixels[rest->kept_count] = dp_chunk_pixel(chunk, t, &stream->view);
+        float corners[9];
+        dp_triangle_corners(triangles, t, corners);
+        rest->pixels[rest->kept_count] = dp_chunk_pixel(corners, &stream->view);
         dp_kept_triangle *const k = &rest->kept[rest->kept_count++];
         *k = (dp_kept_triangle){.number = number + t, .polygon = dp_input_polygon(&stream->input, number + t)};
         memcpy(k->corners, triangles->corners + t * triangles->stride, sizeof k->corners);
@@ -59,11 +64,13 @@ static void look_for_fans(const dp_stream_draw *stream, const dp_chunk *chunk, u
                           dp_stream_worker *own) {
     for (uint32_t t = 0; stream->fan_count && t < chunk->count; t++) {
         if (!(chunk->state[t] & DP_TRIANGLE_COVERS)) continue;
-        float corners[9];
-        for (uint32_t i = 0; i < 3; i++) memcpy(corners + 3 * i, chunk->position[chunk->corner[3 * t + i]], 3 * sizeof(float));
-        for (uint32_t e = 0; e < 3; e++)
-            if (!triangles->flags || triangles->flags[t] >> e & 1)
-                dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3), corners + 3 * ((e + 2) % 3), corners, number + t, own);
+        for (uint32_t e = 0; e < 3; e++) {
+            if (!dp_stream_may_be_fan(stream, chunk->edge_key[e][t])) continue;
+            if (triangles->flags && !(triangles->flags[t] >> e & 1)) continue;
+            float corners[9];
+            dp_triangle_corners(triangles, t, corners);
+            dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3), corners + 3 * ((e + 2) % 3), corners, number + t, own);
+        }
     }
 }
 
@@ -77,8 +84,7 @@ static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     rest->covering = rest->kept_count = 0;
     rest->result = dp_input_chunk(&s->input, index, w->buffer, &triangles, &rest->diag);
     if (rest->result) return;
-    dp_chunk_place(w->chunk, &triangles, &s->context->frame.view);
-    dp_chunk_sift(w->chunk, &s->view, &w->stats);
+    dp_chunk_sift(w->chunk, &triangles, &s->view, &w->stats);
     if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) leave_crowd(s, w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
@@ -86,7 +92,7 @@ static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_chunk_edges(w->chunk, &triangles, &s->view);
     /* lines within the chunk are known since the first reading */
     if (j->reading == DP_READ_EDGES) memset(w->chunk->lines, 0, w->chunk->count);
-    leave_kept(s, w->chunk, number, rest);
+    leave_kept(s, w->chunk, number, &triangles, rest);
 }
 
 static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
