@@ -41,6 +41,7 @@ typedef struct dp_chunk {
     uint32_t count;        /* triangles */
     uint32_t unsure_count;
     uint16_t unsure[DP_CHUNK];        /* triangles that the kernel leaves to the general way */
+    uint16_t listed[DP_CHUNK];        /* for whoever goes through some of them */
     uint8_t state[DP_CHUNK + DP_CHUNK_ROOM];
     float normal[DP_CHUNK + DP_CHUNK_ROOM][4]; /* not of unit length; squared length */
     uint32_t edge_key[3][DP_CHUNK + DP_CHUNK_ROOM]; /* from the ends' positions, the same from both sides */

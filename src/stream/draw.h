@@ -13,6 +13,7 @@ typedef struct dp_chunk_rest {
     uint32_t *numbers;   /* [DP_CHUNK] */
     uint32_t covering;
     uint32_t first;      /* where they go in the drawing's list */
+    size_t kept_first;   /* and the others in stream->kept */
     dp_kept_triangle *kept; /* [DP_CHUNK] */
     uint32_t kept_count;
     uint32_t *pixels; /* [DP_CHUNK] of the crowd: where they are counted */
@@ -64,6 +65,7 @@ struct dp_stream_draw {
     uint32_t covering;    /* how many */
 
     dp_kept kept;
+    size_t joined;        /* triangles of it whose edges have met; the others came with the last part */
     float *positions;     /* frame->polygons */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
