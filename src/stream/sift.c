@@ -155,24 +155,29 @@ void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chun
 
 /* ------- maps of pixels ------- */
 
-/* Bits of pixel (x, y); none beyond the tiles. */
-static uint32_t pixel_bits(const dp_chunk_view *v, uint32_t x, uint32_t y) {
-    if (x >= v->tiles_x * DP_TILE || y >= v->tiles_y * DP_TILE) return 0;
-    const size_t row = ((size_t)(y / DP_TILE) * v->tiles_x + x / DP_TILE) * DP_TILE + y % DP_TILE;
-    return (uint32_t)(v->wanted[row] >> x % DP_TILE & 1) | (uint32_t)(v->crowded[row] >> x % DP_TILE & 1) << 1;
+/* Sets one of two bits of every pixel that is in `rows`, which may have bits beyond the tile. */
+static void mark_pixels(const dp_chunk_view *v, const uint64_t *rows, uint32_t bit) {
+    const uint64_t in = ~(uint64_t)0 >> (64 - DP_TILE);
+    for (uint32_t tile = 0; tile < v->tiles_x * v->tiles_y; tile++)
+        for (uint32_t i = 0; i < DP_TILE; i++)
+            for (uint64_t left = rows[(size_t)tile * DP_TILE + i] & in; left; left &= left - 1) {
+                const uint32_t x = tile % v->tiles_x * DP_TILE + (uint32_t)__builtin_ctzll(left);
+                const uint32_t y = tile / v->tiles_x * DP_TILE + i;
+                v->maps.words[(size_t)y * v->maps.row + x / 16] |= bit << x % 16 * 2;
+            }
 }
 
 void dp_pixel_maps_fill(const dp_chunk_view *v) {
     uint32_t *const words = v->maps.words;
-    const uint32_t map = v->maps.map, row = v->maps.row;
-    memset(words, 0, 4 * (size_t)map * sizeof *words);
-    for (uint32_t y = 0; y < v->tiles_y * DP_TILE; y++)
-        for (uint32_t x = 0; x < v->tiles_x * DP_TILE; x++) words[y * row + x / 16] |= pixel_bits(v, x, y) << x % 16 * 2;
-    for (uint32_t i = 0; i < map; i++) {
+    const size_t map = v->maps.map, row = v->maps.row;
+    memset(words, 0, map * sizeof *words);
+    mark_pixels(v, v->wanted, 1);
+    mark_pixels(v, v->crowded, 2);
+    for (size_t i = 0; i < map; i++) {
         const uint32_t right = (i + 1) % row ? words[i + 1] : 0;
         words[map + i] = words[i] | words[i] >> 2 | right << 30;
     }
-    for (uint32_t i = 0; i < map; i++) {
+    for (size_t i = 0; i < map; i++) {
         words[2 * map + i] = words[i] | (i + row < map ? words[i + row] : 0);
         words[3 * map + i] = words[map + i] | (i + row < map ? words[map + i + row] : 0);
     }
