@@ -18,6 +18,9 @@ struct dp_brush;
 struct dp_ink_shape;
 struct dp_stroke;
 struct dp_row_coverage;
+struct dp_chunk;
+struct dp_triangles;
+struct dp_chunk_view;
 
 /* A rectangle's x0 where the kernel leaves the polygon to the general way. */
 #define DP_UNPLACED INT16_MIN
@@ -52,6 +55,10 @@ typedef struct dp_kernels {
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
     /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has any (cover.inc). */
     uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t n, struct dp_row_coverage *out);
+    /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general way: in the first
+     * reading, with their normals, and in the second (sift.inc, stream/sift.c). */
+    void (*sift)(struct dp_chunk *chunk, const struct dp_triangles *triangles, const struct dp_chunk_view *view);
+    void (*touch)(struct dp_chunk *chunk, const struct dp_triangles *triangles, const struct dp_chunk_view *view);
 } dp_kernels;
 
 extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;

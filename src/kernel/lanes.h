@@ -260,6 +260,21 @@ DP_LANES_INLINE dp_lf l_row(const void *base, const uint32_t *at) {
 #endif
 }
 
+/* Four words each from base, base + step, … (bytes), of up to four groups. */
+DP_LANES_INLINE dp_lf l_row_of_bytes(const uint8_t *base, size_t step) {
+#if DP_LANES == 4
+    (void)step;
+    return (dp_lf)l_record(base, 0);
+#elif DP_LANES == 8
+    return (dp_lf)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)l_record(base, 0)), (__m128)l_record(base + step, 0), 1);
+#else
+    const __m512 a = _mm512_castps128_ps512((__m128)l_record(base, 0));
+    const __m512 b = _mm512_insertf32x4(a, (__m128)l_record(base + step, 0), 1);
+    const __m512 c = _mm512_insertf32x4(b, (__m128)l_record(base + 2 * step, 0), 2);
+    return (dp_lf)_mm512_insertf32x4(c, (__m128)l_record(base + 3 * step, 0), 3);
+#endif
+}
+
 /* Puts the records of a row at base, base + group, … (bytes). */
 DP_LANES_INLINE void l_put_row(char *base, size_t group, dp_lf row) {
 #if DP_LANES == 4
@@ -408,6 +423,19 @@ DP_LANES_INLINE dp_li li_permute(dp_li v, dp_li order) {
     return (dp_li)_mm512_permutexvar_epi32((__m512i)order, (__m512i)v);
 #else
     return (dp_li){v[order[0]], v[order[1]], v[order[2]], v[order[3]]};
+#endif
+}
+
+/* Stores the low byte of every lane. */
+DP_LANES_INLINE void li_store_bytes(uint8_t *p, dp_li v) {
+#if DP_LANES == 1
+    *p = (uint8_t)v;
+#elif DP_LANES == 16
+    _mm_storeu_si128((__m128i *)(void *)p, _mm512_cvtepi32_epi8((__m512i)v));
+#else
+    typedef uint8_t bytes __attribute__((vector_size(DP_LANES)));
+    const bytes b = __builtin_convertvector((dp_lu)v, bytes);
+    memcpy(p, &b, sizeof b);
 #endif
 }
 

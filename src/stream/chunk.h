@@ -4,11 +4,22 @@
 
 #include "pipe/tile.h"
 
+#include <string.h>
+
 enum {
-    DP_CHUNK = DP_TUNED(4096, 3),              /* triangles */
-    DP_CHUNK_CORNERS = 3 * DP_CHUNK,           /* fewer than 65536: vertices are numbered in 16 bits */
-    DP_CHUNK_SLOTS = DP_TUNED(32768, 32)       /* of a table of vertices or edges; a power of two, twice as many */
+    DP_CHUNK = DP_TUNED(4096, 3), /* triangles */
+    DP_CHUNK_EDGES = 3 * DP_CHUNK, /* fewer than 65536: they are numbered in 16 bits */
+    DP_CHUNK_SLOTS = DP_TUNED(32768, 32), /* of the table of edges; a power of two, twice as many */
+    DP_CHUNK_ROOM = 16 /* so many triangles may be written beyond the last: kernels write whole vectors */
 };
+
+/* Lines and samples are looked for this far outside the picture (px), as bins are widened. */
+#define DP_SIFT_MARGIN 2
+/* A triangle hides behind the surface when it lies this much further in the blocks around it (pixel
+ * sizes), as in cull.c. */
+#define DP_SIFT_SLACK 6
+/* Rounding of places on the screen, px. */
+#define DP_SIFT_ROUNDING (1.0f / 512)
 
 /* What is known of a triangle of a chunk. */
 enum {
@@ -16,45 +27,51 @@ enum {
     DP_TRIANGLE_COVERS = 2, /* it may cover a sample */
     DP_TRIANGLE_FRONT = 4,  /* surely faces the eye */
     DP_TRIANGLE_BACK = 8,   /* surely faces away; neither: seen edge-on */
-    DP_TRIANGLE_CROWD = 16  /* touches a pixel where faces may cross */
+    DP_TRIANGLE_CROWD = 16, /* touches a pixel where faces may cross */
+    DP_TRIANGLE_WITHIN = 32 /* lies in the picture whole; may be left out */
 };
 
 typedef struct dp_chunk_edge {
-    uint32_t ends;   /* chunk vertices, the smaller one in the high half */
-    uint16_t a, b;   /* triangles */
+    uint16_t a, b;  /* triangles */
     uint8_t edge_a, edge_b;
-    bool ascending;  /* a runs it from the smaller number to the larger */
-    uint8_t met;     /* 1, 2, or 3: more than two triangles, or two that run it the same way */
+    uint8_t met;    /* 1, 2, or 3: more than two triangles, or two that run it the same way */
 } dp_chunk_edge;
 
 typedef struct dp_chunk {
     uint32_t count;        /* triangles */
-    uint32_t vertex_count; /* different positions */
-    uint16_t corner[DP_CHUNK_CORNERS];
-    float position[DP_CHUNK_CORNERS][3];
-    dp_point screen[DP_CHUNK_CORNERS]; /* px, depth; x NaN where the outcode is not 0 */
-    uint8_t outcode[DP_CHUNK_CORNERS]; /* dp_outcode, or DP_NOT_FINITE */
-    uint8_t state[DP_CHUNK];
-    float normal[DP_CHUNK][4];         /* not of unit length; squared length */
-    uint8_t lines[DP_CHUNK];           /* set of edges that may be lines */
-    uint8_t alone[DP_CHUNK];           /* set of edges that no other triangle of the chunk has */
-    dp_chunk_edge edges[DP_CHUNK_CORNERS];
+    uint32_t unsure_count;
+    uint16_t unsure[DP_CHUNK];        /* triangles that the kernel leaves to the general way */
+    uint16_t listed[DP_CHUNK];        /* for whoever goes through some of them */
+    uint8_t state[DP_CHUNK + DP_CHUNK_ROOM];
+    float normal[DP_CHUNK + DP_CHUNK_ROOM][4]; /* not of unit length; squared length */
+    uint32_t edge_key[3][DP_CHUNK + DP_CHUNK_ROOM]; /* from the ends' positions, the same from both sides */
+    uint8_t lines[DP_CHUNK];          /* set of edges that may be lines */
+    uint8_t alone[DP_CHUNK];          /* set of edges that no other triangle of the chunk has */
+    dp_chunk_edge edges[DP_CHUNK_EDGES];
     uint32_t edge_count;
-    uint16_t slots[DP_CHUNK_SLOTS];    /* 1 + vertex, then 1 + edge */
+    uint32_t slots[DP_CHUNK_SLOTS];   /* high half of the key, 1 + edge */
 } dp_chunk;
 
-enum { DP_NOT_FINITE = 128 };
-
-/* The depth of the furthest sample in each block of the picture; nothing further can be seen. */
+/* Which pixels the second reading looks at, in four maps: of the pixel itself, of it and its right neighbour, of it and
+ * the one below, of all four. So the box of a small triangle is one look into one map, which is chosen by the pixels
+ * that it spans. Two bits a pixel: it is wanted; it is crowded. */
+typedef struct dp_pixel_maps {
+    uint32_t *words;  /* 16 pixels each */
+    uint32_t row;     /* words */
+    uint32_t map;     /* words */
+} dp_pixel_maps;
 
 /* What a chunk is held against. */
 typedef struct dp_chunk_view {
     const dp_view *view;
+    const struct dp_kernels *kernels;
     dp_sampling sampling;
     uint32_t tiles_x, tiles_y;
-    const float *farthest;  /* [tile][DP_BLOCKS][DP_BLOCKS] */
+    const float *farthest;  /* [tile][DP_BLOCKS][DP_BLOCKS]: depth of the furthest sample in each block of the picture;
+                               nothing further can be seen */
     const uint64_t *wanted; /* [tile][DP_TILE] rows of pixels; NULL: every sample is wanted */
     const uint64_t *crowded; /* the same: where faces may cross; only with `wanted` */
+    dp_pixel_maps maps;     /* of both */
     float flat_cosine;      /* dp_frame; below 0: folds are no lines */
 } dp_chunk_view;
 
@@ -66,18 +83,27 @@ typedef struct dp_triangles {
     const uint8_t *flags; /* set of edges that draw, per triangle; NULL: all */
 } dp_triangles;
 
-/* Finds equal positions, and where they lie on the screen. */
-void dp_chunk_place(dp_chunk *chunk, const dp_triangles *triangles, const dp_view *view);
+/* A triangle's corners; -0 is 0, so that equal positions have equal bits. */
+static inline void dp_triangle_corners(const dp_triangles *triangles, uint32_t t, float corners[9]) {
+    memcpy(corners, triangles->corners + t * triangles->stride, 9 * sizeof *corners);
+    for (int i = 0; i < 9; i++) corners[i] += 0.0f;
+}
 
-/* Sets `state` and `normal`: which triangles can be dropped at once, and which cover samples (or, with
- * `wanted`, pixels that are wanted). Counts what is dropped for good in *stats. */
-void dp_chunk_sift(dp_chunk *chunk, const dp_chunk_view *view, dp_stats *stats);
+/* Sets `state`, `normal` and `edge_key`: which triangles can be dropped at once, and which cover samples (or, with
+ * `wanted`, pixels that are wanted; normals are not set then). Counts what is dropped for good in *stats. */
+void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view, dp_stats *stats);
 
 /* Sets `lines` and `alone`: edges between triangles of the chunk. */
 void dp_chunk_edges(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view);
 
 /* The pixel in which a triangle's box begins, as an index of [tile][DP_TILE][DP_TILE]; the picture's nearest. */
-uint32_t dp_chunk_pixel(const dp_chunk *chunk, uint32_t triangle, const dp_chunk_view *view);
+uint32_t dp_chunk_pixel(const float corners[9], const dp_chunk_view *view);
+
+/* Does the edge from p to q lie in the picture, or may it? */
+bool dp_edge_may_be_seen(const float *p, const float *q, const dp_view *view);
+
+/* Fills view->maps, which has the room, from `wanted` and `crowded`. */
+void dp_pixel_maps_fill(const dp_chunk_view *view);
 
 /* Is an edge between two triangles of this state and normal surely no line? */
 bool dp_edge_is_plain(uint8_t state_a, const float normal_a[4], uint8_t state_b, const float normal_b[4],

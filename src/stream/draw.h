@@ -13,6 +13,7 @@ typedef struct dp_chunk_rest {
     uint32_t *numbers;   /* [DP_CHUNK] */
     uint32_t covering;
     uint32_t first;      /* where they go in the drawing's list */
+    size_t kept_first;   /* and the others in stream->kept */
     dp_kept_triangle *kept; /* [DP_CHUNK] */
     uint32_t kept_count;
     uint32_t *pixels; /* [DP_CHUNK] of the crowd: where they are counted */
@@ -64,6 +65,7 @@ struct dp_stream_draw {
     uint32_t covering;    /* how many */
 
     dp_kept kept;
+    size_t joined;        /* triangles of it whose edges have met; the others came with the last part */
     float *positions;     /* frame->polygons */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
@@ -78,6 +80,8 @@ struct dp_stream_draw {
     dp_fan *fans;         /* edges that are thought to be lines */
     uint32_t *fan_slots;  /* [fan_slot_count] 1 + fan, 0: free */
     uint32_t fan_count, fan_slot_count;
+    uint64_t *fan_filter; /* [fan_filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
+    uint32_t fan_filter_bits;
     uint8_t *crowd_counts; /* [tile][DP_TILE][DP_TILE] triangles of the crowd that begin in a pixel */
 
     float *farthest;      /* dp_chunk_view */
@@ -123,6 +127,11 @@ bool dp_stream_find_crossings(dp_stream_draw *stream);
 bool dp_stream_make_fans(dp_stream_draw *stream);
 void dp_stream_look_for_fans(const dp_stream_draw *stream, const float *a, const float *b, const float *c,
                              const float *triangle, uint32_t number, dp_stream_worker *own);
+/* Without looking into the table: false means no. */
+static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t edge_key) {
+    const uint32_t bit = edge_key & (stream->fan_filter_bits - 1);
+    return stream->fan_filter[bit / 64] >> bit % 64 & 1;
+}
 bool dp_stream_join_fans(dp_stream_draw *stream);
 void dp_stream_settle_fans(const dp_stream_draw *stream, dp_tile_lines *lines);
 

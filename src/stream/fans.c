@@ -9,6 +9,8 @@
  * Data structure: open addressing over edges of candidates; what is noted does not depend on the order. */
 #include "stream/draw.h"
 
+#include "kernel/kernels.h"
+
 #include <string.h>
 
 /* A triangle at an edge, seen from the eye. */
@@ -54,6 +56,14 @@ static void offer(dp_fan *fan, int side, const flap *f) {
     if (!best->there || f->rise > best->rise || (f->rise >= best->rise && f->number < best->number)) *best = *f;
 }
 
+/* As kernels make it of a chunk's edges. */
+static uint32_t edge_key(const dp_stream_draw *s, const float *a, const float *b) {
+    dp_vertex v[2];
+    s->view.kernels->transform(s->view.view, a, 3 * sizeof *a, 1, &v[0]);
+    s->view.kernels->transform(s->view.view, b, 3 * sizeof *b, 1, &v[1]);
+    return v[0].key + v[1].key;
+}
+
 static void add_fan(dp_stream_draw *s, uint32_t corner) {
     dp_fan *const fan = &s->fans[s->fan_count];
     const uint32_t polygon = corner / 3;
@@ -67,6 +77,8 @@ static void add_fan(dp_stream_draw *s, uint32_t corner) {
     uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1);
     while (s->fan_slots[slot]) slot = (slot + 1) & (s->fan_slot_count - 1);
     s->fan_slots[slot] = ++s->fan_count;
+    const uint32_t bit = edge_key(s, a, b) & (s->fan_filter_bits - 1);
+    s->fan_filter[bit / 64] |= (uint64_t)1 << bit % 64;
 }
 
 static const dp_fan *fan_at(const dp_stream_draw *s, uint32_t corner) {
@@ -85,7 +97,9 @@ bool dp_stream_make_fans(dp_stream_draw *s) {
     while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
     s->fan_slots = dp_alloc_zeroed(s->memory, s->fan_slot_count * sizeof *s->fan_slots);
     s->fans = dp_alloc_array(s->memory, count, sizeof *s->fans);
-    if (!s->fan_slots || !s->fans) return false;
+    s->fan_filter_bits = 16 * s->fan_slot_count; /* one bit in 32 or fewer is set */
+    s->fan_filter = dp_alloc_zeroed(s->memory, s->fan_filter_bits / 8);
+    if (!s->fan_slots || !s->fans || !s->fan_filter) return false;
     for (uint32_t t = 0; t < tiles; t++)
         for (uint32_t i = 0; i < s->lines[t].candidate_count; i++) {
             const uint32_t corner = 3 * s->lines[t].candidates[i].a + s->lines[t].candidates[i].edge;

@@ -58,8 +58,8 @@ static uint32_t edge_hash(const dp_kept_triangle *t, uint32_t edge) {
 
 static bool is_of_share(dp_kept_share share, uint32_t hash) { return (hash >> 20 & share.mask) == share.value; }
 
-bool dp_kept_follows(const dp_kept *kept, const dp_kept_triangle *triangle, uint32_t edge) {
-    return !kept->share.mask || is_of_share(kept->share, edge_hash(triangle, edge));
+bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge) {
+    return !share.mask || is_of_share(share, edge_hash(triangle, edge));
 }
 
 /* The edges of one share have some bits of their hash in common. */
@@ -129,8 +129,7 @@ static bool is_plain(const dp_kept *kept, const dp_kept_triangle *t, const dp_ke
 }
 
 /* An edge meets the one that waits for it, or waits itself. */
-static void join_edge(dp_kept *kept, dp_kept_triangle *t, uint32_t edge) {
-    const uint32_t hash = edge_hash(t, edge);
+static void join_edge(dp_kept *kept, dp_kept_triangle *t, uint32_t edge, uint32_t hash) {
     for (uint32_t s = first_slot(kept, hash);; s = (s + 1) & (kept->slot_count - 1)) {
         uint32_t *const slot = kept->slots + 2 * (size_t)s;
         if (slot[1] == FREE) break;
@@ -279,12 +278,29 @@ static bool settle(dp_kept *kept) {
     return rebuild(kept, kept->count, 0);
 }
 
+enum { AHEAD = 16 /* triangles whose slots are asked for before the first is looked at */ };
+
+static void join_some(dp_kept *kept, dp_kept_triangle *triangles, size_t count) {
+    uint32_t hashes[AHEAD][3] = {{0}};
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t e = 0; e < 3; e++) {
+            if (triangles[i].edges[e] != DP_EDGE_ALONE) continue;
+            hashes[i][e] = edge_hash(&triangles[i], e);
+            __builtin_prefetch(kept->slots + 2 * (size_t)first_slot(kept, hashes[i][e]));
+        }
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t e = 0; e < 3; e++) {
+            if (triangles[i].edges[e] != DP_EDGE_ALONE) continue;
+            if (is_of_share(kept->share, hashes[i][e])) join_edge(kept, &triangles[i], e, hashes[i][e]);
+            else triangles[i].edges[e] = DP_EDGE_PLAIN; /* put off after this triangle was sifted */
+        }
+}
+
 bool dp_kept_join(dp_kept *kept, size_t first) {
     const size_t edges = 3 * (kept->count - first);
     if (2 * (kept->slots_used + edges) > kept->slot_count && !rebuild(kept, first, edges)) return false;
-    for (size_t i = first; i < kept->count; i++)
-        for (uint32_t e = 0; e < 3; e++)
-            if (kept->triangles[i].edges[e] == DP_EDGE_ALONE) join_edge(kept, &kept->triangles[i], e);
+    for (size_t i = first; i < kept->count; i += AHEAD)
+        join_some(kept, kept->triangles + i, kept->count - i < AHEAD ? kept->count - i : AHEAD);
     drop_plain(kept, first);
     return settle(kept);
 }

@@ -50,14 +50,14 @@ uint32_t dp_edge_hash_bits(const float *p, const float *q);
 /* One for a table of its own. */
 static inline uint32_t dp_edge_hash(const float *p, const float *q) { return dp_edge_hash_bits(p, q) >> 2; }
 
-/* Does this reading follow the edge of a triangle? */
-bool dp_kept_follows(const dp_kept *kept, const dp_kept_triangle *triangle, uint32_t edge);
+/* Does a reading that follows this share follow the edge of a triangle? */
+bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge);
 
 /* Begins with the next share of edges; false when there is none. *enough: false when memory is out. */
 bool dp_kept_next_share(dp_kept *kept, bool *enough);
 
-/* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped. False when
- * memory is out. */
+/* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped, and so are edges that
+ * are not followed any more. False when memory is out. */
 bool dp_kept_join(dp_kept *kept, size_t first);
 
 uint64_t dp_kept_bytes(const dp_kept *kept);

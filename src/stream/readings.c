@@ -3,7 +3,11 @@
  *
  * Most triangles end in their chunk. Those that may cover a sample are listed until the list is full and
  * then go through the ordinary stages; those with an edge that matters are kept (kept.c). Order is that of
- * the stream, whatever thread sifted which chunk. */
+ * the stream, whatever thread sifted which chunk.
+ *
+ * The edges of what is kept meet one after the other, in one thread; the others sift the next part meanwhile.
+ * Nothing in a chunk depends on that: what edges are followed is said when its part begins, and edges that are
+ * put off by then are dropped when it is their turn. */
 #include "stream/draw.h"
 
 #include "base/diag.h"
@@ -13,62 +17,84 @@
 typedef struct job {
     dp_stream_draw *stream;
     dp_reading reading;
+    dp_kept_share share; /* of edges that are followed */
+    bool joins;          /* the first task lets the last part's edges meet */
+    bool failed;         /* it is out of memory */
 } job;
 
-static void leave_covering(const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, dp_chunk_rest *rest) {
-    rest->covering = 0;
+/* Lists the triangles whose state has one of the flags. Written without asking, and counted where it is meant: what
+ * comes next cannot be foretold. */
+static uint32_t list_triangles(dp_chunk *chunk, const uint8_t *states, uint8_t flags) {
+    uint32_t count = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
-        if (!(chunk->state[t] & DP_TRIANGLE_COVERS)) continue;
-        memcpy(rest->corners[rest->covering], triangles->corners + t * triangles->stride, sizeof *rest->corners);
-        rest->numbers[rest->covering++] = number + t;
+        chunk->listed[count] = (uint16_t)t;
+        count += (states[t] & flags) != 0;
+    }
+    return count;
+}
+
+static void leave_covering(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, dp_chunk_rest *rest) {
+    rest->covering = list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS);
+    for (uint32_t i = 0; i < rest->covering; i++) {
+        const uint32_t t = chunk->listed[i];
+        memcpy(rest->corners[i], triangles->corners + t * triangles->stride, sizeof *rest->corners);
+        rest->numbers[i] = number + t;
     }
 }
 
-static void leave_kept(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, dp_chunk_rest *rest) {
-    rest->kept_count = 0;
+static void leave_kept(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, const dp_input *input,
+                       dp_kept_share share, dp_chunk_rest *rest) {
+    uint32_t left = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
-        if (!(chunk->lines[t] | chunk->alone[t])) continue;
+        chunk->listed[left] = (uint16_t)t;
+        left += (chunk->lines[t] | chunk->alone[t]) != 0;
+    }
+    rest->kept_count = 0;
+    for (uint32_t l = 0; l < left; l++) {
+        const uint32_t t = chunk->listed[l];
         dp_kept_triangle *const k = &rest->kept[rest->kept_count];
+        dp_triangle_corners(triangles, t, k->corners);
         for (int i = 0; i < 3; i++) {
-            memcpy(k->corners + 3 * i, chunk->position[chunk->corner[3 * t + (uint32_t)i]], 3 * sizeof(float));
             const bool line = chunk->lines[t] >> i & 1, alone = chunk->alone[t] >> i & 1;
             k->edges[i] = line ? DP_EDGE_LINE : alone ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
         }
         for (uint32_t i = 0; i < 3; i++)
-            if (k->edges[i] == DP_EDGE_ALONE && !dp_kept_follows(&stream->kept, k, i)) k->edges[i] = DP_EDGE_PLAIN;
+            if (k->edges[i] == DP_EDGE_ALONE && !dp_kept_follows(share, k, i)) k->edges[i] = DP_EDGE_PLAIN;
         rest->kept_count += (k->edges[0] | k->edges[1] | k->edges[2]) != 0;
         k->number = number + t;
-        k->polygon = dp_input_polygon(&stream->input, number + t);
+        k->polygon = dp_input_polygon(input, number + t);
         k->unused = 0;
     }
 }
 
-static void leave_crowd(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+static void leave_crowd(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
                         dp_chunk_rest *rest) {
-    rest->kept_count = 0;
-    for (uint32_t t = 0; t < chunk->count; t++) {
-        if (!(chunk->state[t] & DP_TRIANGLE_CROWD)) continue;
-        rest->pixels[rest->kept_count] = dp_chunk_pixel(chunk, t, &stream->view);
-        dp_kept_triangle *const k = &rest->kept[rest->kept_count++];
+    rest->kept_count = list_triangles(chunk, chunk->state, DP_TRIANGLE_CROWD);
+    for (uint32_t i = 0; i < rest->kept_count; i++) {
+        const uint32_t t = chunk->listed[i];
+        float corners[9];
+        dp_triangle_corners(triangles, t, corners);
+        rest->pixels[i] = dp_chunk_pixel(corners, &stream->view);
+        dp_kept_triangle *const k = &rest->kept[i];
         *k = (dp_kept_triangle){.number = number + t, .polygon = dp_input_polygon(&stream->input, number + t)};
         memcpy(k->corners, triangles->corners + t * triangles->stride, sizeof k->corners);
     }
 }
 
-static void look_for_fans(const dp_stream_draw *stream, const dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+static void look_for_fans(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
                           dp_stream_worker *own) {
-    for (uint32_t t = 0; stream->fan_count && t < chunk->count; t++) {
-        if (!(chunk->state[t] & DP_TRIANGLE_COVERS)) continue;
-        float corners[9];
-        for (uint32_t i = 0; i < 3; i++) memcpy(corners + 3 * i, chunk->position[chunk->corner[3 * t + i]], 3 * sizeof(float));
-        for (uint32_t e = 0; e < 3; e++)
-            if (!triangles->flags || triangles->flags[t] >> e & 1)
-                dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3), corners + 3 * ((e + 2) % 3), corners, number + t, own);
-    }
+    const uint32_t count = stream->fan_count ? list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS) : 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t e = 0, t = chunk->listed[i]; e < 3; e++) {
+            if (!dp_stream_may_be_fan(stream, chunk->edge_key[e][t])) continue;
+            if (triangles->flags && !(triangles->flags[t] >> e & 1)) continue;
+            float corners[9];
+            dp_triangle_corners(triangles, t, corners);
+            dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3), corners + 3 * ((e + 2) % 3), corners, number + t, own);
+        }
 }
 
-static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
-    const job *const j = arg;
+static void sift_chunk(const job *j, uint32_t index, uint32_t worker) {
     dp_stream_draw *const s = j->stream;
     dp_stream_worker *const w = &s->workers[worker];
     dp_chunk_rest *const rest = &s->rests[index];
@@ -77,8 +103,7 @@ static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     rest->covering = rest->kept_count = 0;
     rest->result = dp_input_chunk(&s->input, index, w->buffer, &triangles, &rest->diag);
     if (rest->result) return;
-    dp_chunk_place(w->chunk, &triangles, &s->context->frame.view);
-    dp_chunk_sift(w->chunk, &s->view, &w->stats);
+    dp_chunk_sift(w->chunk, &triangles, &s->view, &w->stats);
     if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) leave_crowd(s, w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
@@ -86,7 +111,21 @@ static void sift_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_chunk_edges(w->chunk, &triangles, &s->view);
     /* lines within the chunk are known since the first reading */
     if (j->reading == DP_READ_EDGES) memset(w->chunk->lines, 0, w->chunk->count);
-    leave_kept(s, w->chunk, number, rest);
+    leave_kept(w->chunk, number, &triangles, &s->input, j->share, rest);
+}
+
+/* Edges that came with the last part meet. */
+static bool join_edges(dp_stream_draw *s) {
+    const bool sound = s->kept.count == s->joined || dp_kept_join(&s->kept, s->joined);
+    s->joined = s->kept.count;
+    return sound;
+}
+
+static void do_task(void *arg, uint32_t index, uint32_t worker) {
+    job *const j = arg;
+    if (!j->joins) sift_chunk(j, index, worker);
+    else if (index) sift_chunk(j, index - 1, worker);
+    else j->failed = !join_edges(j->stream);
 }
 
 static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
@@ -114,18 +153,26 @@ static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading
     return true;
 }
 
+static void keep_chunk(void *arg, uint32_t index, uint32_t worker) {
+    dp_stream_draw *const s = arg;
+    const dp_chunk_rest *const rest = &s->rests[index];
+    (void)worker;
+    memcpy(s->kept.triangles + rest->kept_first, rest->kept, rest->kept_count * sizeof *rest->kept);
+}
+
+/* Their edges meet while the next part is sifted. */
 static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
     dp_kept *const kept = &s->kept;
-    const size_t first = kept->count;
-    size_t sum = first;
-    for (uint32_t i = 0; i < chunks; i++) sum += s->rests[i].kept_count;
-    if (sum == first) return true;
-    if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles)) return false;
+    size_t sum = kept->count;
     for (uint32_t i = 0; i < chunks; i++) {
-        memcpy(kept->triangles + kept->count, s->rests[i].kept, s->rests[i].kept_count * sizeof *kept->triangles);
-        kept->count += s->rests[i].kept_count;
+        s->rests[i].kept_first = sum;
+        sum += s->rests[i].kept_count;
     }
-    return dp_kept_join(kept, first);
+    if (sum == kept->count) return true;
+    if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles)) return false;
+    dp_parallel(s->context->threads, chunks, keep_chunk, s);
+    kept->count = sum;
+    return true;
 }
 
 /* Surfaces seen at a grazing angle put thousands of triangles into a pixel; what crosses there is no line
@@ -152,8 +199,9 @@ static dp_result out_of_memory(dp_diag *diag) { return dp_fail(diag, DP_ERR_MEMO
 
 static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag) {
     const uint32_t chunks = s->input.count / DP_CHUNK + (s->input.count % DP_CHUNK != 0);
-    job j = {s, reading};
-    dp_parallel(s->context->threads, chunks, sift_chunk, &j);
+    job j = {.stream = s, .reading = reading, .share = s->kept.share, .joins = s->joined < s->kept.count};
+    dp_parallel(s->context->threads, chunks + j.joins, do_task, &j);
+    if (j.failed) return out_of_memory(diag);
     for (uint32_t i = 0; i < chunks; i++)
         if (s->rests[i].result) {
             if (diag) *diag = s->rests[i].diag;
@@ -182,7 +230,7 @@ static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, do
         if ((result = read_part(s, reading, diag)) || (result = report(s, from, to, diag))) return result;
     }
     s->triangles = s->input.first;
-    return draw_listed(s, reading) ? DP_OK : out_of_memory(diag);
+    return join_edges(s) && draw_listed(s, reading) ? DP_OK : out_of_memory(diag);
 }
 
 dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, double to, dp_diag *diag) {
@@ -191,6 +239,7 @@ dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, dou
     const dp_stats before = c->stats;
     dp_result result = DP_OK;
     s->covering = 0;
+    s->joined = s->kept.count;
     if (reading != DP_READ_FACES) {
         dp_input_close(&s->input);
         result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);

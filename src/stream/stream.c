@@ -45,7 +45,7 @@ void dp_stream_free(dp_stream_draw *s) {
     for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++) dp_free(memory, s->lines[i].candidates);
     dp_kept_free(&s->kept);
     void *const blocks[] = {s->workers, s->rests, s->corners, s->numbers, s->positions, s->edge_flags, s->polygon_numbers,
-                            s->source_polygons, s->crowd, s->away, s->suspects, s->crowded, s->crowd_counts, s->fans, s->fan_slots, s->farthest, s->wanted, s->lines};
+                            s->source_polygons, s->crowd, s->away, s->suspects, s->crowded, s->crowd_counts, s->fans, s->fan_slots, s->fan_filter, s->farthest, s->wanted, s->view.maps.words, s->lines};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
     dp_free(memory, s);
 }
@@ -100,7 +100,7 @@ static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s
     s->chunks = chunks < CHUNKS_LEAST ? CHUNKS_LEAST : chunks > CHUNKS_MOST ? CHUNKS_MOST : (uint32_t)chunks;
     const dp_result result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
     if (result) return result;
-    s->view = (dp_chunk_view){.view = &f->view, .tiles_x = f->tiles_x, .tiles_y = f->tiles_y, .flat_cosine = f->flat_cosine};
+    s->view = (dp_chunk_view){.view = &f->view, .kernels = f->kernels, .tiles_x = f->tiles_x, .tiles_y = f->tiles_y, .flat_cosine = f->flat_cosine};
     if (!(f->lines & (DP_RIDGE | DP_VALLEY))) s->view.flat_cosine = -1;
     dp_sampling_init(&s->view.sampling, f->target.samples);
     s->kept = (dp_kept){.memory = s->memory, .view = &s->view, .shares = 1};
@@ -162,12 +162,23 @@ dp_result dp_stream_read_model(dp_context *context, dp_source *source, dp_stream
     return read_model(s, source, diag);
 }
 
+/* What the second reading looks at. */
+static bool want_pixels(dp_stream_draw *s) {
+    dp_chunk_view *const v = &s->view;
+    v->wanted = s->wanted;
+    v->crowded = s->crowded;
+    v->maps.row = (v->tiles_x * DP_TILE + 15) / 16;
+    v->maps.map = v->tiles_y * DP_TILE * v->maps.row;
+    v->maps.words = dp_alloc_array(s->memory, 4 * (size_t)v->maps.map, sizeof *v->maps.words);
+    if (v->maps.words) dp_pixel_maps_fill(v);
+    return v->maps.words;
+}
+
 dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {
     const bool lines = s->context->frame.lines;
     if (!dp_stream_find_lines(s) || !dp_stream_choose_crowded(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
-    s->view.wanted = s->wanted;
-    s->view.crowded = s->crowded;
+    if (s->read_again && !want_pixels(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the second reading");
     const dp_result result = s->read_again ? dp_stream_read(s, DP_READ_HIDERS, s->done, 0.95, diag) : DP_OK;
     if (result) return result;
     if (lines && (!dp_stream_find_crossings(s) || !dp_stream_collect(s)))

@@ -251,7 +251,7 @@ static void keep(const soup *s, const dp_chunk_view *view, size_t limit, dp_kept
             dp_kept_triangle *const t = &kept->triangles[kept->count++];
             *t = (dp_kept_triangle){.number = (uint32_t)i, .polygon = (uint32_t)i};
             memcpy(t->corners, s->corners[i], sizeof t->corners);
-            for (uint32_t e = 0; e < 3; e++) t->edges[e] = dp_kept_follows(kept, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
+            for (uint32_t e = 0; e < 3; e++) t->edges[e] = dp_kept_follows(kept->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
             assert_true(dp_kept_join(kept, first));
         }
     } while (dp_kept_next_share(kept, &enough));
