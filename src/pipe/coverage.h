@@ -79,11 +79,10 @@ dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p, 
                  dp_cover *const cover, void *arg) {
     const dp_edge_function *const e = c->e;
     const int width = (int)s->cell_width;
-    dp_f4 le[3][4], ld[4]; /* what lane offsets add */
+    dp_f4 le[3][4], ld[4]; /* what samples add below their pixels' upper edge */
     for (uint32_t v = 0; v < vectors; v++) {
-        for (int i = 0; i < 3; i++)
-            le[i][v] = dp_splat(e[i].a) * s->x[v] + dp_splat(e[i].b) * s->y[v];
-        ld[v] = dp_splat(p->dx) * s->x[v] + dp_splat(p->dy) * s->y[v];
+        for (int i = 0; i < 3; i++) le[i][v] = dp_splat(e[i].b) * s->y[v];
+        ld[v] = dp_splat(p->dy) * s->y[v];
     }
     const dp_f4 nearest = dp_splat(p->nearest);
     const dp_f4 t0 = dp_splat(e[0].threshold), t1 = dp_splat(e[1].threshold), t2 = dp_splat(e[2].threshold);
@@ -97,12 +96,12 @@ dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p, 
         const float rd = p->d0 + p->dy * fy;
         size_t lane = (size_t)4 * vectors * ((uint32_t)y * s->cells_x + (uint32_t)(x0 / width));
         for (int cx = x0 / width; cx <= x1 / width; cx++, lane += 4 * vectors) {
-            const float fx = (float)(cx * width);
-            const dp_f4 b0 = dp_splat(e[0].a * fx + r0), b1 = dp_splat(e[1].a * fx + r1);
-            const dp_f4 b2 = dp_splat(e[2].a * fx + r2), bd = dp_splat(p->dx * fx + rd);
             for (uint32_t v = 0; v < vectors; v++) {
-                const dp_i4 in = (b0 + le[0][v] >= t0) & (b1 + le[1][v] >= t1) & (b2 + le[2][v] >= t2);
-                const dp_f4 d = bd + ld[v];
+                const dp_f4 x = dp_splat((float)(cx * width)) + s->x[v];
+                const dp_i4 in = ((dp_splat(e[0].a) * x + le[0][v]) + dp_splat(r0) >= t0) &
+                                 ((dp_splat(e[1].a) * x + le[1][v]) + dp_splat(r1) >= t1) &
+                                 ((dp_splat(e[2].a) * x + le[2][v]) + dp_splat(r2) >= t2);
+                const dp_f4 d = (dp_splat(p->dx) * x + ld[v]) + dp_splat(rd);
                 cover(arg, lane + 4 * v, in, dp_select(d < nearest, d, nearest));
             }
         }

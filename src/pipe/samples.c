@@ -17,7 +17,7 @@ void dp_block_init(dp_block *block, uint32_t samples) {
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t sample = i % samples;
         block->px[i] = (float)(i / samples);
-        block->sx[i] = samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][0] / 16;
+        block->x[i] = block->px[i] + (samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][0] / 16);
         block->sy[i] = samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][1] / 16;
     }
 }

@@ -20,9 +20,9 @@ typedef struct dp_sampling {
 } dp_sampling;
 
 /* A run of pixels with as many samples as a kernel has lanes, or one pixel with more: where each sample's
- * pixel lies in the run, and the sample in its pixel (px). Samples of a pixel are consecutive. */
+ * pixel and the sample itself lie in the run, and below the pixels' upper edge (px). Samples of a pixel are consecutive. */
 typedef struct dp_block {
-    float px[16], sx[16], sy[16];
+    float px[16], x[16], sy[16];
 } dp_block;
 
 void dp_block_init(dp_block *block, uint32_t samples);
