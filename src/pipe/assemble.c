@@ -113,6 +113,7 @@ static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count
     uint32_t *const ids = w->ids, *const backs = w->backs, n = 0, m = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
+        dp_bins_ask(bins, w->tile, c);
         for (uint32_t i = chunk->offsets[w->tile]; i < chunk->offsets[w->tile + 1]; i++) {
             const uint32_t entry = chunk->entries[i], back = entry / DP_BIN_TAG;
             ids[n] = backs[m] = entry & ~DP_BIN_TAG;

@@ -51,37 +51,51 @@ static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t
     if (!dp_reserve(j->memory, &s->rects, &s->rects_cap, n, sizeof *s->rects) || !reserve_pairs(j, s, CHUNK))
         return false;
     j->place(j->arg, first, n, s->rects, worker);
+    const dp_tile_rect *const rects = s->rects;
+    uint32_t *tiles = s->tiles, *items = s->items;
+    size_t have = *count;
     for (uint32_t i = 0; i < n; i++) {
-        const dp_tile_rect *const r = &s->rects[i];
-        if (r->only) {
-            s->tiles[*count] = r->only - 1;
-            s->items[(*count)++] = (first + i) | r->tag;
-        } else if (!add_pairs(j, s, first + i, clip(j, *r), count, worker)) {
-            return false;
+        const dp_tile_rect r = rects[i];
+        if (r.only) {
+            tiles[have] = r.only - 1;
+            items[have++] = (first + i) | r.tag;
+        } else {
+            if (!add_pairs(j, s, first + i, clip(j, r), &have, worker)) return false;
+            tiles = s->tiles, items = s->items;
         }
     }
+    *count = have;
     return true;
 }
 
-/* Counting sort by tile. */
-static bool sort_chunk(const job *j, const dp_bin_scratch *s, size_t count, dp_bin_chunk *chunk) {
+/* Counting sort by tile. Items that follow each other are often one tile's, and its count must come back from memory
+ * before it can grow again: so two halves are counted, and put in place, side by side. */
+static bool sort_chunk(const job *j, dp_bin_scratch *s, size_t count, dp_bin_chunk *chunk) {
     const uint32_t tile_count = j->bins->tile_count;
+    const size_t half = count / 2;
     if (!dp_reserve(j->memory, &chunk->offsets, &chunk->offsets_cap, tile_count + 1, sizeof *chunk->offsets) ||
+        !dp_reserve(j->memory, &s->offsets, &s->offsets_cap, tile_count, sizeof *s->offsets) ||
         !dp_reserve(j->memory, &chunk->entries, &chunk->entries_cap, count, sizeof *chunk->entries))
         return false;
-    uint32_t *const offsets = chunk->offsets, *const entries = chunk->entries;
-    memset(offsets, 0, (tile_count + 1) * sizeof *offsets);
-    for (size_t i = 0; i < count; i++) offsets[s->tiles[i]]++;
+    uint32_t *const left = chunk->offsets, *const right = s->offsets, *const entries = chunk->entries;
+    memset(left, 0, (tile_count + 1) * sizeof *left);
+    memset(right, 0, tile_count * sizeof *right);
+    for (size_t i = 0; i < half; i++) left[s->tiles[i]]++, right[s->tiles[half + i]]++;
+    if (count % 2) right[s->tiles[count - 1]]++;
     uint32_t sum = 0;
-    for (uint32_t t = 0; t <= tile_count; t++) {
-        const uint32_t n = t < tile_count ? offsets[t] : 0;
-        offsets[t] = sum;
-        sum += n;
+    for (uint32_t t = 0; t < tile_count; t++) {
+        const uint32_t n = left[t], m = right[t];
+        left[t] = sum, right[t] = sum + n;
+        sum += n + m;
     }
-    for (size_t i = 0; i < count; i++) entries[offsets[s->tiles[i]]++] = s->items[i];
-    /* each offset now stands at its tile's end, the start of the next */
-    memmove(offsets + 1, offsets, tile_count * sizeof *offsets);
-    offsets[0] = 0;
+    for (size_t i = 0; i < half; i++) {
+        entries[left[s->tiles[i]]++] = s->items[i];
+        entries[right[s->tiles[half + i]]++] = s->items[half + i];
+    }
+    if (count % 2) entries[right[s->tiles[count - 1]]++] = s->items[count - 1];
+    /* the right offsets now stand at their tiles' ends, the starts of the next */
+    memcpy(left + 1, right, tile_count * sizeof *left);
+    left[0] = 0;
     return true;
 }
 
@@ -131,6 +145,7 @@ void dp_bins_free(dp_bins *bins, const dp_allocator *memory) {
         dp_free(memory, bins->scratch[i].rects);
         dp_free(memory, bins->scratch[i].items);
         dp_free(memory, bins->scratch[i].tiles);
+        dp_free(memory, bins->scratch[i].offsets);
     }
     dp_free(memory, bins->chunks);
     dp_free(memory, bins->scratch);
@@ -139,8 +154,10 @@ void dp_bins_free(dp_bins *bins, const dp_allocator *memory) {
 
 size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile) {
     size_t sum = 0;
-    for (uint32_t c = 0; c < bins->chunk_count; c++)
+    for (uint32_t c = 0; c < bins->chunk_count; c++) {
+        if (c + 8 < bins->chunk_count) __builtin_prefetch(&bins->chunks[c + 8].offsets[tile]);
         sum += bins->chunks[c].offsets[tile + 1] - bins->chunks[c].offsets[tile];
+    }
     return sum;
 }
 
@@ -149,7 +166,7 @@ uint64_t dp_bins_bytes(const dp_bins *bins) {
     for (size_t i = 0; i < bins->chunks_cap; i++)
         sum += sizeof(uint32_t) * (bins->chunks[i].entries_cap + bins->chunks[i].offsets_cap);
     for (size_t i = 0; i < bins->scratch_cap; i++)
-        sum += sizeof(uint32_t) * (bins->scratch[i].items_cap + bins->scratch[i].tiles_cap) +
+        sum += sizeof(uint32_t) * (bins->scratch[i].items_cap + bins->scratch[i].tiles_cap + bins->scratch[i].offsets_cap) +
                bins->scratch[i].rects_cap * sizeof *bins->scratch[i].rects;
     return sum;
 }

@@ -24,8 +24,8 @@ typedef struct dp_bin_chunk {
 /* What one worker needs while it fills a chunk: rectangles, and (tile, item) pairs as they come. */
 typedef struct dp_bin_scratch {
     dp_tile_rect *rects;
-    uint32_t *items, *tiles;
-    size_t rects_cap, items_cap, tiles_cap;
+    uint32_t *items, *tiles, *offsets;
+    size_t rects_cap, items_cap, tiles_cap, offsets_cap;
 } dp_bin_scratch;
 
 typedef struct dp_bins {
@@ -50,6 +50,13 @@ void dp_bins_free(dp_bins *bins, const dp_allocator *memory);
 uint64_t dp_bins_bytes(const dp_bins *bins);
 
 /* How many items tile t holds. */
+/* Asks for what a walk over a tile's chunks will read when it comes to those after chunk `c`: it lies scattered. */
+static inline void dp_bins_ask(const dp_bins *bins, uint32_t tile, uint32_t c) {
+    const dp_bin_chunk *const chunks = bins->chunks;
+    if (c + 8 < bins->chunk_count) __builtin_prefetch(&chunks[c + 8].offsets[tile]);
+    if (c + 4 < bins->chunk_count) __builtin_prefetch(&chunks[c + 4].entries[chunks[c + 4].offsets[tile]]);
+}
+
 size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile);
 
 #endif

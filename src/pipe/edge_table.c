@@ -231,8 +231,7 @@ dp_edge_entry dp_edge_table_entry(const dp_tile_worker *w, uint32_t number) {
     const dp_edge_place a = dp_edge_place_of(w, number);
     const uint32_t at = find_slot(w, w->edge_slots, w->slot_count - 1, number, list->place[number], list->name[number], true);
     const uint32_t met = met_at(w->edge_slots[at]);
-    const ends e = ends_of(w, a);
-    dp_edge_entry out = {.va = e.va, .vb = e.vb, .a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
+    dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
     if (!(met & DP_SLOT_PAIR)) return out;
     const uint32_t second = w->pair_second[met & DP_SLOT_NUMBER];
     const dp_edge_place b = dp_edge_place_of(w, second);

@@ -25,7 +25,7 @@ bool dp_edge_table_fill(dp_tile_worker *worker);
  * UINT32_MAX: there is none. */
 uint32_t dp_edge_table_next(const dp_tile_worker *worker, uint32_t number);
 
-/* What met at such an edge. */
+/* What met at such an edge; va and vb are left to dp_edge_ends, which reads what may be asked for in between. */
 dp_edge_entry dp_edge_table_entry(const dp_tile_worker *worker, uint32_t number);
 
 /* Whose edge a number is; its vertices, in that polygon's direction; and does it run between these vertices, one way or the other? */

@@ -140,12 +140,31 @@ typedef struct job {
     const dp_stroke_store *store;
 } job;
 
+/* Asks for the positions of a polygon's first corners, or for the vertex numbers of these. */
+static void ask_for(const dp_polygons *polygons, uint32_t polygon, bool positions) {
+    if (polygon == UINT32_MAX) return;
+    const uint32_t first = dp_first_corner(polygons, polygon);
+    if (!positions && polygons->corners) __builtin_prefetch(&polygons->corners[first]);
+    for (uint32_t i = 0; positions && i < 3; i++)
+        __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
+}
+
+static void ask_for_piece(const job *j, size_t piece, bool positions) {
+    if (piece >= j->frame->segment_count) return;
+    ask_for(&j->frame->polygons, j->store->pieces[piece].a, positions);
+    ask_for(&j->frame->polygons, j->store->pieces[piece].b, positions);
+}
+
+/* What segments are made of lies scattered, and is asked for before their turn comes. */
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     (void)worker;
     const size_t first = (size_t)index * BLOCK;
-    for (size_t i = first; i < first + BLOCK && i < j->frame->segment_count; i++)
+    for (size_t i = first; i < first + BLOCK && i < j->frame->segment_count; i++) {
+        ask_for_piece(j, i + 16, false);
+        ask_for_piece(j, i + 8, true);
         make_segment(j->frame, &j->store->pieces[i], &j->store->segments[i], &j->store->strokes[i]);
+    }
 }
 
 bool dp_make_segments(dp_frame *frame, const dp_tile_worker *workers, dp_stroke_store *store) {
