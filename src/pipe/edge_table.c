@@ -135,36 +135,47 @@ static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot
     return other;
 }
 
-/* The slot of edge `number`, or a free one. Unless `exact` it may be that of another edge of equal name. */
+/* The first look for an edge: at the slot that is its place and, where another edge has that, at the next. */
+static inline __attribute__((always_inline)) uint32_t first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t sum, uint32_t name) {
+    const uint32_t s = place_of(sum, count);
+    return s + is_other(slots[s], name); /* the last slot is nobody's place */
+}
+
+/* The slot of edge `number`, or a free one, from `s` on. Unless `exact` it may be that of another edge of equal name. */
 static inline __attribute__((always_inline)) uint32_t find_slot(const dp_tile_worker *w, const dp_edge_slot *slots, uint32_t count,
-                                                                uint32_t number, uint32_t sum, uint32_t name, const bool exact) {
-    uint32_t s = place_of(sum, count);
-    s += is_other(slots[s], name); /* the last slot is never the first choice */
+                                                                uint32_t s, uint32_t number, uint32_t name, const bool exact) {
     while (is_other(slots[s], name) || (exact && slots[s] && !is_same_edge(&w->edges, first_of(w, met_at(slots[s])), number)))
         s = s == count ? 0 : s + 1;
     return s;
 }
 
+enum { AHEAD = 8 };
+
 /* Enters all edges of the list: each takes a slot or meets the one that is there. Which of
- * the two it is cannot be foreseen, so no branch asks: both are written, selected. */
+ * the two it is cannot be foreseen, so no branch asks: both are written, selected. Some are looked for before the
+ * first of them is entered: where it comes to lie, they find out when their turn comes. */
 static inline __attribute__((always_inline)) void enter_all(dp_tile_worker *w, const bool exact) {
     const dp_edge_list *const list = &w->edges;
-    const uint32_t *const sums = list->place, *const names = list->name, count = list->count, slot_count = w->slot_count - 1;
+    const uint32_t *const sums = list->place, *const names = list->name, count = list->count, last = w->slot_count - 1;
     dp_edge_slot *const slots = w->edge_slots;
     uint32_t *const first = w->pair_first, *const second = w->pair_second, pairs = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t name = names[i];
-        const uint32_t at = find_slot(w, slots, slot_count, i, sums[i], name, exact), met = met_at(slots[at]);
-        if (met & DP_SLOT_PAIR) {
-            add_meeting(w, at, i);
-            continue;
+    for (uint32_t start = 0; start < count; start += AHEAD) {
+        uint32_t from[AHEAD];
+        for (uint32_t k = 0; k < AHEAD; k++) from[k] = first_slot(slots, last, sums[start + k], names[start + k]);
+        for (uint32_t k = 0; k < AHEAD && start + k < count; k++) {
+            const uint32_t i = start + k, name = names[i];
+            const uint32_t at = find_slot(w, slots, last, from[k], i, name, exact), met = met_at(slots[at]);
+            if (met & DP_SLOT_PAIR) {
+                add_meeting(w, at, i);
+                continue;
+            }
+            uint32_t is_free = !met;
+            OPAQUE(is_free);
+            first[pairs] = met - 1, second[pairs] = i;
+            const uint32_t paired = DP_SLOT_PAIR | pairs, meets = paired ^ ((paired ^ (i + 1)) & (0 - is_free));
+            slots[at] = name | (dp_edge_slot)meets << 32;
+            pairs += 1 - is_free;
         }
-        uint32_t is_free = !met;
-        OPAQUE(is_free);
-        first[pairs] = met - 1, second[pairs] = i;
-        const uint32_t paired = DP_SLOT_PAIR | pairs, meets = paired ^ ((paired ^ (i + 1)) & (0 - is_free));
-        slots[at] = name | (dp_edge_slot)meets << 32;
-        pairs += 1 - is_free;
     }
     w->edge_pairs = pairs;
 }
@@ -229,7 +240,8 @@ uint32_t dp_edge_table_next(const dp_tile_worker *w, uint32_t number) {
 dp_edge_entry dp_edge_table_entry(const dp_tile_worker *w, uint32_t number) {
     const dp_edge_list *const list = &w->edges;
     const dp_edge_place a = dp_edge_place_of(w, number);
-    const uint32_t at = find_slot(w, w->edge_slots, w->slot_count - 1, number, list->place[number], list->name[number], true);
+    const uint32_t name = list->name[number], last = w->slot_count - 1;
+    const uint32_t at = find_slot(w, w->edge_slots, last, first_slot(w->edge_slots, last, list->place[number], name), number, name, true);
     const uint32_t met = met_at(w->edge_slots[at]);
     dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
     if (!(met & DP_SLOT_PAIR)) return out;

@@ -166,10 +166,11 @@ static bool look_around(const uint64_t suspects[DP_TILE], pixels *out) {
     return true;
 }
 
-/* Does a polygon's box hold any of these pixels? */
-static inline bool comes_near(const dp_tile_polygon *p, const pixels *near) {
-    const uint64_t span = dp_box_span(p);
-    const uint32_t first = p->y0 > near->first ? p->y0 : near->first, last = p->y1 < near->last ? p->y1 : near->last;
+/* Does a polygon's box (dp_tile_polygon.box) hold any of these pixels? */
+static inline bool comes_near(uint32_t box, const pixels *near) {
+    const uint32_t x0 = box & 255, y0 = box >> 8 & 255, x1 = box >> 16 & 255, y1 = box >> 24;
+    const uint64_t span = (~(uint64_t)0 >> (63 - (x1 - x0))) << x0;
+    const uint32_t first = y0 > near->first ? y0 : near->first, last = y1 < near->last ? y1 : near->last;
     for (uint32_t y = first; y <= last; y++)
         if (near->row[y] & span) return true;
     return false;
@@ -181,14 +182,14 @@ typedef struct surroundings {
     bool mixed; /* back faces have any */
 } surroundings;
 
-static const pixels *pixels_for(const surroundings *near, const dp_tile_polygon *p) {
-    return p->flags & DP_POLYGON_FRONT ? &near->front : &near->back;
+static const pixels *pixels_for(const surroundings *near, uint32_t flags) {
+    return flags & DP_POLYGON_FRONT ? &near->front : &near->back;
 }
 
 /* Do both polygons' boxes hold one of the pixels that are theirs? */
 static bool meet_near(const surroundings *near, const dp_tile_polygon *p, const dp_tile_polygon *q) {
     const uint64_t span = dp_box_span(p) & dp_box_span(q);
-    const pixels *const of_p = pixels_for(near, p), *const of_q = pixels_for(near, q);
+    const pixels *const of_p = pixels_for(near, p->flags), *const of_q = pixels_for(near, q->flags);
     const uint32_t first = p->y0 > q->y0 ? p->y0 : q->y0, last = p->y1 < q->y1 ? p->y1 : q->y1;
     for (uint32_t y = first; y <= last; y++)
         if (of_p->row[y] & of_q->row[y] & span) return true;
@@ -198,13 +199,13 @@ static bool meet_near(const surroundings *near, const dp_tile_polygon *p, const 
 /* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their boxes. */
 static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
+    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX), *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
     crowd->count = 0;
     for (uint32_t i = 0; i < w->seen_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
-        if (!(p->flags & DP_POLYGON_TOUCHES) || !(near->mixed || p->flags & DP_POLYGON_FRONT)) continue;
-        if (!comes_near(p, pixels_for(near, p))) continue;
+        if (!(flags[i] & DP_POLYGON_TOUCHES) || !(near->mixed || flags[i] & DP_POLYGON_FRONT)) continue;
+        if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
         polygon[crowd->count++] = w->seen[i];
-        rows[p->y0 + 1]++;
+        rows[(boxes[i] >> 8 & 255) + 1]++;
     }
     const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
     return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) && DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&

@@ -122,10 +122,26 @@ static uint32_t clamp_to(float v, uint32_t lo, uint32_t hi) {
     return v <= (float)lo ? lo : v >= (float)hi ? hi : (uint32_t)v;
 }
 
+/* Rows of the tile that a stroke may reach: from *y0 to before *y1. */
+static void find_rows(const tile_ink *ink, const dp_stroke *s, uint32_t *y0, uint32_t *y1) {
+    const float r = s->half_width + 0.5f;
+    *y0 = clamp_to(dp_minf(s->a.y, s->b.y) - r, ink->y0, ink->y1);
+    *y1 = clamp_to(dp_maxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
+}
+
+/* Asks for the samples under a stroke, of which most are short. They lie scattered, and long ago they were drawn. */
+static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
+    uint32_t y0, y1;
+    find_rows(ink, s, &y0, &y1);
+    const uint32_t x = clamp_to(dp_minf(s->a.x, s->b.x), ink->x0, ink->x1 - 1);
+    for (uint32_t y = y0; y < y1; y++)
+        __builtin_prefetch(depth_of(ink->depth, x - ink->x0, y - ink->y0, ink->frame->target.samples));
+}
+
 static void cover(const tile_ink *ink, const dp_stroke *s) {
     const float r = s->half_width + 0.5f;
-    const uint32_t y0 = clamp_to(dp_minf(s->a.y, s->b.y) - r, ink->y0, ink->y1);
-    const uint32_t y1 = clamp_to(dp_maxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
+    uint32_t y0, y1;
+    find_rows(ink, s, &y0, &y1);
     for (uint32_t y = y0; y < y1; y++) {
         float from, to;
         if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;
@@ -167,11 +183,17 @@ bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, si
     return true;
 }
 
+/* So many strokes ahead they, and the samples under them, are asked for. */
+enum { LATER = 12, SOON = 4 };
+
 static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count, dp_line line) {
     dp_color color = 0;
     bool any = false;
     for (size_t i = 0; i < count; i++) {
         const dp_stroke *const s = &ink->frame->strokes[strokes[i]];
+        if (i + LATER < count) __builtin_prefetch(&ink->frame->strokes[strokes[i + LATER]]);
+        if (i + SOON < count && ink->hides && ink->frame->strokes[strokes[i + SOON]].line == line)
+            ask_for_samples(ink, &ink->frame->strokes[strokes[i + SOON]]);
         if (s->line != line) continue;
         if (any && s->color != color) flush(ink, line, color);
         color = s->color;
