@@ -32,6 +32,8 @@ typedef struct dp_kernels {
     void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count, struct dp_vertex *out);
     /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px (place.inc). */
     void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count, struct dp_tile_rect *rects);
+    /* Parts a bin's entries: front faces go to ids[*count] and on, back faces to the others (place.inc). */
+    void (*part)(const uint32_t *entries, uint32_t n, uint32_t *ids, uint32_t *count, uint32_t *backs, uint32_t *back_count);
     /* Appends triangles to the tile's polygons, planes and boxes made, and draws front faces, or else
      * back faces that are not hidden (assemble.inc). */
     void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count, bool backs);

@@ -245,18 +245,19 @@ DP_LANES_INLINE dp_record l_record(const void *base, uint32_t at) {
     return r;
 }
 
-/* Records at[0], at[4], … of up to four groups. */
-DP_LANES_INLINE dp_lf l_row(const void *base, const uint32_t *at) {
+/* Records at[0], at[4 step], … of up to four groups. */
+DP_LANES_INLINE dp_lf l_row(const void *base, const uint32_t *at, const size_t step) {
 #if DP_LANES == 4
+    (void)step;
     return (dp_lf)l_record(base, at[0]);
 #elif DP_LANES == 8
     return (dp_lf)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)l_record(base, at[0])),
-                                       (__m128)l_record(base, at[4]), 1);
+                                       (__m128)l_record(base, at[4 * step]), 1);
 #else
     const __m512 a = _mm512_castps128_ps512((__m128)l_record(base, at[0]));
-    const __m512 b = _mm512_insertf32x4(a, (__m128)l_record(base, at[4]), 1);
-    const __m512 c = _mm512_insertf32x4(b, (__m128)l_record(base, at[8]), 2);
-    return (dp_lf)_mm512_insertf32x4(c, (__m128)l_record(base, at[12]), 3);
+    const __m512 b = _mm512_insertf32x4(a, (__m128)l_record(base, at[4 * step]), 1);
+    const __m512 c = _mm512_insertf32x4(b, (__m128)l_record(base, at[8 * step]), 2);
+    return (dp_lf)_mm512_insertf32x4(c, (__m128)l_record(base, at[12 * step]), 3);
 #endif
 }
 

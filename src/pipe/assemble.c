@@ -109,18 +109,15 @@ void dp_tile_reassemble(dp_tile_worker *w, uint32_t index, bool backs) {
 static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count) {
     const dp_bins *const bins = &w->frame->polygon_bins;
     const size_t all = dp_bins_tile_count(bins, w->tile);
-    if (!DP_WORKER_RESERVE(w, ids, ids_cap, all + 1) || !DP_WORKER_RESERVE(w, backs, backs_cap, all + 1)) return false;
-    uint32_t *const ids = w->ids, *const backs = w->backs, n = 0, m = 0;
+    const size_t room = all + DP_BIN_ROOM;
+    if (!DP_WORKER_RESERVE(w, ids, ids_cap, room) || !DP_WORKER_RESERVE(w, backs, backs_cap, room)) return false;
+    *count = *back_count = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
         dp_bins_ask(bins, w->tile, c);
-        for (uint32_t i = chunk->offsets[w->tile]; i < chunk->offsets[w->tile + 1]; i++) {
-            const uint32_t entry = chunk->entries[i], back = entry / DP_BIN_TAG;
-            ids[n] = backs[m] = entry & ~DP_BIN_TAG;
-            n += !back, m += back;
-        }
+        const uint32_t first = chunk->offsets[w->tile], n = chunk->offsets[w->tile + 1] - first;
+        w->frame->kernels->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);
     }
-    *count = n, *back_count = m;
     return true;
 }
 

@@ -14,6 +14,8 @@ typedef struct dp_tile_rect {
 
 #define DP_BIN_TAG (1u << 31)
 
+enum { DP_BIN_ROOM = 16 }; /* a vector may be stored beyond the last of a list of entries */
+
 /* One chunk of items: `entries` of tile t are [offsets[t], offsets[t + 1]), ascending but for their tags. */
 typedef struct dp_bin_chunk {
     uint32_t *entries, *offsets;
