@@ -15,6 +15,7 @@
  * too. Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/edge_table.h"
 
+#include "base/hostile.h"
 #include "kernel/kernels.h"
 
 #include <string.h>
@@ -128,9 +129,12 @@ static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
 /* Compilers know nothing of the value, so that they make no branches of what is computed from it. */
 #define OPAQUE(value) __asm__("" : "+r"(value))
 
+/* Of names so much is compared at first: all of it, or so little that the table is filled again in every tile. */
+static const uint32_t COMPARED = DP_TUNED(UINT32_MAX, 15);
+
 /* Is the slot taken by another edge? */
 static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot, uint32_t name) {
-    uint32_t other = (uint32_t)(met_at(slot) != 0) & (uint32_t)((uint32_t)slot != name);
+    uint32_t other = (uint32_t)(met_at(slot) != 0) & (uint32_t)((((uint32_t)slot ^ name) & COMPARED) != 0);
     OPAQUE(other);
     return other;
 }

@@ -6,6 +6,7 @@
 #include "pipe/bin.h"
 #include "pipe/frame.h"
 #include "pipe/outline.h"
+#include "pipe/tile.h"
 #include "strokes/stroke.h"
 
 #include <setjmp.h>
@@ -193,6 +194,66 @@ static void coverages_agree(void **state) {
     }
 }
 
+static void parts_agree(void **state) {
+    enum { ENTRIES = 1000, ROOM = ENTRIES + DP_BIN_ROOM };
+    static uint32_t entries[ENTRIES], ids[ROOM], backs[ROOM];
+    (void)state;
+    uint32_t seed = 3;
+    for (uint32_t i = 0; i < ENTRIES; i++) entries[i] = next_random(&seed) | (next_random(&seed) % 3 ? 0 : DP_BIN_TAG);
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t kinds = dp_kernels_list(list);
+    for (uint32_t k = 0; k < kinds; k++) {
+        for (uint32_t n = 0; n < ENTRIES; n = n < 40 ? n + 1 : n + 97) {
+            uint32_t count = 1, back_count = 2, front = 1, back = 2;
+            list[k]->part(entries, n, ids, &count, backs, &back_count);
+            for (uint32_t i = 0; i < n; i++) {
+                const bool away = entries[i] & DP_BIN_TAG;
+                assert_int_equal(away ? backs[back++] : ids[front++], entries[i] & ~DP_BIN_TAG);
+            }
+            assert_int_equal(count, front);
+            assert_int_equal(back_count, back);
+        }
+        const double start = now_ns();
+        for (int i = 0; i < REPEATS; i++) {
+            uint32_t count = 0, back_count = 0;
+            list[k]->part(entries, ENTRIES, ids, &count, backs, &back_count);
+        }
+        report("part", list[k], start, ENTRIES);
+    }
+}
+
+/* Who meets whom, against all pairs one by one. */
+static void meetings_agree(void **state) {
+    enum { CROWD = 150, STRIDE = CROWD + DP_CROWD_ROOM };
+    static float bounds[DP_CROWD_BOUNDS * STRIDE];
+    static uint32_t met[STRIDE];
+    (void)state;
+    uint32_t seed = 9;
+    for (uint32_t i = 0; i < CROWD; i++)
+        for (uint32_t a = 0; a < 3; a++) { /* whole numbers, so that bounds touch now and then */
+            bounds[a * STRIDE + i] = (float)(next_random(&seed) % 40);
+            bounds[(3 + a) * STRIDE + i] = bounds[a * STRIDE + i] + (float)(next_random(&seed) % 10);
+        }
+    const dp_crowd crowd = {.bounds = bounds, .met = met, .count = CROWD, .stride = STRIDE};
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t kinds = dp_kernels_list(list);
+    for (uint32_t k = 0; k < kinds; k++) {
+        const double start = now_ns();
+        for (uint32_t self = 0; self < CROWD; self++) {
+            const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self), count = list[k]->meet(&crowd, self, end);
+            uint32_t expected = 0;
+            for (uint32_t i = self + 1; i < end; i++) {
+                bool apart = false;
+                for (uint32_t a = 0; a < 3; a++)
+                    apart |= bounds[(3 + a) * STRIDE + i] < bounds[a * STRIDE + self] || bounds[(3 + a) * STRIDE + self] < bounds[a * STRIDE + i];
+                if (!apart) assert_int_equal(met[expected++], i);
+            }
+            assert_int_equal(count, expected);
+        }
+        report("meet", list[k], start, CROWD * CROWD / 4);
+    }
+}
+
 static int set_up(void **state) {
     (void)state;
     make_model();
@@ -205,6 +266,8 @@ int main(void) {
         cmocka_unit_test(equal_positions_have_equal_keys),
         cmocka_unit_test(places_agree),
         cmocka_unit_test(coverages_agree),
+        cmocka_unit_test(parts_agree),
+        cmocka_unit_test(meetings_agree),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }
