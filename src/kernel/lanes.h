@@ -328,6 +328,9 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
+/* The bits of the first n lanes. */
+DP_LANES_INLINE uint32_t lm_first(uint32_t n) { return n < DP_LANES ? (1u << n) - 1 : (uint32_t)((1ull << DP_LANES) - 1); }
+
 /* 0, 1, 2, … by lane. */
 static const float dp_lane_steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 DP_LANES_INLINE dp_lf l_steps(void) { return l_load(dp_lane_steps); }
