@@ -168,7 +168,7 @@ static bool too_slow(const suite *s, const row *r, int which, double share) {
     return !yardstick && which > OWN_FLAT && s->last_ms[which] > share / 3;
 }
 
-/* First frames. One that takes longer than all frames should is kept: there will be no better. */
+/* First frames, which find memory cold. A peer's that takes longer than all frames should is kept: there will be no better. */
 static void warm_up(suite *s, const row *r, double share) {
     if (s->peer_width != s->target.width || s->peer_height != s->target.height)
         memset(s->peer_warm, 0, sizeof s->peer_warm);
@@ -179,7 +179,7 @@ static void warm_up(suite *s, const row *r, double share) {
         *v = (variant){.gone = too_slow(s, r, k, share)};
         if (v->gone || s->peer_warm[k]) continue;
         draw_variant(s, k, false);
-        if (!v->gone && v->spent > share) v->count = 1;
+        if (!v->gone && k > OWN_FLAT && v->spent > share) v->count = 1;
         v->spent = 0;
         s->peer_warm[k] = k > OWN_FLAT;
     }
@@ -190,7 +190,7 @@ static int next_variant(const suite *s, double share, bool time_left) {
     int best = -1;
     for (int k = 0; k < VARIANT_COUNT; k++) {
         const variant *const v = &s->variants[k];
-        const unsigned least = k <= OWN_FLAT && s->last_ms[k] < share ? OWN_FRAMES_MIN : 1;
+        const unsigned least = k <= OWN_FLAT ? OWN_FRAMES_MIN : 1;
         if (v->gone || v->count == FRAMES_MAX || (!time_left && v->count >= least)) continue;
         if (best < 0 || v->spent < s->variants[best].spent) best = k;
     }
