@@ -74,7 +74,7 @@ void dp_edge_list_polygon(dp_tile_worker *w, uint32_t index) {
         const bool real = ka != kb || !same_position(polygons, dp_corner_vertex(polygons, first + i),
                                                      dp_corner_vertex(polygons, first + next));
         list->polygon[at] = index, list->edge[at] = i;
-        list->from[at] = ka, list->name[at] = ka ^ kb, list->place[at] = ka + kb;
+        list->from[at] = ka, list->name[at] = ka ^ kb;
         list->count += real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i);
         ka = kb;
     }
@@ -92,7 +92,7 @@ static bool make_list(dp_tile_worker *w) {
     const size_t room = corners + DP_EDGES_ROOM;
     if (room >= DP_SLOT_MORE || !DP_WORKER_RESERVE(w, edges.polygon, edges.polygon_cap, room) ||
         !DP_WORKER_RESERVE(w, edges.edge, edges.edge_cap, room) || !DP_WORKER_RESERVE(w, edges.from, edges.from_cap, room) ||
-        !DP_WORKER_RESERVE(w, edges.name, edges.name_cap, room) || !DP_WORKER_RESERVE(w, edges.place, edges.place_cap, room))
+        !DP_WORKER_RESERVE(w, edges.name, edges.name_cap, room))
         return false;
     if (!polygons->firsts && !polygons->edge_flags) w->frame->kernels->list_edges(w);
     else
@@ -102,7 +102,11 @@ static bool make_list(dp_tile_worker *w) {
 
 /* ------- entering ------- */
 
-static uint32_t place_of(uint32_t sum, uint32_t slots) { return (uint32_t)((uint64_t)(sum * 0x9e3779b1u) * slots >> 32); }
+/* Made of the sum of both ends' keys, as the name is of their exclusive or: the same from either end. */
+static inline uint32_t place_of(uint32_t from, uint32_t name, uint32_t slots) {
+    const uint32_t sum = from + (from ^ name);
+    return (uint32_t)((uint64_t)(sum * 0x9e3779b1u) * slots >> 32);
+}
 
 static inline uint32_t met_at(dp_edge_slot slot) { return (uint32_t)(slot >> 32); }
 
@@ -140,8 +144,8 @@ static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot
 }
 
 /* The first look for an edge: at the slot that is its place and, where another edge has that, at the next. */
-static inline __attribute__((always_inline)) uint32_t first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t sum, uint32_t name) {
-    const uint32_t s = place_of(sum, count);
+static inline __attribute__((always_inline)) uint32_t first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t from, uint32_t name) {
+    const uint32_t s = place_of(from, name, count);
     return s + is_other(slots[s], name); /* the last slot is nobody's place */
 }
 
@@ -160,15 +164,15 @@ enum { AHEAD = 8 };
  * first of them is entered: where it comes to lie, they find out when their turn comes. */
 static inline __attribute__((always_inline)) void enter_all(dp_tile_worker *w, const bool exact) {
     const dp_edge_list *const list = &w->edges;
-    const uint32_t *const sums = list->place, *const names = list->name, count = list->count, last = w->slot_count - 1;
+    const uint32_t *const starts = list->from, *const names = list->name, count = list->count, last = w->slot_count - 1;
     dp_edge_slot *const slots = w->edge_slots;
     uint32_t *const first = w->pair_first, *const second = w->pair_second, pairs = 0;
     for (uint32_t start = 0; start < count; start += AHEAD) {
-        uint32_t from[AHEAD];
-        for (uint32_t k = 0; k < AHEAD; k++) from[k] = first_slot(slots, last, sums[start + k], names[start + k]);
+        uint32_t look[AHEAD];
+        for (uint32_t k = 0; k < AHEAD; k++) look[k] = first_slot(slots, last, starts[start + k], names[start + k]);
         for (uint32_t k = 0; k < AHEAD && start + k < count; k++) {
             const uint32_t i = start + k, name = names[i];
-            const uint32_t at = find_slot(w, slots, last, from[k], i, name, exact), met = met_at(slots[at]);
+            const uint32_t at = find_slot(w, slots, last, look[k], i, name, exact), met = met_at(slots[at]);
             if (met & DP_SLOT_PAIR) {
                 add_meeting(w, at, i);
                 continue;
@@ -245,7 +249,7 @@ dp_edge_entry dp_edge_table_entry(const dp_tile_worker *w, uint32_t number) {
     const dp_edge_list *const list = &w->edges;
     const dp_edge_place a = dp_edge_place_of(w, number);
     const uint32_t name = list->name[number], last = w->slot_count - 1;
-    const uint32_t at = find_slot(w, w->edge_slots, last, first_slot(w->edge_slots, last, list->place[number], name), number, name, true);
+    const uint32_t at = find_slot(w, w->edge_slots, last, first_slot(w->edge_slots, last, list->from[number], name), number, name, true);
     const uint32_t met = met_at(w->edge_slots[at]);
     dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
     if (!(met & DP_SLOT_PAIR)) return out;

@@ -42,7 +42,6 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->edges.edge);
     dp_free(&memory, worker->edges.from);
     dp_free(&memory, worker->edges.name);
-    dp_free(&memory, worker->edges.place);
     dp_free(&memory, worker->slot_meetings);
     dp_free(&memory, worker->meetings);
     dp_free(&memory, worker->edge_slots);
@@ -74,7 +73,7 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
            w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
            w->points_cap * sizeof *w->points + w->edge_marks_cap + w->meetings_cap * sizeof *w->meetings +
            (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
-           (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap + w->edges.place_cap) * 4 +
+           (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
            (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.met_cap + w->crowd.listed_cap) * 4 + (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 + w->candidates_cap * sizeof *w->candidates +
            w->probes_cap * sizeof *w->probes +

@@ -46,8 +46,8 @@ _Static_assert(sizeof(dp_tile_polygon) == 32, "kernel/assemble.inc writes it as 
 typedef struct dp_edge_list {
     uint32_t *polygon, *edge; /* tile polygon; number of the corner that the edge starts from */
     uint32_t *from;           /* that corner's key */
-    uint32_t *name, *place;   /* exclusive or, and sum, of the keys of both ends */
-    size_t polygon_cap, edge_cap, from_cap, name_cap, place_cap;
+    uint32_t *name;           /* exclusive or of the keys of both ends */
+    size_t polygon_cap, edge_cap, from_cap, name_cap;
     uint32_t count;
 } dp_edge_list;
 
