@@ -328,6 +328,16 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
+/* Lane l's record, by columns. */
+DP_LANES_INLINE void fetch_records(const void *base, const uint32_t at[DP_LANES], dp_lf out[4]) {
+#if DP_LANES == 1
+    memcpy(out, (const char *)base + 16 * (size_t)*at, 16);
+#else
+    for (int i = 0; i < 4; i++) out[i] = l_row(base, at + i, 1);
+    l_transpose(out);
+#endif
+}
+
 /* The bits of the first n lanes. */
 DP_LANES_INLINE uint32_t lm_first(uint32_t n) { return n < DP_LANES ? (1u << n) - 1 : (uint32_t)((1ull << DP_LANES) - 1); }
 

@@ -75,7 +75,7 @@ static bool sort_chunk(const job *j, dp_bin_scratch *s, size_t count, dp_bin_chu
     const size_t half = count / 2;
     if (!dp_reserve(j->memory, &chunk->offsets, &chunk->offsets_cap, tile_count + 1, sizeof *chunk->offsets) ||
         !dp_reserve(j->memory, &s->offsets, &s->offsets_cap, tile_count, sizeof *s->offsets) ||
-        !dp_reserve(j->memory, &chunk->entries, &chunk->entries_cap, count, sizeof *chunk->entries))
+        !dp_reserve(j->memory, &chunk->entries, &chunk->entries_cap, count + 1, sizeof *chunk->entries)) /* even of none */
         return false;
     uint32_t *const left = chunk->offsets, *const right = s->offsets, *const entries = chunk->entries;
     memset(left, 0, (tile_count + 1) * sizeof *left);

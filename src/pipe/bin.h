@@ -51,7 +51,6 @@ void dp_bins_free(dp_bins *bins, const dp_allocator *memory);
 /* Memory that stays, bytes. */
 uint64_t dp_bins_bytes(const dp_bins *bins);
 
-/* How many items tile t holds. */
 /* Asks for what a walk over a tile's chunks will read when it comes to those after chunk `c`: it lies scattered. */
 static inline void dp_bins_ask(const dp_bins *bins, uint32_t tile, uint32_t c) {
     const dp_bin_chunk *const chunks = bins->chunks;
@@ -59,6 +58,7 @@ static inline void dp_bins_ask(const dp_bins *bins, uint32_t tile, uint32_t c) {
     if (c + 4 < bins->chunk_count) __builtin_prefetch(&chunks[c + 4].entries[chunks[c + 4].offsets[tile]]);
 }
 
+/* How many items a tile holds. */
 size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile);
 
 #endif

@@ -6,9 +6,9 @@
  * line the positions themselves are compared. Of those that make no line that is not asked: two neighbours of
  * one vertex whose keys are equal would have to meet, which one mesh of a million triangles in a thousand has.
  *
- * Data structure: a list of edges (kernel/edges.inc), and open addressing of 8 bytes a slot, which is less than a name:
- * a slot's number stands for the rest. So two edges may be taken for one, in one tile of a million; whoever looks at
- * a pair sees that, and the table is filled again with the names themselves compared. Edges that met are pairs, told
+ * Data structure: a list of edges (kernel/edges.inc), and open addressing of 8 bytes a slot, of which 4 are what two
+ * keys have in common; where the slot lies stands for the rest. So two edges may be taken for one, in one tile of a
+ * million; whoever looks at a pair sees that, and the table is filled again with the keys themselves compared. Edges that met are pairs, told
  * flat by many at once; a byte per listed edge tells whether it may be a line, so that what is found does not
  * depend on the hash. Invariant: at most two of three slots are used. Hidden
  * polygons stay away: their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that
@@ -97,6 +97,7 @@ static bool make_list(dp_tile_worker *w) {
     if (!polygons->firsts && !polygons->edge_flags) w->frame->kernels->list_edges(w);
     else
         for (uint32_t i = 0; i < w->seen_count; i++) dp_edge_list_polygon(w, w->seen[i]);
+    for (uint32_t i = 0; i < DP_EDGES_ROOM; i++) list->from[list->count + i] = list->name[list->count + i] = 0;
     return true;
 }
 
@@ -133,7 +134,7 @@ static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
 /* Compilers know nothing of the value, so that they make no branches of what is computed from it. */
 #define OPAQUE(value) __asm__("" : "+r"(value))
 
-/* Of names so much is compared at first: all of it, or so little that the table is filled again in every tile. */
+/* Of names so much is compared at first: all of it, or so little that most tables are filled again. */
 static const uint32_t COMPARED = DP_TUNED(UINT32_MAX, 15);
 
 /* Is the slot taken by another edge? */

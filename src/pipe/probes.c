@@ -5,8 +5,8 @@
  * that matter (an irregular depth buffer). The answer is exact for edges far below a pixel and owes
  * nothing to the number of samples.
  *
- * Data structure: probes sorted by pixel, so that a polygon looks at a pixel's all at once; the least limit around each
- * pixel, which tells that most polygons hide none; and one 64-bit mask per row of pixels that hold any. A spine's points belong to the tile whose pixel they
+ * Data structure: probes sorted by pixel, so that those in a row of a polygon's box follow each other, and the least limit
+ * around each pixel, which tells that most polygons hide none. A spine's points belong to the tile whose pixel they
  * lie in. Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
@@ -101,7 +101,6 @@ static bool sort_probes(dp_tile_worker *w) {
     dp_sorted_probes *const out = &w->sorted;
     if (!reserve_sorted(w, (size_t)w->probe_count + 16)) return false;
     uint32_t *const first = out->first;
-    memset(out->row, 0, sizeof out->row);
     for (size_t i = 0; i < sizeof out->least / sizeof *out->least; i++) out->least[i] = INFINITY;
     memset(first, 0, sizeof out->first);
     for (uint32_t i = 0; i < w->probe_count; i++) {
@@ -109,7 +108,6 @@ static bool sort_probes(dp_tile_worker *w) {
         const float limit = w->probes[i].hidden ? INFINITY : w->probes[i].limit;
         out->least[cell] = dp_minf(limit, out->least[cell]);
         first[cell + 1]++;
-        out->row[cell / DP_TILE] |= (uint64_t)1 << cell % DP_TILE;
     }
     for (uint32_t c = 0; c < DP_TILE * DP_TILE; c++) first[c + 1] += first[c];
     for (uint32_t i = w->probe_count; i-- > 0;) {

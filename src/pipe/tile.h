@@ -96,7 +96,6 @@ typedef struct dp_sorted_probes {
     float *x, *y, *limit;     /* limit is infinite once it is hidden */
     uint32_t *own_a, *own_b;
     size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
-    uint64_t row[DP_TILE + 4];                       /* pixels that hold any; some rows more that hold none */
     uint32_t first[DP_TILE * DP_TILE + 1];           /* by pixel */
     float least[DP_TILE * DP_TILE + DP_TILE + 16];   /* limit, by pixel, infinite where there is none; a row and a vector more */
     float window[DP_TILE * DP_TILE];                 /* kernel/hide.inc */
@@ -107,7 +106,7 @@ typedef struct dp_crowd {
     uint32_t *polygon;
     float *bounds; /* least x, y (px, tile space) and d, then the most, `stride` floats from one to the next */
     uint32_t *met; /* those that one of them may cross */
-    uint32_t *listed;
+    uint32_t *listed; /* before they are sorted */
     size_t polygon_cap, bounds_cap, met_cap, listed_cap;
     uint32_t count, stride;
 } dp_crowd;
@@ -248,6 +247,9 @@ void dp_tile_quads(dp_tile_worker *worker);
 /* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
 bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);
 
+/* The same of a polygon's box. */
+bool dp_tile_is_hidden(const dp_tile_worker *worker, const dp_tile_polygon *polygon);
+
 /* Does edge i of a polygon come as near to the tile as `reach` px? A polygon that is not clipped has an edge from
  * point to point of its outline. */
 static inline bool dp_tile_edge_reaches(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, float reach) {
@@ -273,9 +275,6 @@ static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
 
 /* Sets the normal of a polygon that is too thin for float32 (edges.c). */
 void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
-
-/* The same of a polygon's box. */
-bool dp_tile_is_hidden(const dp_tile_worker *worker, const dp_tile_polygon *polygon);
 
 /* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face, or, when `backs`,
  * a back face that is not hidden (assemble.c). */
@@ -310,7 +309,7 @@ static inline uint64_t dp_box_span(const dp_tile_polygon *polygon) {
     return (~(uint64_t)0 >> (63 - (polygon->x1 - polygon->x0))) << polygon->x0;
 }
 
-/* Of seen polygon i, member DP_SEEN_…; room for a vector lies beyond the last. */
+/* Member DP_SEEN_… of all seen polygons; room for a vector lies beyond the last. */
 static inline uint32_t *dp_seen_words(const dp_tile_worker *w, uint32_t member) {
     return w->seen_words + (size_t)member * w->seen_stride;
 }

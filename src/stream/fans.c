@@ -97,7 +97,7 @@ bool dp_stream_make_fans(dp_stream_draw *s) {
     while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
     s->fan_slots = dp_alloc_zeroed(s->memory, s->fan_slot_count * sizeof *s->fan_slots);
     s->fans = dp_alloc_array(s->memory, count, sizeof *s->fans);
-    s->fan_filter_bits = 16 * s->fan_slot_count; /* one bit in 32 or fewer is set */
+    s->fan_filter_bits = s->fan_slot_count < 1u << 27 ? 16 * s->fan_slot_count : 1u << 31; /* few of them are set */
     s->fan_filter = dp_alloc_zeroed(s->memory, s->fan_filter_bits / 8);
     if (!s->fan_slots || !s->fans || !s->fan_filter) return false;
     for (uint32_t t = 0; t < tiles; t++)

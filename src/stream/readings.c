@@ -136,8 +136,12 @@ static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
     memcpy(s->numbers + rest->first, rest->numbers, rest->covering * sizeof *s->numbers);
 }
 
+/* Pixels without a sample point in sight are wanted no more. */
 static bool draw_listed(dp_stream_draw *s, dp_reading reading) {
-    return reading == DP_READ_HIDERS ? dp_stream_hide_probes(s) : dp_stream_draw_faces(s);
+    if (reading != DP_READ_HIDERS) return dp_stream_draw_faces(s);
+    if (!dp_stream_hide_probes(s)) return false;
+    dp_pixel_maps_fill(&s->view);
+    return true;
 }
 
 /* Adds what the chunks left to the list; draws the list first when it has no room. */
