@@ -50,19 +50,21 @@ static void find_ring(const dp_tile_worker *w, float out[DP_RINGED][DP_RINGED]) 
     out[0][0] = out[0][last] = out[last][0] = out[last][last] = DP_DEPTH_EMPTY;
 }
 
+static uint32_t block_after(uint32_t b) { return b + 1 < DP_RINGED ? b + 1 : b; }
+
+/* What spans more blocks, from what spans one less and the block that comes after it. */
 void dp_tile_find_farthest(dp_tile_worker *w) {
-    float(*const one)[DP_RINGED] = w->farthest[0][0], (*const wide)[DP_RINGED] = w->farthest[0][1];
-    find_blocks(w, one);
-    find_ring(w, one);
-    for (uint32_t by = 0; by < DP_RINGED; by++)
-        for (uint32_t bx = 0; bx < DP_RINGED; bx++)
-            wide[by][bx] = dp_minf(one[by][bx], one[by][bx + 1 < DP_RINGED ? bx + 1 : bx]);
-    for (uint32_t by = 0; by < DP_RINGED; by++)
-        for (uint32_t bx = 0; bx < DP_RINGED; bx++) {
-            const uint32_t next = by + 1 < DP_RINGED ? by + 1 : by;
-            w->farthest[1][0][by][bx] = dp_minf(one[by][bx], one[next][bx]);
-            w->farthest[1][1][by][bx] = dp_minf(wide[by][bx], wide[next][bx]);
-        }
+    find_blocks(w, w->farthest[0][0]);
+    find_ring(w, w->farthest[0][0]);
+    for (uint32_t sx = 1; sx < DP_SPANS; sx++)
+        for (uint32_t by = 0; by < DP_RINGED; by++)
+            for (uint32_t bx = 0; bx < DP_RINGED; bx++)
+                w->farthest[0][sx][by][bx] = dp_minf(w->farthest[0][0][by][bx], w->farthest[0][sx - 1][by][block_after(bx)]);
+    for (uint32_t sy = 1; sy < DP_SPANS; sy++)
+        for (uint32_t sx = 0; sx < DP_SPANS; sx++)
+            for (uint32_t by = 0; by < DP_RINGED; by++)
+                for (uint32_t bx = 0; bx < DP_RINGED; bx++)
+                    w->farthest[sy][sx][by][bx] = dp_minf(w->farthest[0][sx][by][bx], w->farthest[sy - 1][sx][block_after(by)][bx]);
 }
 
 /* Pixel coordinates go from -1 to DP_TILE; the ring is block 0. */
@@ -72,7 +74,7 @@ static inline bool hides(const dp_tile_worker *w, int x0, int y0, int x1, int y1
     const float limit = nearest + dp_depth_steps(w->frame, nearest, DP_CULL_SLACK);
     const uint32_t bx0 = block_of(x0 - 1), bx1 = block_of(x1 + 1);
     const uint32_t by0 = block_of(y0 - 1), by1 = block_of(y1 + 1);
-    if (bx1 - bx0 <= 1 && by1 - by0 <= 1) return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
+    if (bx1 - bx0 < DP_SPANS && by1 - by0 < DP_SPANS) return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++)
             if (!(limit < w->farthest[0][0][by][bx])) return false;

@@ -127,7 +127,8 @@ typedef struct dp_loose_edge {
 /* Depth of the furthest sample of 1 + sx times 1 + sy blocks of pixels, the first of which is bx, by (cull.c). Around
  * the tile's blocks lies a ring, of the strip: block [1][1] is the tile's first. */
 enum { DP_BLOCKS = DP_TILE / DP_BLOCK, DP_RINGED = DP_BLOCKS + 2 };
-typedef float dp_farthest[2][2][DP_RINGED][DP_RINGED]; /* [sy][sx][by][bx] */
+enum { DP_SPANS = 3 };
+typedef float dp_farthest[DP_SPANS][DP_SPANS][DP_RINGED][DP_RINGED]; /* [sy][sx][by][bx] */
 
 /* Depth of the front faces half a pixel beyond the tile: on the left, right, above and below it, at a quarter and at
  * three quarters of each pixel. */
