@@ -1,7 +1,8 @@
 /* Fuzzes the drawing: polygons, camera and style from bytes, corners from special values as well.
  *
  * Layout of the input: 8 bytes of style, 8 of camera, then polygons as bytes (corner count, then x, y, z
- * per corner, a byte each). Bytes map to a small grid, so that edges meet, overlap and touch, and some
+ * per corner, a byte each); or, by a bit of the style, their corners are vertices and all bytes once more the vertex
+ * numbers of triangles. Bytes map to a small grid, so that edges meet, overlap and touch, and some
  * to values that arithmetic stumbles over. Nothing is asserted but that it ends without a fault. */
 #include <drypoint/drypoint.h>
 
@@ -53,17 +54,27 @@ static size_t polygons_of(const uint8_t *data, size_t size, float (*positions)[3
     return count;
 }
 
+/* Triangles over the vertices there are; some numbers are out of range. */
+static dp_batch triangles_of(const uint8_t *data, size_t size, const float *positions, uint32_t vertices, uint32_t *indices) {
+    const size_t count = size / 3;
+    for (size_t i = 0; i < 3 * count; i++) indices[i] = data[i] == 255 ? UINT32_MAX : data[i] % (vertices + 1);
+    return (dp_batch){.positions = positions, .vertex_count = vertices, .indices = indices, .corner_count = 3 * count,
+                      .polygon_count = count};
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static float positions[MAX_CORNERS][3];
-    static uint32_t firsts[MAX_CORNERS * 3 + 2];
+    static uint32_t firsts[MAX_CORNERS * 3 + 2], indices[MAX_CORNERS * 3 + 2];
     static uint8_t rgba[WIDTH * HEIGHT * 4], classes[WIDTH * HEIGHT];
     static float depth[WIDTH * HEIGHT], normal[WIDTH * HEIGHT * 3];
     dp_camera camera;
     if (size < 16 || size > sizeof firsts / sizeof *firsts || !camera_of(data + 8, &camera)) return 0;
     const dp_style style = style_of(data);
     const size_t count = polygons_of(data + 16, size - 16, positions, firsts);
-    const dp_batch batch = {.positions = positions[0], .vertex_count = firsts[count],
-                            .corner_count = firsts[count], .firsts = firsts, .polygon_count = count};
+    const dp_batch polygons = {.positions = positions[0], .vertex_count = firsts[count],
+                               .corner_count = firsts[count], .firsts = firsts, .polygon_count = count};
+    const dp_batch triangles = triangles_of(data + 16, size - 16, positions[0], firsts[count], indices);
+    const dp_batch batch = data[3] & 128 ? triangles : polygons;
     static const uint32_t samples[] = {1, 4, 8, 16};
     const dp_target target = {.width = WIDTH, .height = HEIGHT, .samples = samples[data[5] & 3], .rgba = rgba,
                               .depth = depth, .line_class = classes, .normal = normal};
