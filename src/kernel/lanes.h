@@ -329,7 +329,7 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 #endif
 
 /* Lane l's record, by columns. */
-DP_LANES_INLINE void fetch_records(const void *base, const uint32_t at[DP_LANES], dp_lf out[4]) {
+DP_LANES_INLINE void l_records(const void *base, const uint32_t at[DP_LANES], dp_lf out[4]) {
 #if DP_LANES == 1
     memcpy(out, (const char *)base + 16 * (size_t)*at, 16);
 #else

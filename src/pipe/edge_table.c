@@ -8,11 +8,10 @@
  *
  * Data structure: a list of edges (kernel/edges.inc), and open addressing of 8 bytes a slot, of which 4 are what two
  * keys have in common; where the slot lies stands for the rest. So two edges may be taken for one, in one tile of a
- * million; whoever looks at a pair sees that, and the table is filled again with the keys themselves compared. Edges that met are pairs, told
- * flat by many at once; a byte per listed edge tells whether it may be a line, so that what is found does not
- * depend on the hash. Invariant: at most two of three slots are used. Hidden
- * polygons stay away: their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that
- * too. Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
+ * million; whoever looks at a pair sees that, and the table is filled again with the keys themselves compared. Edges
+ * that met are pairs, told flat by many at once; a byte per listed edge tells whether it may be a line, so that what
+ * is found does not depend on the hash. Invariant: at most two of three slots are used. Hidden polygons stay away:
+ * their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that too. Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "pipe/edge_table.h"
 
 #include "base/hostile.h"

@@ -196,34 +196,23 @@ static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
     }
 }
 
-static const uint32_t *corners_of(const dp_tile_worker *w, uint32_t polygon) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    return polygons->corners ? polygons->corners + dp_first_corner(polygons, w->polygons[polygon].id) : NULL;
-}
-
-/* Asks for the positions of a polygon's first corners. They lie scattered in the model, and so do vertex numbers. */
-static void ask_for_positions(const dp_tile_worker *w, uint32_t polygon) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const uint32_t first = dp_first_corner(polygons, w->polygons[polygon].id);
-    for (uint32_t i = 0; i < 3; i++) __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
-}
-
 enum { ENTRIES = 32 };
 
 /* Takes up to ENTRIES edges from the table from `*number` on, and has their polygons fetched meanwhile. */
 static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_entry entries[ENTRIES]) {
+    const dp_polygons *const polygons = &w->frame->polygons;
     uint32_t count = 0;
     for (; count < ENTRIES && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX; count++) {
         const dp_edge_entry e = dp_edge_table_entry(w, (*number)++);
-        __builtin_prefetch(corners_of(w, e.a));
-        if (e.b != UINT32_MAX) __builtin_prefetch(corners_of(w, e.b));
+        dp_ask_for_corners(polygons, w->polygons[e.a].id);
+        if (e.b != UINT32_MAX) dp_ask_for_corners(polygons, w->polygons[e.b].id);
         entries[count] = e;
     }
     for (uint32_t i = 0; i < count; i++) {
         dp_edge_entry *const e = &entries[i];
         dp_edge_ends(w, (dp_edge_place){e->a, e->edge_a}, &e->va, &e->vb);
-        ask_for_positions(w, e->a);
-        if (e->b != UINT32_MAX) ask_for_positions(w, e->b);
+        dp_ask_for_positions(polygons, w->polygons[e->a].id);
+        if (e->b != UINT32_MAX) dp_ask_for_positions(polygons, w->polygons[e->b].id);
     }
     return count;
 }

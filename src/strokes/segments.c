@@ -140,19 +140,13 @@ typedef struct job {
     const dp_stroke_store *store;
 } job;
 
-/* Asks for the positions of a polygon's first corners, or for the vertex numbers of these. */
-static void ask_for(const dp_polygons *polygons, uint32_t polygon, bool positions) {
-    if (polygon == UINT32_MAX) return;
-    const uint32_t first = dp_first_corner(polygons, polygon);
-    if (!positions && polygons->corners) __builtin_prefetch(&polygons->corners[first]);
-    for (uint32_t i = 0; positions && i < 3; i++)
-        __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
-}
+typedef void ask(const dp_polygons *polygons, uint32_t polygon);
 
-static void ask_for_piece(const job *j, size_t piece, bool positions) {
+static void ask_for_piece(const job *j, size_t piece, ask *ask_for) {
     if (piece >= j->frame->segment_count) return;
-    ask_for(&j->frame->polygons, j->store->pieces[piece].a, positions);
-    ask_for(&j->frame->polygons, j->store->pieces[piece].b, positions);
+    const dp_piece *const p = &j->store->pieces[piece];
+    ask_for(&j->frame->polygons, p->a);
+    if (p->b != UINT32_MAX) ask_for(&j->frame->polygons, p->b);
 }
 
 /* What segments are made of lies scattered, and is asked for before their turn comes. */
@@ -161,8 +155,8 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     (void)worker;
     const size_t first = (size_t)index * BLOCK;
     for (size_t i = first; i < first + BLOCK && i < j->frame->segment_count; i++) {
-        ask_for_piece(j, i + 16, false);
-        ask_for_piece(j, i + 8, true);
+        ask_for_piece(j, i + 16, dp_ask_for_corners);
+        ask_for_piece(j, i + 8, dp_ask_for_positions);
         make_segment(j->frame, &j->store->pieces[i], &j->store->segments[i], &j->store->strokes[i]);
     }
 }

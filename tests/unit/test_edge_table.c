@@ -103,42 +103,32 @@ static void same_way(scene *s) {
     assert_int_equal(partner_of(s, 0, 0, false), 1);
 }
 
-static void for_all_kernels(void test(scene *)) {
+/* What a test fills the table with, and finds there. */
+typedef struct trial {
+    void (*run)(scene *);
+} trial;
+
+static void for_all_kernels(void **state) {
+    const trial *const t = *state;
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(list);
     for (uint32_t k = 0; k < count; k++) {
         scene *const s = malloc(sizeof *s);
         assert_non_null(s);
         begin(s, list[k]);
-        test(s);
+        t->run(s);
         dp_tile_worker_free(&s->worker);
         free(s);
     }
 }
 
-static void edges_of_one_name_are_told_apart(void **state) {
-    (void)state;
-    for_all_kernels(tells_apart);
-}
-static void pairs_of_one_name_are_told_apart(void **state) {
-    (void)state;
-    for_all_kernels(pairs_apart);
-}
-static void fans_of_one_name_are_told_apart(void **state) {
-    (void)state;
-    for_all_kernels(fans_apart);
-}
-static void edges_may_run_the_same_way(void **state) {
-    (void)state;
-    for_all_kernels(same_way);
-}
-
 int main(void) {
+    static trial trials[] = {{tells_apart}, {pairs_apart}, {fans_apart}, {same_way}};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_of_one_name_are_told_apart),
-        cmocka_unit_test(pairs_of_one_name_are_told_apart),
-        cmocka_unit_test(fans_of_one_name_are_told_apart),
-        cmocka_unit_test(edges_may_run_the_same_way),
+        {"edges of one name are told apart", for_all_kernels, NULL, NULL, &trials[0]},
+        {"pairs of one name are told apart", for_all_kernels, NULL, NULL, &trials[1]},
+        {"fans of one name are told apart", for_all_kernels, NULL, NULL, &trials[2]},
+        {"edges may run the same way", for_all_kernels, NULL, NULL, &trials[3]},
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
