@@ -12,7 +12,8 @@ all: $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
 $(BUILD)/CMakeCache.txt:
-	@cmake --preset release $$(scripts/generator.sh)
+	@cmake --preset release $$(scripts/generator.sh) || { rm -f $@; \
+		echo 'make: not configured; `make setup` installs what is missing' >&2; exit 1; }
 
 help:
 	@echo 'make            build build/drypoint and build/libdrypoint.{a,so}'

@@ -43,9 +43,10 @@ typedef struct dp_kernels {
     void (*see)(struct dp_tile_worker *worker, bool culling);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
     void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
-    /* The unit normals of the tile's unsure triangles that are not hidden (normals.inc). */
+    /* The unit normals of the tile's unsure triangles (normals.inc). */
     void (*normals)(struct dp_tile_worker *worker);
-    /* Appends the edges of the tile's seen triangles to its list (edges.inc). */
+    /* Appends the edges of the tile's seen triangles to its list, but for those that end at calm vertices
+     * (umbrellas.inc), and lists whose normals are to be made (edges.inc). */
     void (*list_edges)(struct dp_tile_worker *worker);
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong together (edges.inc). */
     bool (*flatten)(struct dp_tile_worker *worker);

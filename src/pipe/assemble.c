@@ -129,7 +129,7 @@ static bool draws_backs(const dp_frame *frame) {
 void dp_tile_assemble(dp_tile_worker *w) {
     const dp_kernels *const kernels = w->frame->kernels;
     uint32_t count, back_count;
-    w->polygon_count = w->point_count = w->unsure_count = 0;
+    w->polygon_count = w->point_count = 0;
     for (uint32_t i = 0; i < DP_STRIP_SIDES * DP_STRIP; i++) w->strip[i / DP_STRIP][i % DP_STRIP] = DP_DEPTH_EMPTY;
     if (!collect_ids(w, &count, &back_count)) return;
     if (w->frame->polygons.firsts) {

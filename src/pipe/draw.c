@@ -162,6 +162,14 @@ static float flat_cosine(const dp_style *styles, uint32_t count) {
     return least > 1 ? (float)cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180) : 2;
 }
 
+/* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
+static float calm_spread(float flat_cosine) {
+    if (flat_cosine > 1) return 0;
+    const double angle = acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
+    const double chord = angle > 0 ? 2 * sin(angle / 2) * DP_UMBRELLA_ONE : 0;
+    return (float)(chord * chord);
+}
+
 static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
@@ -427,6 +435,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);
+    f->calm_spread = calm_spread(f->flat_cosine);
     dp_result result = check_target(target, &f->target, diag);
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
     if (!result) begin_view(f);

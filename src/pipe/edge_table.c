@@ -6,6 +6,8 @@
  * line the positions themselves are compared. Of those that make no line that is not asked: two neighbours of
  * one vertex whose keys are equal would have to meet, which one mesh of a million triangles in a thousand has.
  *
+ * Most edges of a fine mesh end at a vertex around which all is flat, and are never entered (kernel/umbrellas.inc).
+ *
  * Data structure: a list of edges (kernel/edges.inc), and open addressing of 8 bytes a slot, of which 4 are what two
  * keys have in common; where the slot lies stands for the rest. So two edges may be taken for one, in one tile of a
  * million; whoever looks at a pair sees that, and the table is filled again with the keys themselves compared. Edges
@@ -77,6 +79,26 @@ void dp_edge_list_polygon(dp_tile_worker *w, uint32_t index) {
         list->count += real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i);
         ka = kb;
     }
+    w->unsure[w->unsure_count] = index;
+    w->unsure_count += w->normals[index][3] > DP_AWAY;
+}
+
+static bool reserve_list(dp_tile_worker *w, size_t edges) {
+    return edges < DP_SLOT_MORE && DP_WORKER_RESERVE(w, edges.polygon, edges.polygon_cap, edges) &&
+           DP_WORKER_RESERVE(w, edges.edge, edges.edge_cap, edges) && DP_WORKER_RESERVE(w, edges.from, edges.from_cap, edges) &&
+           DP_WORKER_RESERVE(w, edges.name, edges.name_cap, edges) &&
+           DP_WORKER_RESERVE(w, unsure, unsure_cap, (size_t)w->seen_count + DP_EDGES_ROOM);
+}
+
+/* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices, or more. */
+static const uint32_t UMBRELLAS = DP_TUNED(4, 1);
+
+static bool reserve_umbrellas(dp_tile_worker *w) {
+    const uint64_t least = (uint64_t)UMBRELLAS * w->seen_count;
+    uint32_t bits = 4;
+    while (bits < 31 && (uint64_t)1 << bits < least) bits++;
+    w->umbrella_shift = 32 - bits;
+    return DP_WORKER_RESERVE(w, umbrellas, umbrellas_cap, (size_t)1 << bits);
 }
 
 static bool make_list(dp_tile_worker *w) {
@@ -87,15 +109,14 @@ static bool make_list(dp_tile_worker *w) {
         corners = 0;
         for (uint32_t i = 0; i < w->seen_count; i++) corners += dp_corner_count(polygons, w->polygons[w->seen[i]].id);
     }
-    list->count = 0;
-    const size_t room = corners + DP_EDGES_ROOM;
-    if (room >= DP_SLOT_MORE || !DP_WORKER_RESERVE(w, edges.polygon, edges.polygon_cap, room) ||
-        !DP_WORKER_RESERVE(w, edges.edge, edges.edge_cap, room) || !DP_WORKER_RESERVE(w, edges.from, edges.from_cap, room) ||
-        !DP_WORKER_RESERVE(w, edges.name, edges.name_cap, room))
-        return false;
-    if (!polygons->firsts && !polygons->edge_flags) w->frame->kernels->list_edges(w);
-    else
+    list->count = w->unsure_count = w->calm_edges = 0;
+    if (!reserve_list(w, corners + DP_EDGES_ROOM)) return false;
+    if (!polygons->firsts && !polygons->edge_flags) {
+        if (!reserve_umbrellas(w)) return false;
+        w->frame->kernels->list_edges(w);
+    } else {
         for (uint32_t i = 0; i < w->seen_count; i++) dp_edge_list_polygon(w, w->seen[i]);
+    }
     for (uint32_t i = 0; i < DP_EDGES_ROOM; i++) list->from[list->count + i] = list->name[list->count + i] = 0;
     return true;
 }
@@ -217,14 +238,15 @@ static bool fill(dp_tile_worker *w, bool exact) {
     return !w->failed;
 }
 
+bool dp_edge_table_list(dp_tile_worker *w) { return make_list(w) || !(w->failed = true); }
+
 bool dp_edge_table_fill(dp_tile_worker *w) {
-    if (!make_list(w)) return !(w->failed = true);
     if (!fill(w, false)) return false;
     if (!w->frame->kernels->flatten(w) || !are_meetings_sound(w)) {
         if (!fill(w, true)) return false;
         w->frame->kernels->flatten(w);
     }
-    w->stats.edges_resolved += w->edge_pairs;
+    w->stats.edges_resolved += w->edge_pairs + w->calm_edges / 2;
     for (uint32_t i = 0; i < w->meeting_count; i++) w->edge_marks[w->meetings[i].first] = 1, w->edge_marks[w->meetings[i].number] = 0;
     return true;
 }

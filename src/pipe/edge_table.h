@@ -18,7 +18,9 @@ typedef struct dp_edge_entry {
     bool opposed;            /* b runs it from vb to va, as it should */
 } dp_edge_entry;
 
-/* Enters the edges of all seen polygons; false when memory is out. */
+/* Lists the edges of all seen polygons, but for many that are flat, and those of triangles whose normals are to be made,
+ * then; enters what is listed. False when memory is out. */
+bool dp_edge_table_list(dp_tile_worker *worker);
 bool dp_edge_table_fill(dp_tile_worker *worker);
 
 /* The number of the first edge from `number` on that may be a line, as the polygon has it that came first;

@@ -48,12 +48,8 @@ void dp_tile_exact_normal(dp_tile_worker *w, uint32_t polygon) {
     out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z, out[3] = 0;
 }
 
-/* Those that assembling left unknown (kernel/assemble.inc), of front faces that are seen. */
+/* Assembling makes those of triangles (kernel/assemble.inc). */
 static bool set_normals(dp_tile_worker *w) {
-    if (!w->frame->polygons.firsts) {
-        w->frame->kernels->normals(w);
-        return true;
-    }
     if (!DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)w->polygon_count)) return false;
     for (uint32_t i = 0; i < w->seen_count; i++) {
         const uint32_t index = w->seen[i];
@@ -61,6 +57,14 @@ static bool set_normals(dp_tile_worker *w) {
         else memcpy(w->normals[index], dp_away, sizeof dp_away);
     }
     return true;
+}
+
+/* Normals, list and table. */
+static bool prepare(dp_tile_worker *w) {
+    const bool triangles = !w->frame->polygons.firsts;
+    if ((!triangles && !set_normals(w)) || !dp_edge_table_list(w)) return false;
+    if (triangles) w->frame->kernels->normals(w);
+    return dp_edge_table_fill(w);
 }
 
 /* An edge that lies hidden as polygons do; the other polygon at it may be one of these. */
@@ -218,11 +222,12 @@ static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_
 }
 
 void dp_tile_edges(dp_tile_worker *w) {
+    if (!(w->frame->lines & ~DP_INTERSECTION)) return;
     if (w->frame->styles[0].edge_table_off) {
         leave_all(w);
         return;
     }
-    if (!set_normals(w) || !dp_edge_table_fill(w)) return;
+    if (!prepare(w)) return;
     dp_edge_entry entries[ENTRIES];
     uint32_t number = 0;
     for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;)

@@ -60,6 +60,8 @@ typedef struct dp_frame {
     bool painted_later; /* shading gives every pixel of a tile that holds polygons its colour, paper too … */
     uint8_t *ink_layer; /* … and lays over it what tiles inked already: [height][width][4], not premultiplied; or NULL */
     float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above 1: unknown */
+    float calm_spread;  /* squared, times DP_UMBRELLA_ONE squared: normals that lie together in a box with a diagonal less
+                           than this make no fold, although they are rough (tile.h); 0: none is so small */
 
     dp_polygons polygons;
     dp_vertex *vertices;

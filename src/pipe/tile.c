@@ -14,7 +14,7 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->piece_count = 0;
     worker->away = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
-    worker->finds_edges = frame->lines && frame->styles[0].ink == DP_INK_STROKES && !frame->styles[0].edge_table_off &&
+    worker->finds_edges = frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES && !frame->styles[0].edge_table_off &&
                           frame->styles[0].edges != DP_EDGES_ADJACENCY;
     dp_sampling_init(&worker->sampling, frame->target.samples);
     dp_block_init(&worker->block, frame->target.samples);
@@ -35,6 +35,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->seen_words);
     dp_free(&memory, worker->keys);
     dp_free(&memory, worker->unsure);
+    dp_free(&memory, worker->umbrellas);
     dp_free(&memory, worker->edge_marks);
     dp_free(&memory, worker->pair_first);
     dp_free(&memory, worker->pair_second);
@@ -72,7 +73,7 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
     return sizeof *w + w->winner_cap * sizeof *w->winner + (w->ids_cap + w->backs_cap) * sizeof *w->ids +
            w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
            w->points_cap * sizeof *w->points + w->edge_marks_cap + w->meetings_cap * sizeof *w->meetings +
-           (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
+           w->umbrellas_cap * sizeof *w->umbrellas + (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
            (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
            (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.met_cap + w->crowd.listed_cap) * 4 + (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 + w->candidates_cap * sizeof *w->candidates +

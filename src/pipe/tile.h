@@ -71,6 +71,26 @@ typedef struct dp_meeting {
 #define DP_AWAY 2
 static const float dp_away[4] = {0, 0, 0, DP_AWAY};
 
+/* In the same place of front faces: their normals are to be made again where their edges are listed. Some are right to
+ * DP_ROUGH_ANGLE, others not at all. */
+#define DP_ROUGH 3
+#define DP_UNKNOWN 4
+#define DP_ROUGH_ANGLE 2.5 /* degrees */
+
+/* The triangles around a vertex (kernel/umbrellas.inc): of their normals' components, times DP_UMBRELLA_ONE, and of what
+ * these are less, the least; and a sum that tells whether they surround it. */
+typedef struct dp_umbrella {
+    int16_t least[6]; /* x, -x, y, -y, z, -z */
+    uint32_t open;
+} dp_umbrella;
+
+_Static_assert(sizeof(dp_umbrella) == 16, "kernel/umbrellas.inc takes it for a vector");
+
+#define DP_UMBRELLA_BYTE 0x7f         /* all bytes of an empty one */
+#define DP_UMBRELLA_CLOSED 0x7f7f7f7f /* its `open` */
+#define DP_UMBRELLA_ONE 8192
+enum { DP_UMBRELLA_AWAY = 24000, DP_UMBRELLA_UNKNOWN = -32767 };
+
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
     uint32_t a, b;    /* frame polygons: owner, partner or UINT32_MAX */
@@ -159,8 +179,10 @@ struct dp_tile_worker {
     dp_tile_polygon *polygons;
     bool finds_edges;      /* by the table of edges: normals are wanted */
     float plane_normal[3][3]; /* what d0, dx, dy (perspective) or -1, dx, dy of a plane are times to give its normal */
-    float (*normals)[4];   /* by polygon: unit normal and 0, or dp_away (kernel/edges.inc) */
-    uint32_t *unsure;      /* front faces whose normals are still to be made */
+    float (*normals)[4];   /* by polygon: unit normal and 0, DP_ROUGH or DP_UNKNOWN, or dp_away (kernel/edges.inc) */
+    uint32_t *unsure;      /* front faces whose normals are still to be made, as their edges are listed */
+    dp_umbrella *umbrellas; /* by the keys of vertices, shifted right */
+    uint32_t umbrella_shift;
     dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     uint32_t *keys; /* of the triangles' corners, by corner: `keys_stride` from one to the next */
     uint32_t *seen; /* polygons that are not hidden, ascending */
@@ -175,13 +197,13 @@ struct dp_tile_worker {
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, meetings_cap, slots_cap;
-    size_t unsure_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
+    size_t unsure_cap, umbrellas_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
     uint32_t undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     size_t keys_cap, seen_words_cap;
     uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count, meeting_count, slot_count;
-    uint32_t edge_pairs;
+    uint32_t edge_pairs, calm_edges; /* calm: not listed, as both polygons have them */
     uint32_t candidate_count, probe_count;
     size_t piece_count;
 

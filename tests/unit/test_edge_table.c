@@ -49,7 +49,7 @@ static void fill(scene *s) {
     s->worker.polygon_count = s->count;
     assert_true(dp_tile_see(&s->worker, false));
     assert_int_equal(s->worker.seen_count, s->count);
-    assert_true(dp_edge_table_fill(&s->worker));
+    assert_true(dp_edge_table_list(&s->worker) && dp_edge_table_fill(&s->worker));
 }
 
 /* The partner of an edge; UINT32_MAX: none. Fails where the edge has not been told of. */
