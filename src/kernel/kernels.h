@@ -17,7 +17,7 @@ struct dp_tile_rect;
 struct dp_brush;
 struct dp_ink_shape;
 struct dp_stroke;
-struct dp_row_coverage;
+struct dp_coverage_patch;
 struct dp_chunk;
 struct dp_triangles;
 struct dp_chunk_view;
@@ -50,6 +50,9 @@ typedef struct dp_kernels {
     void (*list_edges)(struct dp_tile_worker *worker);
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong together (edges.inc). */
     bool (*flatten)(struct dp_tile_worker *worker);
+    /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a vector more; returns how
+     * many (meet.inc). */
+    uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows, uint32_t *list);
     /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its; returns how many (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
@@ -57,7 +60,9 @@ typedef struct dp_kernels {
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
     /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has any (cover.inc). */
-    uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t n, struct dp_row_coverage *out);
+    uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t n, struct dp_coverage_patch *out);
+    /* The same of `rows` rows of DP_PATCH pixels, at most as many. */
+    uint64_t (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t rows, struct dp_coverage_patch *out);
     /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general way: in the first
      * reading, with their normals, and in the second (sift.inc, stream/sift.c). */
     void (*sift)(struct dp_chunk *chunk, const struct dp_triangles *triangles, const struct dp_chunk_view *view);

@@ -196,12 +196,31 @@ static bool meet_near(const surroundings *near, const dp_tile_polygon *p, const 
     return false;
 }
 
+/* Which blocks of pixels, with the next ones on the right and below, hold any surroundings: for a first look. */
+static void find_windows(const surroundings *near, uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS]) {
+    memset(windows, 0, DP_CROWD_BLOCKS * DP_CROWD_BLOCKS * sizeof *windows);
+    for (uint32_t y = 0; y < DP_TILE; y++) {
+        const uint64_t row = near->front.row[y] | (near->mixed ? near->back.row[y] : 0);
+        for (uint32_t b = 0; row && b < DP_CROWD_BLOCKS; b++) {
+            const uint32_t any = (row >> b * DP_CROWD_BLOCK & 0xff) != 0;
+            for (uint32_t k = 0; k < 4; k++) {
+                const uint32_t left = k & 1, up = k >> 1, by = y / DP_CROWD_BLOCK;
+                if (left <= b && up <= by) windows[(by - up) * DP_CROWD_BLOCKS + b - left] |= any;
+            }
+        }
+    }
+}
+
 /* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their boxes. */
 static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
     const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX), *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
+    uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
+    find_windows(near, windows);
+    const uint32_t count = w->frame->kernels->come_near(w, windows, polygon);
     crowd->count = 0;
-    for (uint32_t i = 0; i < w->seen_count; i++) {
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
         if (!(flags[i] & DP_POLYGON_TOUCHES) || !(near->mixed || flags[i] & DP_POLYGON_FRONT)) continue;
         if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
         polygon[crowd->count++] = w->seen[i];
@@ -245,7 +264,7 @@ void dp_tile_intersections(dp_tile_worker *w) {
     dp_drop_lone(w->suspects[0]);
     if (!look_around(w->suspects[0], &near.front)) return;
     uint32_t rows[DP_TILE + 1] = {0};
-    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap, (size_t)w->seen_count) || !list_crowd(w, &near, w->crowd.listed, rows)) return;
+    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap, (size_t)w->seen_count + DP_CROWD_ROOM) || !list_crowd(w, &near, w->crowd.listed, rows)) return;
     sort_crowd(w, w->crowd.listed, rows);
     for (uint32_t i = 0; i < w->crowd.count && !w->failed; i++) {
         const uint32_t a = w->crowd.polygon[i];

@@ -132,6 +132,7 @@ typedef struct dp_crowd {
 } dp_crowd;
 
 enum { DP_CROWD_BOUNDS = 6, DP_CROWD_ROOM = 16 };
+enum { DP_CROWD_BLOCK = 8 /* px */, DP_CROWD_BLOCKS = (DP_TILE + DP_CROWD_BLOCK - 1) / DP_CROWD_BLOCK };
 
 /* Points in lists by the tile's pixels. */
 typedef struct dp_pixel_lists {

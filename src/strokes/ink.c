@@ -72,9 +72,10 @@ typedef struct tile_ink {
 
 /* Share of a pixel's samples that lie no nearer than `limit`. */
 static float share_behind(const float *depth, uint32_t samples, float limit) {
-    uint32_t visible = 0;
-    for (uint32_t i = 0; i < samples; i++) visible += depth[i] <= limit;
-    return (float)visible / (float)samples;
+    if (samples == 1) return *depth <= limit;
+    dp_i4 sum = {0, 0, 0, 0};
+    for (uint32_t i = 0; i < samples; i += 4) sum -= *(const dp_f4 *)(const void *)(depth + i) <= dp_splat(limit);
+    return (float)(sum[0] + sum[1] + sum[2] + sum[3]) / (float)samples;
 }
 
 static const float *depth_of(const float *tile_depth, uint32_t px, uint32_t py, uint32_t samples) {
@@ -89,16 +90,15 @@ float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t 
     return share_behind(depth_of(tile_depth, x - x0, y - y0, samples), samples, limit);
 }
 
-/* Pixel i of a row that starts at (x, y). */
-static void cover_pixel(const tile_ink *ink, uint32_t x, uint32_t y, const dp_row_coverage *row, uint32_t i) {
-    const uint32_t px = x + i - ink->x0, py = y - ink->y0;
+/* Pixel i of what was covered, at (px, py) in the tile. */
+static inline void cover_pixel(const tile_ink *ink, uint32_t px, uint32_t py, const dp_coverage_patch *patch, uint32_t i) {
     dp_ink_worker *const w = ink->worker;
     const bool set = w->row[py] >> px & 1;
     float *const held = &w->coverage[py * DP_TILE + px];
-    if (set && *held >= row->share[i]) return;
+    if (set && *held >= patch->share[i]) return;
     const uint32_t samples = ink->frame->target.samples;
-    float c = row->share[i];
-    if (ink->hides) c *= share_behind(depth_of(ink->depth, px, py, samples), samples, row->limit[i]);
+    float c = patch->share[i];
+    if (ink->hides) c *= share_behind(depth_of(ink->depth, px, py, samples), samples, patch->limit[i]);
     if (c <= 0 || (set && *held >= c)) return;
     *held = c;
     w->row[py] |= (uint64_t)1 << px;
@@ -138,18 +138,37 @@ static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
         __builtin_prefetch(depth_of(ink->depth, x - ink->x0, y - ink->y0, ink->frame->target.samples));
 }
 
-static void cover(const tile_ink *ink, const dp_stroke *s) {
+static void cover_rows(const tile_ink *ink, const dp_stroke *s, uint32_t y0, uint32_t y1) {
     const float r = s->half_width + 0.5f;
-    uint32_t y0, y1;
-    find_rows(ink, s, &y0, &y1);
     for (uint32_t y = y0; y < y1; y++) {
         float from, to;
         if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;
         const uint32_t x0 = clamp_to(from, ink->x0, ink->x1), x1 = clamp_to(to + 1, ink->x0, ink->x1);
         if (x0 >= x1) continue;
-        dp_row_coverage row;
-        for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits; bits &= bits - 1)
-            cover_pixel(ink, x0, y, &row, (uint32_t)__builtin_ctzll(bits));
+        dp_coverage_patch row;
+        for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits; bits &= bits - 1) {
+            const uint32_t i = (uint32_t)__builtin_ctzll(bits);
+            cover_pixel(ink, x0 + i - ink->x0, y - ink->y0, &row, i);
+        }
+    }
+}
+
+static void cover(const tile_ink *ink, const dp_stroke *s) {
+    const float r = s->half_width + 0.5f;
+    uint32_t y0, y1;
+    find_rows(ink, s, &y0, &y1);
+    const uint32_t x0 = clamp_to(dp_minf(s->a.x, s->b.x) - r, ink->x0, ink->x1);
+    const uint32_t x1 = clamp_to(dp_maxf(s->a.x, s->b.x) + r + 1, ink->x0, ink->x1);
+    if (x0 >= x1 || y0 >= y1) return;
+    if (x1 - x0 > DP_PATCH || y1 - y0 > DP_PATCH) {
+        cover_rows(ink, s, y0, y1);
+        return;
+    }
+    dp_coverage_patch patch;
+    const uint64_t columns = (((uint64_t)1 << (x1 - x0)) - 1) * 0x0101010101010101u;
+    for (uint64_t bits = columns & ink->frame->kernels->cover_patch(ink->frame, s, x0, y0, y1 - y0, &patch); bits; bits &= bits - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctzll(bits);
+        cover_pixel(ink, x0 - ink->x0 + i % DP_PATCH, y0 - ink->y0 + i / DP_PATCH, &patch, i);
     }
 }
 

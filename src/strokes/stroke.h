@@ -33,11 +33,13 @@ static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, f
     return limit;
 }
 
-/* A row of a tile's pixels beside a stroke: the share of each that it covers, and dp_stroke_limit there. Kernels
- * write whole vectors. */
-typedef struct dp_row_coverage {
+/* Pixels of a tile beside a stroke, of a row or of DP_PATCH rows of as many: the share of each that it covers, and
+ * dp_stroke_limit there. Kernels write whole vectors. */
+typedef struct dp_coverage_patch {
     float share[64 + 16], limit[64 + 16];
-} dp_row_coverage;
+} dp_coverage_patch;
+
+enum { DP_PATCH = 8 };
 
 /* Joins the tiles' pieces and makes frame->segments and frame->strokes (context->owned arrays);
  * `store` keeps their memory. */

@@ -169,6 +169,18 @@ static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t 
     assert_float_equal(limit, want, 1e-4 * (1 + fabs((double)want)));
 }
 
+/* A patch is its rows. */
+static void expect_patch(const dp_kernels *kernels, const dp_frame *frame, const dp_stroke *s, uint32_t y, uint32_t rows) {
+    dp_coverage_patch patch, row;
+    uint64_t bits = kernels->cover_patch(frame, s, 64, y, rows, &patch);
+    for (uint32_t r = 0; r < rows; r++, bits >>= DP_PATCH) {
+        assert_true(dp_kernels_plain.cover(frame, s, 64, y + r, DP_PATCH, &row) == (bits & ((1 << DP_PATCH) - 1)));
+        assert_memory_equal(row.share, patch.share + (size_t)r * DP_PATCH, DP_PATCH * sizeof *row.share);
+        assert_memory_equal(row.limit, patch.limit + (size_t)r * DP_PATCH, DP_PATCH * sizeof *row.limit);
+    }
+    assert_true(bits == 0);
+}
+
 static void coverages_agree(void **state) {
     enum { STROKES = 500, WIDE = 64 };
     const dp_kernels *list[DP_KERNELS_MAX];
@@ -181,13 +193,14 @@ static void coverages_agree(void **state) {
             const dp_frame frame = {.view = make_view(k % 2), .step_scale = k % 2 ? 0 : 1e-3f, .step_offset = k % 2 ? 1e-2f : 0};
             const dp_stroke s = random_stroke(&seed);
             const uint32_t n = 1 + next_random(&seed) % WIDE, y = next_random(&seed) % WIDE;
-            dp_row_coverage truth, row;
+            dp_coverage_patch truth, row;
             const uint64_t bits = dp_kernels_plain.cover(&frame, &s, 64, y, n, &truth);
             const double start = now_ns();
             assert_true(list[i]->cover(&frame, &s, 64, y, n, &row) == bits);
             spent += now_ns() - start;
             assert_memory_equal(row.share, truth.share, n * sizeof *row.share);
             assert_memory_equal(row.limit, truth.limit, n * sizeof *row.limit);
+            expect_patch(list[i], &frame, &s, y, 1 + n % DP_PATCH);
             for (uint32_t x = 0; x < n && !i; x++) expect_coverage(&frame, &s, 64 + x, y, truth.share[x], truth.limit[x]);
         }
         if (getenv("DRYPOINT_BENCH")) print_message("%-10s %-7s %6.2f ns a row\n", "cover", list[i]->name, spent / STROKES);
