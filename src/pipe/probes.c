@@ -41,7 +41,7 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     cut(s->probe_a.x, s->probe_b.x, w->tile_x, w->tile_x + DP_TILE, &t0, &t1);
     cut(s->probe_a.y, s->probe_b.y, w->tile_y, w->tile_y + DP_TILE, &t0, &t1);
     if (t0 > t1) return false;
-    const double lo = floor(t0 * s->n - 1.5), hi = ceil(t1 * s->n + 1.5);
+    const double lo = t0 * s->n - 1.5, hi = t1 * s->n + 2.5;
     if (lo > *k0) *k0 = (uint32_t)lo;
     if (hi < *k1) *k1 = (uint32_t)hi;
     while (*k0 < *k1 && !owned(w, probe_point(s, *k0))) ++*k0;

@@ -21,6 +21,9 @@ typedef struct dp_spine {
 /* The spine from a to b (world space), lifted along the unit normal. False: nothing of it is seen. */
 bool dp_spine_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 normal, dp_spine *spine);
 
+/* The same without sample points: probe_a and probe_b are left as they are. */
+bool dp_spine_ends(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine);
+
 static inline dp_pointd dp_point_mix(dp_pointd a, dp_pointd b, double t) {
     return (dp_pointd){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.d + (b.d - a.d) * t};
 }

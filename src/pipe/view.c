@@ -38,6 +38,14 @@ static void place_eye(dp_view *view, const dp_camera *camera) {
     view->forward = dp_scale(dp_unit(back), -1);
 }
 
+/* For dp_unproject. */
+static void invert(dp_view *view) {
+    const double *const X = view->clip[0], *const Y = view->clip[1], *const S = view->sight;
+    const dp_vec3 a = dp_v3(X[0], X[1], X[2]), b = dp_v3(Y[0], Y[1], Y[2]), c = dp_v3(S[0], S[1], S[2]);
+    view->inverse[0] = dp_cross(b, c), view->inverse[1] = dp_cross(c, a), view->inverse[2] = dp_cross(a, b);
+    view->determinant = dp_dot(a, view->inverse[0]);
+}
+
 dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, uint32_t height,
                        dp_diag *diag) {
     const double *const p = camera->projection;
@@ -56,6 +64,7 @@ dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, u
         return dp_fail(diag, DP_ERR_ARGUMENT, "the camera's view matrix is singular");
     view->focal = fabs(p[5]) / scale * height / 2;
     place_eye(view, camera);
+    invert(view);
     view->corner = dp_unproject(view, (dp_pointd){0, 0, 1});
     view->across = dp_sub(dp_unproject(view, (dp_pointd){1, 0, 1}), view->corner);
     view->down = dp_sub(dp_unproject(view, (dp_pointd){0, 1, 1}), view->corner);
@@ -67,12 +76,10 @@ dp_vec3 dp_unproject(const dp_view *view, dp_pointd p) {
     const double distance = dp_distance(view, p.d);
     const double w = view->perspective ? distance : 1;
     const double *const X = view->clip[0], *const Y = view->clip[1], *const S = view->sight;
-    const dp_vec3 a = dp_v3(X[0], X[1], X[2]), b = dp_v3(Y[0], Y[1], Y[2]), c = dp_v3(S[0], S[1], S[2]);
     const double rx = (2 * p.x / view->width - 1) * w - X[3];
     const double ry = (1 - 2 * p.y / view->height) * w - Y[3], rs = distance - S[3];
-    const dp_vec3 bc = dp_cross(b, c), ca = dp_cross(c, a), ab = dp_cross(a, b);
-    const dp_vec3 sum = dp_mad(dp_mad(dp_scale(bc, rx), ca, ry), ab, rs);
-    return dp_scale(sum, 1 / dp_dot(a, bc));
+    const dp_vec3 sum = dp_mad(dp_mad(dp_scale(view->inverse[0], rx), view->inverse[1], ry), view->inverse[2], rs);
+    return dp_scale(sum, 1 / view->determinant);
 }
 
 /* How far inside one plane of the frustum a point is; below zero is outside. */

@@ -22,6 +22,8 @@ typedef struct dp_view {
     double focal;           /* px per unit at distance 1 (perspective), px per unit (orthographic) */
     dp_vec3 corner;         /* the screen's point (0, 0) at d = 1, world space */
     dp_vec3 across, down;   /* what it moves by per px of x and y there */
+    dp_vec3 inverse[3];     /* of the rows x, y and sight, over `determinant`, by columns */
+    double determinant;
     double guard;           /* vertices further than guard * w from the axis are clipped */
 } dp_view;
 

@@ -89,8 +89,9 @@ static void screen_plane(const dp_view *view, dp_vec3 at, dp_vec3 n, float plane
 }
 
 static bool piece_spine(const dp_frame *frame, const dp_piece *piece, dp_spine *spine) {
-    dp_vec3 a, b, normal;
+    dp_vec3 a, b;
     if (piece->edge == DP_CROSSING) {
+        dp_vec3 normal;
         if (!dp_crossing_find(frame, piece->a, piece->b, &a, &b, &normal)) return false;
     } else {
         const dp_polygons *const polygons = &frame->polygons;
@@ -98,9 +99,8 @@ static bool piece_spine(const dp_frame *frame, const dp_piece *piece, dp_spine *
         const uint32_t va = dp_corner_vertex(polygons, first + piece->edge);
         const uint32_t vb = dp_corner_vertex(polygons, first + (piece->edge + 1) % n);
         a = dp_v3f(dp_vertex_position(polygons, va)), b = dp_v3f(dp_vertex_position(polygons, vb));
-        normal = dp_v3(0, 0, 0);
     }
-    return dp_spine_make(&frame->view, a, b, normal, spine);
+    return dp_spine_ends(&frame->view, a, b, spine);
 }
 
 static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
