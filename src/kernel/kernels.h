@@ -53,7 +53,8 @@ typedef struct dp_kernels {
     /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a vector more; returns how
      * many (meet.inc). */
     uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows, uint32_t *list);
-    /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its; returns how many (meet.inc). */
+    /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for neighbours; returns how many
+     * (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);

@@ -131,7 +131,6 @@ static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const d
 static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
     uint32_t of_p, of_q;
     find_shared(w, p, q, &of_p, &of_q);
-    if (of_p & (of_p - 1)) return true;
     if ((p->flags | q->flags) & DP_POLYGON_EDGE_ON) return false;
     return is_beside(w, p, q, of_p) || is_beside(w, q, p, of_q);
 }
@@ -228,7 +227,8 @@ static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *po
     }
     const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
     return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) && DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
-           DP_WORKER_RESERVE(w, crowd.bounds, crowd.bounds_cap, DP_CROWD_BOUNDS * room);
+           DP_WORKER_RESERVE(w, crowd.bounds, crowd.bounds_cap, DP_CROWD_BOUNDS * room) &&
+           DP_WORKER_RESERVE(w, crowd.keys, crowd.keys_cap, 3 * room);
 }
 
 static void put_bounds(const dp_tile_worker *w, const dp_tile_polygon *p, float *bounds, size_t stride) {
@@ -239,6 +239,14 @@ static void put_bounds(const dp_tile_worker *w, const dp_tile_polygon *p, float 
         least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
     }
     for (uint32_t k = 0; k < 3; k++) bounds[k * stride] = least[k], bounds[(3 + k) * stride] = most[k];
+}
+
+/* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of their own, which match
+ * as seldom; they are told by `shared_corners`. */
+static void put_keys(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
+    const dp_crowd *const crowd = &w->crowd;
+    const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
+    for (uint32_t k = 0; k < 3; k++) crowd->keys[k * (size_t)crowd->stride + at] = known ? w->points[p->point + k].key : 3 * at + k;
 }
 
 /* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row starts. */
@@ -252,6 +260,7 @@ static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows
         const uint32_t at = next[p->y0]++;
         crowd->polygon[at] = polygon[i];
         put_bounds(w, p, crowd->bounds + at, crowd->stride);
+        put_keys(w, p, at);
     }
 }
 

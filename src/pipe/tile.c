@@ -50,6 +50,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->lookups);
     dp_free(&memory, worker->crowd.polygon);
     dp_free(&memory, worker->crowd.bounds);
+    dp_free(&memory, worker->crowd.keys);
     dp_free(&memory, worker->crowd.met);
     dp_free(&memory, worker->crowd.listed);
     dp_free(&memory, worker->candidates);
@@ -76,7 +77,7 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
            w->umbrellas_cap * sizeof *w->umbrellas + (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
            (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
-           (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.met_cap + w->crowd.listed_cap) * 4 + (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 + w->candidates_cap * sizeof *w->candidates +
+           (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.keys_cap + w->crowd.met_cap + w->crowd.listed_cap) * 4 + (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 + w->candidates_cap * sizeof *w->candidates +
            w->probes_cap * sizeof *w->probes +
            (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap + w->sorted.own_b_cap) * 4 + w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);

@@ -125,9 +125,10 @@ typedef struct dp_sorted_probes {
 typedef struct dp_crowd {
     uint32_t *polygon;
     float *bounds; /* least x, y (px, tile space) and d, then the most, `stride` floats from one to the next */
+    uint32_t *keys; /* of triangles' corners, by corner, `stride` from one to the next; what belongs to no other: none */
     uint32_t *met; /* those that one of them may cross */
     uint32_t *listed; /* before they are sorted */
-    size_t polygon_cap, bounds_cap, met_cap, listed_cap;
+    size_t polygon_cap, bounds_cap, keys_cap, met_cap, listed_cap;
     uint32_t count, stride;
 } dp_crowd;
 
