@@ -91,7 +91,7 @@ static bool reserve_list(dp_tile_worker *w, size_t edges) {
 }
 
 /* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices, or more. */
-static const uint32_t UMBRELLAS = DP_TUNED(4, 1);
+static const uint32_t UMBRELLAS = DP_TUNED(2, 1);
 
 static bool reserve_umbrellas(dp_tile_worker *w) {
     const uint64_t least = (uint64_t)UMBRELLAS * w->seen_count;
