@@ -12,6 +12,7 @@ struct dp_tile_worker;
 struct dp_tile_polygon;
 struct dp_vertex;
 struct dp_crowd;
+struct dp_fold_batch;
 struct dp_frame;
 struct dp_tile_rect;
 struct dp_brush;
@@ -50,6 +51,8 @@ typedef struct dp_kernels {
     void (*list_edges)(struct dp_tile_worker *worker);
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong together (edges.inc). */
     bool (*flatten)(struct dp_tile_worker *worker);
+    /* Normals and spines of the first `count` edges of a batch (folds.inc). */
+    void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
     /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a vector more; returns how
      * many (meet.inc). */
     uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows, uint32_t *list);

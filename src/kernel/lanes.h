@@ -213,6 +213,7 @@ DP_LANES_INLINE dp_ld ld_splat(double v) { return v; }
 DP_LANES_INLINE dp_ld ld_load(const float *p) { return *p; }
 DP_LANES_INLINE void ld_store(float *p, dp_ld v) { *p = (float)v; }
 DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return m ? a : b; }
+DP_LANES_INLINE dp_ld ld_sqrt(dp_ld v) { return sqrt(v); }
 #else
 enum { DP_HALF = DP_LANES / 2 };
 typedef double dp_ld __attribute__((vector_size(4 * DP_LANES)));
@@ -229,7 +230,19 @@ DP_LANES_INLINE void ld_store(float *p, dp_ld v) {
     memcpy(p, &h, sizeof h);
 }
 DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return (dp_ld)((m & (dp_lb)a) | (~m & (dp_lb)b)); }
+DP_LANES_INLINE dp_ld ld_sqrt(dp_ld v) {
+#if DP_LANES == 16
+    return (dp_ld)_mm512_sqrt_pd((__m512d)v);
+#elif DP_LANES == 8
+    return (dp_ld)_mm256_sqrt_pd((__m256d)v);
+#elif defined __SSE2__
+    return (dp_ld)_mm_sqrt_pd((__m128d)v);
+#else
+    return (dp_ld){sqrt(v[0]), sqrt(v[1])};
 #endif
+}
+#endif
+DP_LANES_INLINE void ld_put(double *p, dp_ld v) { memcpy(p, &v, sizeof v); }
 
 /* ------- records of four words, one per lane -------
  *

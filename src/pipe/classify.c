@@ -32,6 +32,13 @@ dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_
     return fold_towards(frame, a, a_as_wound, b, b_as_wound, on_edge, into_b);
 }
 
+dp_fold dp_fold_between(const dp_frame *frame, dp_vec3 normal_a, dp_vec3 normal_b, dp_vec3 normal, uint32_t b, uint32_t edge_b) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const dp_vec3 on_edge = corner_position(polygons, dp_first_corner(polygons, b) + edge_b);
+    const dp_vec3 into_b = dp_sub(far_corner(polygons, b, edge_b), on_edge);
+    return (dp_fold){normal_a, normal_b, normal, dp_dot(normal_a, into_b) > 0};
+}
+
 dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound, dp_vec3 at) {
     const dp_polygons *const polygons = &frame->polygons;
     const uint32_t first = dp_first_corner(polygons, b), n = dp_corner_count(polygons, b);

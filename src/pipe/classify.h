@@ -15,6 +15,9 @@ typedef struct dp_fold {
 dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound,
                      uint32_t edge_b);
 
+/* The same where the normals are known, and their mean. */
+dp_fold dp_fold_between(const dp_frame *frame, dp_vec3 normal_a, dp_vec3 normal_b, dp_vec3 normal, uint32_t b, uint32_t edge_b);
+
 /* The same for polygons that share no corner: `at` is a point of the edge where they meet. */
 dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound, dp_vec3 at);
 

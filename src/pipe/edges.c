@@ -6,6 +6,7 @@
 #include "kernel/kernels.h"
 #include "pipe/classify.h"
 #include "pipe/edge_table.h"
+#include "pipe/fold_batch.h"
 
 #include <string.h>
 
@@ -22,17 +23,24 @@ static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry
                            e->more, opposed};
 }
 
-/* A line of class `line` along an edge of polygon a, facing along `normal`. */
+static bool draws(const dp_tile_worker *w, const dp_edge_entry *e, dp_line line) {
+    return dp_polygon_style(w->frame, w->polygons[e->a].id)->lines & (1u << line);
+}
+
+/* A line of class `line` along an edge of polygon a. */
+static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine) {
+    dp_tile_add_candidate(w, (dp_candidate){.a = w->polygons[e->a].id, .b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id,
+                                            .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
+                          spine);
+}
+
+/* The same facing along `normal`. */
 static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_tile_polygon *const a = &w->polygons[e->a];
-    if (!(dp_polygon_style(w->frame, a->id)->lines & (1u << line))) return;
     dp_spine spine;
-    if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
-                       dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
-        return;
-    dp_tile_add_candidate(w, (dp_candidate){.a = a->id, .b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
-                          &spine);
+    if (draws(w, e, line) && dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
+                                           dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
+        add_spine(w, e, line, &spine);
 }
 
 static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *fold) {
@@ -85,6 +93,61 @@ static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
     if (front_a && front_b) add_fold(w, e, &fold);
     else add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
 }
+
+/* Keys are hashes of positions (edge_table.c): is this the edge of all that met? */
+static bool is_shared(const dp_tile_worker *w, const dp_edge_entry *e) {
+    bool shared = dp_edge_runs_between(w, (dp_edge_place){e->b, e->edge_b}, e->va, e->vb);
+    for (uint32_t i = e->more; i && shared; i = w->meetings[i - 1].next)
+        shared = dp_edge_runs_between(w, dp_edge_place_of(w, w->meetings[i - 1].number), e->va, e->vb);
+    return shared;
+}
+
+/* ------- pairs of triangles, many at once ------- */
+
+static void put_position(const dp_polygons *polygons, uint32_t vertex, float out[3][DP_FOLDS], uint32_t i) {
+    const float *const p = dp_vertex_position(polygons, vertex);
+    for (int k = 0; k < 3; k++) out[k][i] = p[k];
+}
+
+static void put_corners(const dp_polygons *polygons, uint32_t triangle, float out[3][3][DP_FOLDS], uint32_t i) {
+    for (uint32_t k = 0; k < 3; k++) put_position(polygons, dp_corner_vertex(polygons, 3 * triangle + k), out[k], i);
+}
+
+/* Puts edge i of a batch there if it is one of two triangles, and lets the first in the source own it. */
+static bool put_pair(const dp_tile_worker *w, dp_edge_entry *e, dp_fold_batch *f, uint32_t i) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e)) return false;
+    if (!((w->polygons[e->a].flags | w->polygons[e->b].flags) & DP_POLYGON_FRONT)) return false;
+    *e = owned_by_first(w, e);
+    put_corners(polygons, w->polygons[e->a].id, f->a, i);
+    put_corners(polygons, w->polygons[e->b].id, f->b, i);
+    put_position(polygons, e->va, f->from, i);
+    put_position(polygons, e->vb, f->to, i);
+    return true;
+}
+
+static dp_vec3 vector_at(const double v[3][DP_FOLDS], uint32_t i) { return dp_v3(v[0][i], v[1][i], v[2][i]); }
+static dp_pointd point_at(const double v[3][DP_FOLDS], uint32_t i) { return (dp_pointd){v[0][i], v[1][i], v[2][i]}; }
+
+/* The class of line that edge i makes, or -1. */
+static int pair_line(const dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
+    if (!(w->polygons[e->a].flags & w->polygons[e->b].flags & DP_POLYGON_FRONT)) return DP_LINE_SILHOUETTE;
+    const dp_fold fold = dp_fold_between(w->frame, vector_at(f->normal_a, i), vector_at(f->normal_b, i), vector_at(f->normal, i),
+                                         w->polygons[e->b].id, e->edge_b);
+    return dp_fold_line(&fold, dp_polygon_style(w->frame, w->polygons[e->a].id));
+}
+
+static void resolve_put(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
+    if (f->plain[i] == 0) {
+        resolve_pair(w, e);
+        return;
+    }
+    const int line = pair_line(w, e, f, i);
+    dp_spine spine = {point_at(f->end_a, i), point_at(f->end_b, i), point_at(f->probe_a, i), point_at(f->probe_b, i), 0};
+    if (line >= 0 && draws(w, e, (dp_line)line) && dp_spine_divide(&spine)) add_spine(w, e, (dp_line)line, &spine);
+}
+
+/* ------- fans ------- */
 
 /* A polygon at an edge as the eye sees it: on which side of the edge it lies on the screen, and how fast
  * it comes nearer going away from the edge. */
@@ -171,14 +234,6 @@ static void leave_all(dp_tile_worker *w) {
     }
 }
 
-/* Keys are hashes of positions (edge_table.c): is this the edge of all that met? */
-static bool is_shared(const dp_tile_worker *w, const dp_edge_entry *e) {
-    bool shared = dp_edge_runs_between(w, (dp_edge_place){e->b, e->edge_b}, e->va, e->vb);
-    for (uint32_t i = e->more; i && shared; i = w->meetings[i - 1].next)
-        shared = dp_edge_runs_between(w, dp_edge_place_of(w, w->meetings[i - 1].number), e->va, e->vb);
-    return shared;
-}
-
 static void leave_all_of(dp_tile_worker *w, const dp_edge_entry *e) {
     leave(w, e->a, e->edge_a);
     leave(w, e->b, e->edge_b);
@@ -190,7 +245,7 @@ static void leave_all_of(dp_tile_worker *w, const dp_edge_entry *e) {
 
 static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
     if (e->b == UINT32_MAX) {
-        if (!is_hidden_edge(w, e)) leave(w, e->a, e->edge_a);
+        leave(w, e->a, e->edge_a);
     } else if (!is_shared(w, e)) {
         leave_all_of(w, e);
     } else if (e->more || !e->opposed) {
@@ -200,17 +255,17 @@ static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
     }
 }
 
-enum { ENTRIES = 32 };
-
-/* Takes up to ENTRIES edges from the table from `*number` on, and has their polygons fetched meanwhile. */
-static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_entry entries[ENTRIES]) {
+/* Takes up to DP_FOLDS edges from the table from `*number` on, but for those that lie hidden, and has their polygons
+ * fetched meanwhile. */
+static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_entry entries[DP_FOLDS]) {
     const dp_polygons *const polygons = &w->frame->polygons;
     uint32_t count = 0;
-    for (; count < ENTRIES && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX; count++) {
+    while (count < DP_FOLDS && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX) {
         const dp_edge_entry e = dp_edge_table_entry(w, (*number)++);
+        if (e.b == UINT32_MAX && is_hidden_edge(w, &e)) continue;
         dp_ask_for_corners(polygons, w->polygons[e.a].id);
         if (e.b != UINT32_MAX) dp_ask_for_corners(polygons, w->polygons[e.b].id);
-        entries[count] = e;
+        entries[count++] = e;
     }
     for (uint32_t i = 0; i < count; i++) {
         dp_edge_entry *const e = &entries[i];
@@ -221,6 +276,16 @@ static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_
     return count;
 }
 
+static void resolve_entries(dp_tile_worker *w, dp_edge_entry entries[DP_FOLDS], uint32_t count, dp_fold_batch *folds) {
+    bool put[DP_FOLDS];
+    for (uint32_t i = 0; i < count; i++) put[i] = put_pair(w, &entries[i], folds, i);
+    w->frame->kernels->folds(&w->frame->view, folds, count);
+    for (uint32_t i = 0; i < count && !w->failed; i++) {
+        if (put[i]) resolve_put(w, &entries[i], folds, i);
+        else resolve(w, &entries[i]);
+    }
+}
+
 void dp_tile_edges(dp_tile_worker *w) {
     if (!(w->frame->lines & ~DP_INTERSECTION)) return;
     if (w->frame->styles[0].edge_table_off) {
@@ -228,8 +293,8 @@ void dp_tile_edges(dp_tile_worker *w) {
         return;
     }
     if (!prepare(w)) return;
-    dp_edge_entry entries[ENTRIES];
+    dp_edge_entry entries[DP_FOLDS];
+    dp_fold_batch folds = {0};
     uint32_t number = 0;
-    for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;)
-        for (uint32_t i = 0; i < count && !w->failed; i++) resolve(w, &entries[i]);
+    for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;) resolve_entries(w, entries, count, &folds);
 }

@@ -1,9 +1,6 @@
 /* Spines: see spine.h. */
 #include "pipe/spine.h"
 
-/* Distance of sample points on the screen, px: a quarter of a pixel resolves where a line disappears. */
-static const double SPACING = 0.25;
-
 static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal) {
     const dp_vec3 q = dp_mad(p, normal, DP_PROBE_LIFT * dp_pixel_size(view, d));
     return dp_to_screen(view, dp_to_clip(view, q));
@@ -16,9 +13,7 @@ static bool place_spine(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spi
     if ((dp_outcode(view, ca) | dp_outcode(view, cb)) && !dp_clip_segment(view, ca, cb, t0, t1)) return false;
     spine->a = dp_to_screen(view, dp_clip_mix(ca, cb, *t0));
     spine->b = dp_to_screen(view, dp_clip_mix(ca, cb, *t1));
-    const double x = spine->b.x - spine->a.x, y = spine->b.y - spine->a.y, length = sqrt(x * x + y * y);
-    spine->n = length > SPACING ? (uint32_t)ceil(length / SPACING) : 1;
-    return isfinite(length);
+    return dp_spine_divide(spine);
 }
 
 bool dp_spine_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 normal, dp_spine *spine) {

@@ -24,6 +24,16 @@ bool dp_spine_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 normal, dp
 /* The same without sample points: probe_a and probe_b are left as they are. */
 bool dp_spine_ends(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine);
 
+/* Distance of sample points on the screen, px: a quarter of a pixel resolves where a line disappears. */
+#define DP_PROBE_SPACING 0.25
+
+/* Sets n from the ends; false where they are not finite. */
+static inline bool dp_spine_divide(dp_spine *spine) {
+    const double x = spine->b.x - spine->a.x, y = spine->b.y - spine->a.y, length = sqrt(x * x + y * y);
+    spine->n = length > DP_PROBE_SPACING ? (uint32_t)ceil(length / DP_PROBE_SPACING) : 1;
+    return isfinite(length);
+}
+
 static inline dp_pointd dp_point_mix(dp_pointd a, dp_pointd b, double t) {
     return (dp_pointd){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.d + (b.d - a.d) * t};
 }
