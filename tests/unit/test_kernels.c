@@ -4,6 +4,8 @@
  * DRYPOINT_BENCH in the environment, times are printed as well. */
 #include "kernel/kernels.h"
 #include "pipe/bin.h"
+#include "pipe/classify.h"
+#include "pipe/fold_batch.h"
 #include "pipe/frame.h"
 #include "pipe/outline.h"
 #include "pipe/tile.h"
@@ -278,6 +280,87 @@ static void meetings_agree(void **state) {
     assert_in_range(neighbours, 1, met_at_all - 1);
 }
 
+/* Who comes near blocks of pixels, against a look at each. */
+static void approaches_agree(void **state) {
+    enum { SEEN = 300 };
+    static uint32_t words[DP_SEEN_MEMBERS * (SEEN + DP_SEEN_ROOM)], list[SEEN + DP_SEEN_ROOM];
+    static dp_tile_worker w;
+    uint32_t seed = 5, windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
+    (void)state;
+    w.seen_count = SEEN, w.seen_stride = SEEN + DP_SEEN_ROOM, w.seen_words = words;
+    for (uint32_t i = 0; i < DP_CROWD_BLOCKS * DP_CROWD_BLOCKS; i++) windows[i] = next_random(&seed) % 4 == 0;
+    for (uint32_t i = 0; i < SEEN; i++) {
+        const uint32_t x0 = next_random(&seed) % DP_TILE, y0 = next_random(&seed) % DP_TILE, most = DP_TILE - 1;
+        const uint32_t x1 = x0 + next_random(&seed) % 12, y1 = y0 + next_random(&seed) % 12;
+        words[DP_SEEN_BOX * w.seen_stride + i] = x0 | y0 << 8 | (x1 < most ? x1 : most) << 16 | (y1 < most ? y1 : most) << 24;
+    }
+    const dp_kernels *kinds[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(kinds);
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t near = kinds[k]->come_near(&w, windows, list);
+        uint32_t expected = 0;
+        for (uint32_t i = 0; i < SEEN; i++) {
+            const uint32_t box = words[i], x0 = box & 255, y0 = box >> 8 & 255, x1 = box >> 16 & 255, y1 = box >> 24;
+            const bool wide = x1 - x0 > DP_CROWD_BLOCK || y1 - y0 > DP_CROWD_BLOCK;
+            if (wide || windows[y0 / DP_CROWD_BLOCK * DP_CROWD_BLOCKS + x0 / DP_CROWD_BLOCK]) assert_int_equal(list[expected++], i);
+        }
+        assert_int_equal(near, expected);
+    }
+}
+
+static void put_triangle(const dp_polygons *polygons, uint32_t triangle, float out[3][3][DP_FOLDS], uint32_t i) {
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t axis = 0; axis < 3; axis++) out[k][axis][i] = dp_vertex_position(polygons, 3 * triangle + k)[axis];
+}
+
+static void expect_vector(const double v[3][DP_FOLDS], uint32_t i, double x, double y, double z) {
+    const double got[3] = {v[0][i], v[1][i], v[2][i]}, want[3] = {x, y, z};
+    assert_memory_equal(got, want, sizeof got);
+}
+
+/* Pairs of triangles beside an edge, against the general way, bit for bit; some are out of sight, some folded flat. */
+static void folds_agree(void **state) {
+    static float at[6 * DP_FOLDS][3];
+    static dp_fold_batch batch;
+    (void)state;
+    for (uint32_t round = 0; round < 20; round++) {
+        dp_frame frame = {.view = make_view(round % 2)};
+        uint32_t seed = 100 + round, plain = 0;
+        frame.polygons = (dp_polygons){.positions = at[0], .stride = sizeof *at, .vertex_count = 6 * DP_FOLDS, .count = 2 * DP_FOLDS};
+        for (uint32_t v = 0; v < 6 * DP_FOLDS; v++)
+            for (int k = 0; k < 3; k++) at[v][k] = (float)next_random(&seed) / (1 << 23) * 2 - 2 - (v % 16 == 0 ? 20 : 0);
+        for (uint32_t i = 0; i < DP_FOLDS; i++) {
+            memcpy(at[6 * i + 3], at[6 * i + 1], sizeof *at);
+            memcpy(at[6 * i + 4], at[6 * i], sizeof *at);
+            if (i % 8 == 7) memcpy(at[6 * i + 5], at[6 * i + 2], sizeof *at);
+            put_triangle(&frame.polygons, 2 * i, batch.a, i);
+            put_triangle(&frame.polygons, 2 * i + 1, batch.b, i);
+            for (int k = 0; k < 3; k++) batch.from[k][i] = at[6 * i][k], batch.to[k][i] = at[6 * i + 1][k];
+        }
+        const dp_kernels *list[DP_KERNELS_MAX];
+        const uint32_t kinds = dp_kernels_list(list);
+        for (uint32_t kind = 0; kind < kinds; kind++) {
+            const uint32_t count = 1 + next_random(&seed) % DP_FOLDS;
+            list[kind]->folds(&frame.view, &batch, count);
+            for (uint32_t i = 0; i < count; i++) {
+                if (batch.plain[i] == 0) continue;
+                plain++;
+                const dp_fold f = dp_fold_seen(&frame, 2 * i, true, 2 * i + 1, true, 0);
+                dp_spine s;
+                assert_true(dp_spine_make(&frame.view, dp_v3f(at[6 * i]), dp_v3f(at[6 * i + 1]), f.normal, &s));
+                expect_vector(batch.normal_a, i, f.normal_a.x, f.normal_a.y, f.normal_a.z);
+                expect_vector(batch.normal_b, i, f.normal_b.x, f.normal_b.y, f.normal_b.z);
+                expect_vector(batch.normal, i, f.normal.x, f.normal.y, f.normal.z);
+                expect_vector(batch.end_a, i, s.a.x, s.a.y, s.a.d);
+                expect_vector(batch.end_b, i, s.b.x, s.b.y, s.b.d);
+                expect_vector(batch.probe_a, i, s.probe_a.x, s.probe_a.y, s.probe_a.d);
+                expect_vector(batch.probe_b, i, s.probe_b.x, s.probe_b.y, s.probe_b.d);
+            }
+        }
+        assert_in_range(plain, 1, kinds * DP_FOLDS * 7 / 8);
+    }
+}
+
 static int set_up(void **state) {
     (void)state;
     make_model();
@@ -292,6 +375,8 @@ int main(void) {
         cmocka_unit_test(coverages_agree),
         cmocka_unit_test(parts_agree),
         cmocka_unit_test(meetings_agree),
+        cmocka_unit_test(approaches_agree),
+        cmocka_unit_test(folds_agree),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }
