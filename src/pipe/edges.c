@@ -104,35 +104,20 @@ static bool is_shared(const dp_tile_worker *w, const dp_edge_entry *e) {
 
 /* ------- pairs of triangles, many at once ------- */
 
-static void put_position(const dp_polygons *polygons, uint32_t vertex, float out[3][DP_FOLDS], uint32_t i) {
-    const float *const p = dp_vertex_position(polygons, vertex);
-    for (int k = 0; k < 3; k++) out[k][i] = p[k];
-}
-
-static void put_corners(const dp_polygons *polygons, uint32_t triangle, float out[3][3][DP_FOLDS], uint32_t i) {
-    for (uint32_t k = 0; k < 3; k++) put_position(polygons, dp_corner_vertex(polygons, 3 * triangle + k), out[k], i);
-}
-
 /* Puts edge i of a batch there if it is one of two triangles, and lets the first in the source own it. */
 static bool put_pair(const dp_tile_worker *w, dp_edge_entry *e, dp_fold_batch *f, uint32_t i) {
     const dp_polygons *const polygons = &w->frame->polygons;
     if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e)) return false;
     if (!((w->polygons[e->a].flags | w->polygons[e->b].flags) & DP_POLYGON_FRONT)) return false;
     *e = owned_by_first(w, e);
-    put_corners(polygons, w->polygons[e->a].id, f->a, i);
-    put_corners(polygons, w->polygons[e->b].id, f->b, i);
-    put_position(polygons, e->va, f->from, i);
-    put_position(polygons, e->vb, f->to, i);
+    dp_fold_put(polygons, w->polygons[e->a].id, w->polygons[e->b].id, e->va, e->vb, f, i);
     return true;
 }
-
-static dp_vec3 vector_at(const double v[3][DP_FOLDS], uint32_t i) { return dp_v3(v[0][i], v[1][i], v[2][i]); }
-static dp_pointd point_at(const double v[3][DP_FOLDS], uint32_t i) { return (dp_pointd){v[0][i], v[1][i], v[2][i]}; }
 
 /* The class of line that edge i makes, or -1. */
 static int pair_line(const dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
     if (!(w->polygons[e->a].flags & w->polygons[e->b].flags & DP_POLYGON_FRONT)) return DP_LINE_SILHOUETTE;
-    const dp_fold fold = dp_fold_between(w->frame, vector_at(f->normal_a, i), vector_at(f->normal_b, i), vector_at(f->normal, i),
+    const dp_fold fold = dp_fold_between(w->frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i), dp_fold_vector(f->normal, i),
                                          w->polygons[e->b].id, e->edge_b);
     return dp_fold_line(&fold, dp_polygon_style(w->frame, w->polygons[e->a].id));
 }
@@ -143,7 +128,7 @@ static void resolve_put(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold
         return;
     }
     const int line = pair_line(w, e, f, i);
-    dp_spine spine = {point_at(f->end_a, i), point_at(f->end_b, i), point_at(f->probe_a, i), point_at(f->probe_b, i), 0};
+    dp_spine spine = dp_fold_spine(f, i);
     if (line >= 0 && draws(w, e, (dp_line)line) && dp_spine_divide(&spine)) add_spine(w, e, (dp_line)line, &spine);
 }
 

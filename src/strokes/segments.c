@@ -8,13 +8,15 @@
 #include "strokes/stroke.h"
 
 #include "base/hostile.h"
+#include "kernel/kernels.h"
 #include "pipe/classify.h"
 #include "pipe/crossing.h"
+#include "pipe/fold_batch.h"
 #include "pipe/tile.h"
 
 #include <stdlib.h>
 
-enum { BLOCK = DP_TUNED(512, 7) };
+enum { BLOCK = DP_TUNED(128, 7) };
 
 void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory) {
     dp_free(memory, store->pieces);
@@ -88,19 +90,51 @@ static void screen_plane(const dp_view *view, dp_vec3 at, dp_vec3 n, float plane
     plane[2] = (float)(dp_dot(n, y) / under);
 }
 
-static bool piece_spine(const dp_frame *frame, const dp_piece *piece, dp_spine *spine) {
-    dp_vec3 a, b;
-    if (piece->edge == DP_CROSSING) {
-        dp_vec3 normal;
-        if (!dp_crossing_find(frame, piece->a, piece->b, &a, &b, &normal)) return false;
-    } else {
-        const dp_polygons *const polygons = &frame->polygons;
-        const uint32_t first = dp_first_corner(polygons, piece->a), n = dp_corner_count(polygons, piece->a);
-        const uint32_t va = dp_corner_vertex(polygons, first + piece->edge);
-        const uint32_t vb = dp_corner_vertex(polygons, first + (piece->edge + 1) % n);
-        a = dp_v3f(dp_vertex_position(polygons, va)), b = dp_v3f(dp_vertex_position(polygons, vb));
+/* What segments are made of. */
+typedef struct bones {
+    dp_spine spine;
+    dp_vec3 normal[2]; /* of the piece's polygons */
+} bones;
+
+static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t *va, uint32_t *vb) {
+    const uint32_t first = dp_first_corner(polygons, piece->a), n = dp_corner_count(polygons, piece->a);
+    *va = dp_corner_vertex(polygons, first + piece->edge);
+    *vb = dp_corner_vertex(polygons, first + (piece->edge + 1) % n);
+}
+
+/* The spine could be made when the piece was found: it can now. */
+static bones find_bones(const dp_frame *frame, const dp_piece *piece) {
+    const dp_polygons *const polygons = &frame->polygons;
+    bones out = {0};
+    dp_vec3 a, b, normal;
+    if (piece->edge != DP_CROSSING) {
+        uint32_t va, vb;
+        edge_of(polygons, piece, &va, &vb);
+        (void)dp_spine_ends(&frame->view, dp_v3f(dp_vertex_position(polygons, va)), dp_v3f(dp_vertex_position(polygons, vb)), &out.spine);
+    } else if (dp_crossing_find(frame, piece->a, piece->b, &a, &b, &normal)) {
+        (void)dp_spine_ends(&frame->view, a, b, &out.spine);
     }
-    return dp_spine_ends(&frame->view, a, b, spine);
+    out.normal[0] = dp_polygon_normal(frame, piece->a);
+    if (piece->b != UINT32_MAX) out.normal[1] = dp_polygon_normal(frame, piece->b);
+    return out;
+}
+
+/* The same of up to DP_FOLDS pieces: of edges of triangles, many at once. */
+static void find_many_bones(const dp_frame *frame, const dp_piece *pieces, uint32_t count, dp_fold_batch *f, bones out[DP_FOLDS]) {
+    const dp_polygons *const polygons = &frame->polygons;
+    bool put[DP_FOLDS];
+    for (uint32_t i = 0; i < count; i++) {
+        const dp_piece *const p = &pieces[i];
+        put[i] = !polygons->firsts && p->edge != DP_CROSSING;
+        if (!put[i]) continue;
+        uint32_t va, vb;
+        edge_of(polygons, p, &va, &vb);
+        dp_fold_put(polygons, p->a, p->b == UINT32_MAX ? p->a : p->b, va, vb, f, i);
+    }
+    frame->kernels->folds(&frame->view, f, count);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = put[i] && f->plain[i] != 0 ? (bones){dp_fold_spine(f, i), {dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i)}}
+                                             : find_bones(frame, &pieces[i]);
 }
 
 static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
@@ -108,14 +142,11 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
     return frame->polygons.source_polygon ? frame->polygons.source_polygon[polygon] : polygon;
 }
 
-static void make_segment(const dp_frame *frame, const dp_piece *piece, dp_segment *segment,
-                         dp_stroke *stroke) {
+static void make_segment(const dp_frame *frame, const dp_piece *piece, const bones *found, dp_segment *segment, dp_stroke *stroke) {
     const dp_style *const style = dp_polygon_style(frame, piece->a);
     const dp_line_style *const line = &style->line[piece->line];
-    dp_spine spine = {0};
-    (void)piece_spine(frame, piece, &spine); /* it could be made when the piece was found: it can now */
-    const dp_pointd a = spine_point(&spine, (double)piece->k0 / piece->n);
-    const dp_pointd b = spine_point(&spine, (double)piece->k1 / piece->n);
+    const dp_pointd a = spine_point(&found->spine, (double)piece->k0 / piece->n);
+    const dp_pointd b = spine_point(&found->spine, (double)piece->k1 / piece->n);
     *segment = (dp_segment){.line = (dp_line)piece->line, .polygon = source_number(frame, piece->a),
                             .other = source_number(frame, piece->b), .edge = piece->edge,
                             .width = line->width, .color = line->color};
@@ -128,10 +159,9 @@ static void make_segment(const dp_frame *frame, const dp_piece *piece, dp_segmen
     for (int i = 0; i < 2; i++) {
         stroke->plane[i][0] = NAN;
         if (polygons[i] == UINT32_MAX) continue;
-        const dp_vec3 normal = dp_polygon_normal(frame, polygons[i]);
-        const bool back = dp_dot(normal, dp_view_vector(&frame->view, at)) >= 0;
+        const bool back = dp_dot(found->normal[i], dp_view_vector(&frame->view, at)) >= 0;
         if (back && piece->line == DP_LINE_SILHOUETTE) continue; /* it leads towards the eye outside */
-        screen_plane(&frame->view, at, normal, stroke->plane[i]);
+        screen_plane(&frame->view, at, found->normal[i], stroke->plane[i]);
     }
 }
 
@@ -152,12 +182,19 @@ static void ask_for_piece(const job *j, size_t piece, ask *ask_for) {
 /* What segments are made of lies scattered, and is asked for before their turn comes. */
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
+    const dp_stroke_store *const store = j->store;
+    const size_t first = (size_t)index * BLOCK, end = first + BLOCK < j->frame->segment_count ? first + BLOCK : j->frame->segment_count;
+    dp_fold_batch folds = {0};
+    bones found[DP_FOLDS];
     (void)worker;
-    const size_t first = (size_t)index * BLOCK;
-    for (size_t i = first; i < first + BLOCK && i < j->frame->segment_count; i++) {
-        ask_for_piece(j, i + 16, dp_ask_for_corners);
-        ask_for_piece(j, i + 8, dp_ask_for_positions);
-        make_segment(j->frame, &j->store->pieces[i], &j->store->segments[i], &j->store->strokes[i]);
+    for (size_t at = first; at < end; at += DP_FOLDS) {
+        const uint32_t n = end - at < DP_FOLDS ? (uint32_t)(end - at) : DP_FOLDS;
+        for (size_t i = at; i < at + n; i++) {
+            ask_for_piece(j, i + DP_FOLDS, dp_ask_for_corners);
+            ask_for_piece(j, i, dp_ask_for_positions);
+        }
+        find_many_bones(j->frame, &store->pieces[at], n, &folds, found);
+        for (uint32_t i = 0; i < n; i++) make_segment(j->frame, &store->pieces[at + i], &found[i], &store->segments[at + i], &store->strokes[at + i]);
     }
 }
 
