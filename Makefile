@@ -6,7 +6,7 @@ JOBS    ?= $(shell nproc 2>/dev/null || echo 1)
 export DESTDIR JOBS
 
 # The C sources that are ours, for the formatter.
-SOURCES  = $$(git ls-files '*.c' '*.h')
+SOURCES  = $$(git ls-files '*.c' '*.h' '*.inc')
 
 all: $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) --parallel $(JOBS)

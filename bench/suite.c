@@ -65,13 +65,42 @@ static const row rows[] = {
      .method = DP_METHOD_PAPER},
     {.group = "method", .label = "edge table off", .edge_table_off = true},
     {.group = "method", .label = "back faces culled", .cull = true, .quick = true},
-    {.group = "shading", .label = "edge map, diagonal", .lines = DP_NO_LINES, .map = DP_EDGE_MAP_DIAGONAL, .quick = true},
-    {.group = "shading", .label = "edge map, C1", .lines = DP_NO_LINES, .map = DP_EDGE_MAP_C1, .quick = true},
-    {.group = "shading", .label = "Gooch", .lines = DP_NO_LINES, .shading = DP_SHADING_GOOCH, .quick = true},
-    {.group = "shading", .label = "toon, cartoon map", .lines = DP_NO_LINES, .shading = DP_SHADING_TOON, .quick = true},
-    {.group = "shading", .label = "hatching on the screen", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .quick = true},
-    {.group = "shading", .label = "hatching on the object", .lines = DP_NO_LINES, .shading = DP_SHADING_HATCH, .object_space = true, .quick = true},
-    {.group = "shading", .label = "halftone", .lines = DP_NO_LINES, .shading = DP_SHADING_HALFTONE, .quick = true},
+    {.group = "shading",
+     .label = "edge map, diagonal",
+     .lines = DP_NO_LINES,
+     .map = DP_EDGE_MAP_DIAGONAL,
+     .quick = true},
+    {.group = "shading",
+     .label = "edge map, C1",
+     .lines = DP_NO_LINES,
+     .map = DP_EDGE_MAP_C1,
+     .quick = true},
+    {.group = "shading",
+     .label = "Gooch",
+     .lines = DP_NO_LINES,
+     .shading = DP_SHADING_GOOCH,
+     .quick = true},
+    {.group = "shading",
+     .label = "toon, cartoon map",
+     .lines = DP_NO_LINES,
+     .shading = DP_SHADING_TOON,
+     .quick = true},
+    {.group = "shading",
+     .label = "hatching on the screen",
+     .lines = DP_NO_LINES,
+     .shading = DP_SHADING_HATCH,
+     .quick = true},
+    {.group = "shading",
+     .label = "hatching on the object",
+     .lines = DP_NO_LINES,
+     .shading = DP_SHADING_HATCH,
+     .object_space = true,
+     .quick = true},
+    {.group = "shading",
+     .label = "halftone",
+     .lines = DP_NO_LINES,
+     .shading = DP_SHADING_HALFTONE,
+     .quick = true},
     {.group = "shading", .label = "pencil", .lines = DP_NO_LINES, .shading = DP_SHADING_PENCIL},
 };
 enum { ROW_COUNT = sizeof rows / sizeof *rows };
@@ -168,7 +197,8 @@ static bool too_slow(const suite *s, const row *r, int which, double share) {
     return !yardstick && which > OWN_FLAT && s->last_ms[which] > share / 3;
 }
 
-/* First frames, which find memory cold. A peer's that takes longer than all frames should is kept: there will be no better. */
+/* First frames, which find memory cold. A peer's that takes longer than all frames should is kept:
+ * there will be no better. */
 static void warm_up(suite *s, const row *r, double share) {
     if (s->peer_width != s->target.width || s->peer_height != s->target.height)
         memset(s->peer_warm, 0, sizeof s->peer_warm);
@@ -241,11 +271,13 @@ static void print_row(const suite *s, const row *r) {
     const dp_stats *const stats = &s->stats;
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     printf("{\"group\": \"%s\", \"label\": \"%s\", \"model\": \"%s\", \"main\": %s, "
-           "\"triangles\": %llu, \"vertices\": %llu, \"width\": %u, \"height\": %u, \"samples\": %u, \"threads\": %ld, "
+           "\"triangles\": %llu, \"vertices\": %llu, \"width\": %u, \"height\": %u, \"samples\": "
+           "%u, \"threads\": %ld, "
            "\"line_width\": %g, \"segments\": %llu, \"added_polygons\": %llu, \"bytes\": %llu",
            r->group, r->label, name_of(s->model), s->model == s->main_model ? "true" : "false",
-           (unsigned long long)stats->triangles, (unsigned long long)s->extent.vertices, s->target.width, s->target.height,
-           s->target.samples, r->threads ? (long)r->threads : processors,
+           (unsigned long long)stats->triangles, (unsigned long long)s->extent.vertices,
+           s->target.width, s->target.height, s->target.samples,
+           r->threads ? (long)r->threads : processors,
            r->line_width > 0 ? (double)r->line_width : 2, (unsigned long long)stats->segments,
            (unsigned long long)stats->added_polygons, (unsigned long long)stats->bytes);
     for (int k = 0; k < VARIANT_COUNT; k++) {

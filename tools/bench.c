@@ -60,7 +60,8 @@ static int draw_frames(bench *b, const dp_camera *camera, const dp_style *style,
 
 static int measure(const tool_settings *s, bench *b) {
     /* frames are timed from memory, unless streaming is asked for */
-    const dp_context_desc desc = {.threads = s->threads, .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
+    const dp_context_desc desc = {.threads = s->threads,
+                                  .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
     dp_style style = make_style(s);
     dp_extent extent;
     dp_camera camera;

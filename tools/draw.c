@@ -36,8 +36,8 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     const int wrong = make_camera(s, &seen, &camera);
     if (wrong) return wrong;
     look_deepen(&style, &seen, &camera);
-    const dp_context_desc desc = {.threads = s->threads, .progress = progress_report,
-                                  .memory = (size_t)s->memory};
+    const dp_context_desc desc = {
+        .threads = s->threads, .progress = progress_report, .memory = (size_t)s->memory};
     const int wrong_stroke = make_stroke(s, &style, &d->texture);
     if (wrong_stroke) return wrong_stroke;
     dp_diag diag = {0};

@@ -102,7 +102,8 @@ static dp_result refuse(dp_diag *diag, dp_result result, const char *message) {
 }
 
 static double bytes_of(const kept *k) {
-    return (double)(k->vertices * sizeof *k->positions + k->corners * (sizeof *k->indices + 1) + k->polygons * sizeof *k->firsts);
+    return (double)(k->vertices * sizeof *k->positions + k->corners * (sizeof *k->indices + 1) +
+                    k->polygons * sizeof *k->firsts);
 }
 
 static dp_result read_all(kept *k, dp_source *source, double most, dp_diag *diag) {
@@ -116,7 +117,8 @@ static dp_result read_all(kept *k, dp_source *source, double most, dp_diag *diag
                           "too large to be kept; give a file instead of a pipe");
         if (bytes_of(k) > most)
             return refuse(diag, DP_ERR_LIMIT,
-                          "takes more memory than --memory says; give a file instead of a pipe, or read it once, "
+                          "takes more memory than --memory says; give a file instead of a pipe, or "
+                          "read it once, "
                           "with --passes 1, --eye and --target");
         if (!add(k, &batch))
             return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");

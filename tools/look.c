@@ -1,4 +1,5 @@
-/* From settings to shading and edge map: words to values, textures from PNG files, names to groups. */
+/* From settings to shading and edge map: words to values, textures from PNG files, names to groups.
+ */
 #include "look.h"
 #include "report.h"
 
@@ -22,14 +23,15 @@ static int read_shades(const tool_settings *s, look_data *data, dp_shade *shade)
     const int wrong = read_texture("shade-texture", s->shade_texture, &p);
     if (wrong) return wrong;
     data->shades = malloc((size_t)4 * p.width);
-    if (data->shades) memcpy(data->shades, p.rgba + (size_t)4 * p.width * (p.height / 2), (size_t)4 * p.width);
+    if (data->shades)
+        memcpy(data->shades, p.rgba + (size_t)4 * p.width * (p.height / 2), (size_t)4 * p.width);
     shade->shades = (dp_image){data->shades, p.width, 1};
     dp_io_free_pixels(&p);
     return data->shades ? 0 : EXIT_FAILED;
 }
 
-/* Luminance; what is transparent is white, the paper. In the file dark is ink: priorities run the other way, a
- * pencil's brightness does not. */
+/* Luminance; what is transparent is white, the paper. In the file dark is ink: priorities run the
+ * other way, a pencil's brightness does not. */
 static int read_strokes(const tool_settings *s, look_data *data, dp_shade *shade) {
     dp_io_pixels p;
     if (!s->strokes) return 0;
@@ -86,11 +88,14 @@ static void known_names(dp_source *source, char *text, size_t size) {
     *text = 0;
     for (uint32_t g = 0; g < GROUPS && length + 64 < size; g++) {
         const char *const name = dp_source_group_name(source, g);
-        if (name) length += (size_t)snprintf(text + length, size - length, "%s%.48s", length ? ", " : "", name);
+        if (name)
+            length +=
+                (size_t)snprintf(text + length, size - length, "%s%.48s", length ? ", " : "", name);
     }
 }
 
-static int read_enhanced(const tool_settings *s, dp_source *source, look_data *data, dp_edge_map *map) {
+static int read_enhanced(const tool_settings *s, dp_source *source, look_data *data,
+                         dp_edge_map *map) {
     if (!s->enhance) return 0;
     data->enhanced = calloc(GROUPS, 1);
     if (!data->enhanced) return EXIT_FAILED;
@@ -99,8 +104,8 @@ static int read_enhanced(const tool_settings *s, dp_source *source, look_data *d
         if (!mark_groups(source, at, length, data->enhanced)) {
             char names[400];
             known_names(source, names, sizeof names);
-            wrong_usage("--enhance: the model has no object called \"%.*s\"; it has %s", (int)length, at,
-                        *names ? names : "no names");
+            wrong_usage("--enhance: the model has no object called \"%.*s\"; it has %s",
+                        (int)length, at, *names ? names : "no names");
             return EXIT_FAILED;
         }
         if (!at[length]) break;
@@ -114,7 +119,8 @@ static int read_enhanced(const tool_settings *s, dp_source *source, look_data *d
 /* ---- all ---- */
 
 static void make_edge_map(const tool_settings *s, dp_edge_map *map) {
-    static const dp_edge_detector detectors[] = {DP_EDGE_MAP_DIAGONAL, DP_EDGE_MAP_DIAGONAL, DP_EDGE_MAP_C1};
+    static const dp_edge_detector detectors[] = {DP_EDGE_MAP_DIAGONAL, DP_EDGE_MAP_DIAGONAL,
+                                                 DP_EDGE_MAP_C1};
     const bool on = s->edges ? s->edges == EDGES_MAP || s->edges == EDGES_BOTH : s->edge_map > 0;
     map->detector = on || s->wants_edge_map ? detectors[s->edge_map] : DP_EDGE_MAP_OFF;
     map->as_printed = s->edge_measure == 2;
@@ -133,7 +139,8 @@ static void make_edge_map(const tool_settings *s, dp_edge_map *map) {
 
 int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_style *style) {
     dp_shade *const shade = &style->shade;
-    if (s->shading == 1) shade->shading = DP_SHADING_PAPER; /* the words begin with it, the values with flat */
+    if (s->shading == 1)
+        shade->shading = DP_SHADING_PAPER; /* the words begin with it, the values with flat */
     if (s->shading > 2) shade->shading = (dp_shading)(s->shading - 1);
     const bool lit = shade->shading != DP_SHADING_FLAT && shade->shading != DP_SHADING_PAPER;
     shade->model_colors = s->model_colors ? s->model_colors == SWITCH_ON : lit && !s->style.surface;
@@ -185,12 +192,16 @@ void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
     m->size = (float)(s->mirror_size > 0 ? s->mirror_size : 1.5 * largest);
     m->fade = (float)s->mirror_fade;
     m->tint = s->mirror_tint;
-    m->tint_share = (float)(s->mirror_tint_share > 0 ? s->mirror_tint_share : s->mirror_tint ? 0.25 : 0);
-    const double off = n[0] * (double)m->center[0] + n[1] * (double)m->center[1] + n[2] * (double)m->center[2] - offset;
+    m->tint_share = (float)(s->mirror_tint_share > 0 ? s->mirror_tint_share
+                            : s->mirror_tint         ? 0.25
+                                                     : 0);
+    const double off = n[0] * (double)m->center[0] + n[1] * (double)m->center[1] +
+                       n[2] * (double)m->center[2] - offset;
     for (int i = 0; i < 8; i++) /* the mirror around its middle */
         for (int k = 0; k < 3; k++) {
             const double half = 0.5 * (double)m->size * sqrt(fmax(1 - n[k] * n[k], 0));
-            const float at = (float)((double)m->center[k] - off * n[k] + (i >> k & 1 ? half : -half));
+            const float at =
+                (float)((double)m->center[k] - off * n[k] + (i >> k & 1 ? half : -half));
             extent->min[k] = fminf(extent->min[k], at), extent->max[k] = fmaxf(extent->max[k], at);
         }
 }

@@ -11,8 +11,8 @@ typedef struct look_data {
     uint8_t *enhanced; /* by group */
 } look_data;
 
-/* Fills in the style's shade, edge_map and, with --edges, lines. `source` names groups. 0, or the exit
- * code after a message. look_free either way. */
+/* Fills in the style's shade, edge_map and, with --edges, lines. `source` names groups. 0, or the
+ * exit code after a message. look_free either way. */
 int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_style *style);
 /* The mirror, for a model of that extent, which grows to what is seen with it. */
 void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style);

@@ -43,7 +43,8 @@ static int open_shape(const char *text, dp_source **out) {
 
 /* Nothing has to be known of the model before it is drawn, and it is read once. */
 static bool is_drawn_unseen(const tool_settings *s) {
-    return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target && s->ink != 2;
+    return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
+           s->ink != 2;
 }
 
 int open_model(const tool_settings *s, dp_source **out) {

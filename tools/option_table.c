@@ -13,8 +13,9 @@
 
 const char *const plane_names[PLANE_COUNT] = {"edge-map", "normals", "depth", "id"};
 
-const char *const group_names[GROUP_COUNT] = {"Picture", "Camera",  "Lines", "Strokes", "Surface", "Edge map", "How lines are found",
-                                              "Model",   "Program", NULL};
+const char *const group_names[GROUP_COUNT] = {
+    "Picture", "Camera",  "Lines", "Strokes", "Surface", "Edge map", "How lines are found",
+    "Model",   "Program", NULL};
 
 /* clang-format off */
 const option option_table[] = {

@@ -118,9 +118,13 @@ static bool store_point(const option *o, const char *value, double to[3]) {
 
 static bool store_angles(const option *o, const char *value, double to[2]) {
     const char *const comma = value + strcspn(value, ",");
-    if (!*comma || !read_number(value, comma, &to[0]) || !read_number(comma + 1, end_of(value), &to[1]))
-        return wrong_usage("--%s: \"%s\" is not two angles; give degrees like -40,42", o->name, value);
-    if (fabs(to[1]) > 90) return wrong_usage("--%s: the elevation %g is out of range; give -90 to 90", o->name, to[1]);
+    if (!*comma || !read_number(value, comma, &to[0]) ||
+        !read_number(comma + 1, end_of(value), &to[1]))
+        return wrong_usage("--%s: \"%s\" is not two angles; give degrees like -40,42", o->name,
+                           value);
+    if (fabs(to[1]) > 90)
+        return wrong_usage("--%s: the elevation %g is out of range; give -90 to 90", o->name,
+                           to[1]);
     return true;
 }
 
@@ -140,20 +144,26 @@ static bool store_plane(const option *o, const char *value, tool_settings *setti
     settings->has_mirror = true;
     settings->has_mirror_offset = count == 4;
     if (count < 3 || at[-1])
-        return wrong_usage("--%s: \"%s\" is not a plane; give three or four numbers like 0,1,0,-0.5", o->name, value);
+        return wrong_usage(
+            "--%s: \"%s\" is not a plane; give three or four numbers like 0,1,0,-0.5", o->name,
+            value);
     if (n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0) return true;
     return wrong_usage("--%s: the normal is zero; give one like 0,1,0", o->name);
 }
 
-/* A word before "=" that is no plane's name is rather a slip than the beginning of a file's name. */
+/* A word before "=" that is no plane's name is rather a slip than the beginning of a file's name.
+ */
 static bool unknown_plane(const char *value, size_t length) {
     char name[64];
     int best = 0;
-    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), value);
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1),
+             value);
     for (int k = 1; k < PLANE_COUNT; k++)
-        if (spelling_distance(name, plane_names[k]) < spelling_distance(name, plane_names[best])) best = k;
-    return wrong_usage("--output: \"%s\" is nothing that can be written; did you mean %s? A file of that name is ./%s", name,
-                       plane_names[best], value);
+        if (spelling_distance(name, plane_names[k]) < spelling_distance(name, plane_names[best]))
+            best = k;
+    return wrong_usage("--output: \"%s\" is nothing that can be written; did you mean %s? A file "
+                       "of that name is ./%s",
+                       name, plane_names[best], value);
 }
 
 /* NAME=FILE for a plane, else a file. */
@@ -161,12 +171,14 @@ static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
     for (int k = 0; value[length] && k < PLANE_COUNT; k++) {
         if (strlen(plane_names[k]) != length || strncmp(plane_names[k], value, length)) continue;
-        if (!value[length + 1]) return wrong_usage("--output %s: a file is missing; give %sFILE.png", value, value);
+        if (!value[length + 1])
+            return wrong_usage("--output %s: a file is missing; give %sFILE.png", value, value);
         settings->planes[k] = value + length + 1;
         settings->wants_edge_map |= k == PLANE_EDGE_MAP;
         return true;
     }
-    if (value[length] && length && strspn(value, "abcdefghijklmnopqrstuvwxyz-") == length) return unknown_plane(value, length);
+    if (value[length] && length && strspn(value, "abcdefghijklmnopqrstuvwxyz-") == length)
+        return unknown_plane(value, length);
     settings->output = value;
     return true;
 }

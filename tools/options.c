@@ -159,7 +159,8 @@ static void begin(walk *w) {
     }
 }
 
-/* A preset's options, before all others. Their values lie in memory that stays: settings point to them. */
+/* A preset's options, before all others. Their values lie in memory that stays: settings point to
+ * them. */
 static bool apply_preset(tool_settings *settings, const char *name) {
     static char words[1024];
     char *argv[64] = {NULL};
@@ -167,7 +168,8 @@ static bool apply_preset(tool_settings *settings, const char *name) {
     const preset *const p = preset_find(name);
     if (!p) return true; /* the option's own check tells */
     snprintf(words, sizeof words, "%s", p->options);
-    for (char *word = strtok(words, " "); word && w.argc < 63; word = strtok(NULL, " ")) argv[w.argc++] = word;
+    for (char *word = strtok(words, " "); word && w.argc < 63; word = strtok(NULL, " "))
+        argv[w.argc++] = word;
     while (w.at < w.argc)
         if (!take(&w)) return false;
     return true;
@@ -175,9 +177,10 @@ static bool apply_preset(tool_settings *settings, const char *name) {
 
 static bool apply_presets(walk *w) {
     for (int k = w->at; k < w->argc && strcmp(w->argv[k], "--"); k++) {
-        const char *const value = !strcmp(w->argv[k], "--preset") && k + 1 < w->argc ? w->argv[k + 1]
-                                  : !strncmp(w->argv[k], "--preset=", 9)             ? w->argv[k] + 9
-                                                                                     : NULL;
+        const char *const value = !strcmp(w->argv[k], "--preset") && k + 1 < w->argc
+                                      ? w->argv[k + 1]
+                                  : !strncmp(w->argv[k], "--preset=", 9) ? w->argv[k] + 9
+                                                                         : NULL;
         if (value && w->settings->command != COMMAND_INFO && w->settings->command != COMMAND_MAKE &&
             !apply_preset(w->settings, value))
             return false;

@@ -29,7 +29,13 @@ enum { STROKE_ARC = 1, STROKE_POLAR };
 enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
 
 /* What --output NAME=FILE can name. */
-typedef enum output_plane { PLANE_EDGE_MAP = 0, PLANE_NORMALS, PLANE_DEPTH, PLANE_ID, PLANE_COUNT } output_plane;
+typedef enum output_plane {
+    PLANE_EDGE_MAP = 0,
+    PLANE_NORMALS,
+    PLANE_DEPTH,
+    PLANE_ID,
+    PLANE_COUNT
+} output_plane;
 extern const char *const plane_names[PLANE_COUNT];
 
 /* Everything the command line can say; zero is "not said". */
@@ -43,7 +49,7 @@ typedef struct tool_settings {
     int samples;            /* word */
     uint32_t threads;
     double memory; /* bytes */
-    int passes; /* word */
+    int passes;    /* word */
 
     double eye[3], target[3], up[3];
     bool has_eye, has_target, has_up;
@@ -60,7 +66,7 @@ typedef struct tool_settings {
     double pencil_s, pencil_o;
     bool has_pencil_s, has_pencil_o;
     uint32_t pencil_tones;
-    int pencil_turns; /* word */
+    int pencil_turns;   /* word */
     const char *stroke; /* a name, or a PNG file */
     int stroke_u;       /* word */
     double stroke_k, stroke_scale, taper, jitter, overshoot, width_by_depth, width_by_light;
@@ -73,7 +79,7 @@ typedef struct tool_settings {
     int normals; /* word */
     double crease_angle, highlight, hatch_scale;
     bool gooch_plain;
-    int model_colors; /* word */
+    int model_colors;             /* word */
     int cartoon_map, hatch_space; /* words */
     const char *shade_texture, *strokes;
     dp_color hatch_color;

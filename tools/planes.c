@@ -1,5 +1,5 @@
-/* Planes of the target as pictures: normals as the paper's texture encodes them (half plus half, opaque),
- * distance from white (near) to black (far), groups as colours, the edge map as it is. */
+/* Planes of the target as pictures: normals as the paper's texture encodes them (half plus half,
+ * opaque), distance from white (near) to black (far), groups as colours, the edge map as it is. */
 #include "planes.h"
 #include "output.h"
 #include "progress.h"
@@ -12,7 +12,8 @@
 #include <string.h>
 
 /* By plane: bytes of a pixel, and how it becomes a colour. */
-static const size_t plane_size[PLANE_COUNT] = {[PLANE_EDGE_MAP] = 4, [PLANE_NORMALS] = 12, [PLANE_DEPTH] = 4, [PLANE_ID] = 2};
+static const size_t plane_size[PLANE_COUNT] = {
+    [PLANE_EDGE_MAP] = 4, [PLANE_NORMALS] = 12, [PLANE_DEPTH] = 4, [PLANE_ID] = 2};
 
 static void put_plane(dp_target *t, output_plane plane, void *block) {
     if (plane == PLANE_EDGE_MAP) t->edge_map = block;
@@ -49,7 +50,8 @@ static void gray(uint8_t out[4], double v) {
 
 static void draw_normals(const dp_target *t, size_t n, uint8_t *rgba) {
     for (size_t i = 0; i < n; i++) {
-        for (int k = 0; k < 3; k++) rgba[4 * i + k] = (uint8_t)(127.5f + 127.5f * t->eye_normal[3 * i + k] + 0.5f);
+        for (int k = 0; k < 3; k++)
+            rgba[4 * i + k] = (uint8_t)(127.5f + 127.5f * t->eye_normal[3 * i + k] + 0.5f);
         rgba[4 * i + 3] = 255;
     }
 }
@@ -62,8 +64,10 @@ static void draw_distance(const dp_target *t, size_t n, uint8_t *rgba) {
     }
     const double range = most > least ? most - least : 1;
     for (size_t i = 0; i < n; i++) {
-        if (isfinite(t->distance[i])) gray(rgba + 4 * i, 0.9 - 0.8 * ((double)t->distance[i] - least) / range);
-        else gray(rgba + 4 * i, 0);
+        if (isfinite(t->distance[i]))
+            gray(rgba + 4 * i, 0.9 - 0.8 * ((double)t->distance[i] - least) / range);
+        else
+            gray(rgba + 4 * i, 0);
     }
 }
 
@@ -74,7 +78,8 @@ static void draw_ids(const dp_target *t, size_t n, uint8_t *rgba) {
         if (!t->id[i]) continue;
         const double hue = 6 * fmod(0.07 + 0.6180339887 * t->id[i], 1);
         for (int k = 0; k < 3; k++) {
-            const double off = fabs(fmod(hue + 8 - 2 * k, 6) - 3); /* 0 opposite, 3 at the channel */
+            const double off =
+                fabs(fmod(hue + 8 - 2 * k, 6) - 3); /* 0 opposite, 3 at the channel */
             rgba[4 * i + k] = (uint8_t)(70 + 160 * fmin(fmax(off - 1, 0), 1));
         }
     }

@@ -43,8 +43,10 @@ void print_stats_table(FILE *out, const dp_stats *stats) {
     for (int k = 0; k < DP_STAGE_COUNT; k++)
         fprintf(out, "%-30s %14.2f ms\n", dp_stage_name((dp_stage)k), stats->stage_ms[k]);
     fprintf(out, "%-30s %14.2f ms\n", "frame", stats->frame_ms);
-    if (stats->adjacency_ms > 0) fprintf(out, "%-30s %14.2f ms\n", "of it, building adjacency", stats->adjacency_ms);
-    if (stats->curvature_ms > 0) fprintf(out, "%-30s %14.2f ms\n", "of it, making curvature", stats->curvature_ms);
+    if (stats->adjacency_ms > 0)
+        fprintf(out, "%-30s %14.2f ms\n", "of it, building adjacency", stats->adjacency_ms);
+    if (stats->curvature_ms > 0)
+        fprintf(out, "%-30s %14.2f ms\n", "of it, making curvature", stats->curvature_ms);
 }
 
 void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target) {
@@ -56,13 +58,15 @@ void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target)
     for (int k = 0; k < DP_STAGE_COUNT; k++)
         fprintf(out, "%s\"%s\": %.3f", k ? ", " : "", dp_stage_name((dp_stage)k),
                 stats->stage_ms[k]);
-    fprintf(out, "}, \"frame_ms\": %.3f, \"adjacency_ms\": %.3f, \"curvature_ms\": %.3f}\n", stats->frame_ms,
-            stats->adjacency_ms, stats->curvature_ms);
+    fprintf(out, "}, \"frame_ms\": %.3f, \"adjacency_ms\": %.3f, \"curvature_ms\": %.3f}\n",
+            stats->frame_ms, stats->adjacency_ms, stats->curvature_ms);
 }
 
 void warn_lost(const dp_stats *stats) {
     if (stats->edges_lost)
-        warn("%llu edges or more could not be followed within --memory, and lines may be missing; give more", (unsigned long long)stats->edges_lost);
+        warn("%llu edges or more could not be followed within --memory, and lines may be missing; "
+             "give more",
+             (unsigned long long)stats->edges_lost);
 }
 
 void warn_dropped(const dp_stats *stats) {

@@ -14,7 +14,8 @@ static bool is_known(const char *name) {
 
 static int unknown(const char *name) {
     char known[160] = "";
-    for (uint32_t i = 0; i < dp_texture_count(); i++) strcat(strcat(known, i ? ", " : ""), dp_texture_name(i));
+    for (uint32_t i = 0; i < dp_texture_count(); i++)
+        strcat(strcat(known, i ? ", " : ""), dp_texture_name(i));
     wrong_usage("--stroke: \"%s\" is neither a PNG file nor one of %s", name, known);
     return EXIT_USAGE;
 }
@@ -23,10 +24,13 @@ static int load(const tool_settings *s, dp_style *style, dp_texture **texture) {
     dp_diag diag = {0};
     if (is_known(s->stroke)) {
         dp_stroke_look(s->stroke, &style->stroke, NULL);
-        return dp_texture_named(s->stroke, s->seed, NULL, texture, &diag) ? report_failure(NULL, &diag) : 0;
+        return dp_texture_named(s->stroke, s->seed, NULL, texture, &diag)
+                   ? report_failure(NULL, &diag)
+                   : 0;
     }
     if (!strpbrk(s->stroke, "./")) return unknown(s->stroke);
-    return dp_io_read_texture(s->stroke, NULL, texture, &diag) ? report_failure(s->stroke, &diag) : 0;
+    return dp_io_read_texture(s->stroke, NULL, texture, &diag) ? report_failure(s->stroke, &diag)
+                                                               : 0;
 }
 
 int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
@@ -36,7 +40,8 @@ int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
     dp_stroke_style *const stroke = &style->stroke;
     const bool fringed = style->edges == DP_EDGES_ADJACENCY && style->ink == DP_INK_QUADS;
     stroke->texture = *texture;
-    stroke->u = (s->stroke_u ? s->stroke_u == STROKE_POLAR : fringed) ? DP_STROKE_POLAR : DP_STROKE_ARC;
+    stroke->u =
+        (s->stroke_u ? s->stroke_u == STROKE_POLAR : fringed) ? DP_STROKE_POLAR : DP_STROKE_ARC;
     if (s->has_stroke_k) stroke->k = s->stroke_k == 0 ? -1e-9f : (float)s->stroke_k;
     if (s->has_taper) stroke->taper = (float)s->taper;
     if (s->has_jitter) stroke->jitter = (float)s->jitter;
@@ -51,11 +56,13 @@ int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
 
 /* Nothing that was asked for is left out without a word. */
 void warn_strokeless(const tool_settings *s, const dp_style *style) {
-    const bool asked = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 || s->repeats > 1 || s->width_by_depth > 0 ||
-                       s->width_by_light > 0;
+    const bool asked = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
+                       s->repeats > 1 || s->width_by_depth > 0 || s->width_by_light > 0;
     if (!asked) return;
     if (s->edges == EDGES_MAP)
-        warn("an edge map is of pixels and has no strokes: --edges both draws lines with them as well");
+        warn("an edge map is of pixels and has no strokes: --edges both draws lines with them as "
+             "well");
     else if (style->ink == DP_INK_QUADS && style->edges != DP_EDGES_ADJACENCY)
-        warn("with --ink quads lines are plain: leave it out for strokes, or add --edges adjacency");
+        warn(
+            "with --ink quads lines are plain: leave it out for strokes, or add --edges adjacency");
 }

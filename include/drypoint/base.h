@@ -46,7 +46,8 @@ typedef struct dp_diag {
 } dp_diag;
 
 /* Memory comes from here; any member NULL means malloc, realloc and free for all three.
- * Blocks must be aligned as malloc's are. `user` is handed back. Calls may come from several threads at once. */
+ * Blocks must be aligned as malloc's are. `user` is handed back. Calls may come from several
+ * threads at once. */
 typedef struct dp_allocator {
     void *(*alloc)(size_t size, void *user);
     void *(*realloc)(void *block, size_t size, void *user); /* block may be NULL */

@@ -1,7 +1,7 @@
 /* drypoint/camera.h: view and projection, in OpenGL's conventions.
  *
- * Matrices are column-major, multiply column vectors, and use a right-handed camera space that looks
- * along -z. The projection maps to clip space with -w <= x, y, z <= w. */
+ * Matrices are column-major, multiply column vectors, and use a right-handed camera space that
+ * looks along -z. The projection maps to clip space with -w <= x, y, z <= w. */
 #ifndef DRYPOINT_CAMERA_H
 #define DRYPOINT_CAMERA_H
 
@@ -16,15 +16,15 @@ typedef struct dp_camera {
     double projection[16]; /* camera to clip space: perspective or orthographic */
 } dp_camera;
 
-/* The view part: from eye to target, both in world space. `up` need not be perpendicular; where it is
- * parallel to the line of sight another one is chosen. eye != target, else DP_ERR_ARGUMENT. */
+/* The view part: from eye to target, both in world space. `up` need not be perpendicular; where it
+ * is parallel to the line of sight another one is chosen. eye != target, else DP_ERR_ARGUMENT. */
 DP_API dp_result dp_camera_look_at(dp_camera *camera, const double eye[3], const double target[3],
                                    const double up[3]);
 
 /* The projection part. fov_y: vertical, degrees in (0, 180); aspect: width / height of the picture;
  * 0 < near < far, distances along the line of sight. */
-DP_API dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect, double near_z,
-                                       double far_z);
+DP_API dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect,
+                                       double near_z, double far_z);
 
 /* height: of what is seen, in world units, > 0; near may be negative (behind the eye). */
 DP_API dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect,
@@ -37,15 +37,15 @@ typedef struct dp_fit {
     double up[3];         /* {0} means +y, or -z / +z when looking down or up along y */
     double fov_y;         /* degrees; 0 means 35 */
     bool orthographic;
-    double height;        /* orthographic: what is seen, world units; 0 means fitted */
-    double aspect;        /* width / height of the picture; 0 means 4/3 */
-    double zoom;          /* 0 means 1; 2 shows everything twice as large */
-    bool steady;          /* fit the box's sphere: the same size from every direction */
+    double height; /* orthographic: what is seen, world units; 0 means fitted */
+    double aspect; /* width / height of the picture; 0 means 4/3 */
+    double zoom;   /* 0 means 1; 2 shows everything twice as large */
+    bool steady;   /* fit the box's sphere: the same size from every direction */
 } dp_fit;
 
-/* The box fills the picture but for a margin of 4 % on the narrower side. With `steady` the eye looks at
- * the box's centre from half its diagonal / sin(fov/2), fov the smaller of the vertical and the
- * horizontal one. Near and far enclose the box. DP_ERR_ARGUMENT for values out of range. */
+/* The box fills the picture but for a margin of 4 % on the narrower side. With `steady` the eye
+ * looks at the box's centre from half its diagonal / sin(fov/2), fov the smaller of the vertical
+ * and the horizontal one. Near and far enclose the box. DP_ERR_ARGUMENT for values out of range. */
 DP_API dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit);
 
 /* Near and far for a given eye and box: far encloses the box, near is as large as it allows, and at

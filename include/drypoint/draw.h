@@ -38,12 +38,12 @@ typedef struct dp_context_desc {
      * from any threads, and return when all are done. NULL: the context's own threads. */
     void (*parallel_for)(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
                          void *arg);
-    /* Called from the drawing thread now and then, fraction in [0, 1], or negative while a source of unknown
-     * length is streamed; a non-zero return stops the drawing with DP_ERR_CANCELLED. */
+    /* Called from the drawing thread now and then, fraction in [0, 1], or negative while a source
+     * of unknown length is streamed; a non-zero return stops the drawing with DP_ERR_CANCELLED. */
     int (*progress)(void *user, double fraction);
     void *user;
-    /* Memory beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. A source that would take more
-     * is not gathered but streamed: read twice, in parts (dp_draw). */
+    /* Memory beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. A source that
+     * would take more is not gathered but streamed: read twice, in parts (dp_draw). */
     size_t memory;
 } dp_context_desc;
 
@@ -57,30 +57,31 @@ typedef struct dp_target {
     uint32_t samples;       /* per pixel: 1, 4, 8 or 16; 0 means 4 */
     uint8_t *rgba;          /* [height][width][4], not premultiplied */
     size_t rgba_stride;     /* bytes from row to row; 0 means 4 * width */
-    float *depth;           /* [height][width], world units along the line of sight; INFINITY: none */
-    uint8_t *line_class;    /* [height][width], 1 + dp_line of the ink that covers the pixel, or 0 */
-    float *normal;          /* [height][width][3], world space, unit, towards the eye; 0: none */
+    float *depth;        /* [height][width], world units along the line of sight; INFINITY: none */
+    uint8_t *line_class; /* [height][width], 1 + dp_line of the ink that covers the pixel, or 0 */
+    float *normal;       /* [height][width][3], world space, unit, towards the eye; 0: none */
     /* The G-buffer that shading and edge map work on, one surface per pixel (its greatest part): */
-    float *eye_normal;      /* [height][width][3], camera space, unit, as shaded; 0: none */
-    float *distance;        /* [height][width], as depth, at the pixel's centre; INFINITY: none */
-    uint16_t *id;           /* [height][width], 1 + group, at most 65535; 0: none */
-    uint8_t *edge_map;      /* [height][width][4]: inner edges in RGB, profile edges in A; 255: no edge
-                               (Nienhaus 2003, 4.1.2). Needs style.edge_map.detector; 255 without */
+    float *eye_normal; /* [height][width][3], camera space, unit, as shaded; 0: none */
+    float *distance;   /* [height][width], as depth, at the pixel's centre; INFINITY: none */
+    uint16_t *id;      /* [height][width], 1 + group, at most 65535; 0: none */
+    uint8_t *edge_map; /* [height][width][4]: inner edges in RGB, profile edges in A; 255: no edge
+                          (Nienhaus 2003, 4.1.2). Needs style.edge_map.detector; 255 without */
 } dp_target;
 
 /* Draws the source, from its start when it can be rewound, from where it is when not.
  *
- * With DP_INK_STROKES a source that would take more memory than the context may use is streamed: read in
- * parts, once for surface and lines, once for what hides them, and more often where polygons that share an
- * edge are many and far apart; memory then depends on the picture and on its lines, not on the source's
- * length. The lines are the same, but for these: an edge that lies in the middle of another polygon may be
- * taken for a border; with passes = 1 intersections are found between polygons of one part; beyond 64 readings
- * edges are given up, and where lines alone do not fit they are thinned (dp_stats.edges_lost). Polygons of more
- * than three corners are streamed as triangles, which dp_segment.edge then counts by. What needs all polygons
- * at once (shading, adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source
- * is read once, and what hides lines is known only as finely as the picture's samples. A source that can be
- * read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1. Sources of one stable batch are
- * drawn from where they lie, whatever their size.
+ * With DP_INK_STROKES a source that would take more memory than the context may use is streamed:
+ * read in parts, once for surface and lines, once for what hides them, and more often where
+ * polygons that share an edge are many and far apart; memory then depends on the picture and on its
+ * lines, not on the source's length. The lines are the same, but for these: an edge that lies in
+ * the middle of another polygon may be taken for a border; with passes = 1 intersections are found
+ * between polygons of one part; beyond 64 readings edges are given up, and where lines alone do not
+ * fit they are thinned (dp_stats.edges_lost). Polygons of more than three corners are streamed as
+ * triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
+ * adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source is
+ * read once, and what hides lines is known only as finely as the picture's samples. A source that
+ * can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1. Sources of one
+ * stable batch are drawn from where they lie, whatever their size.
  *
  * style NULL: all defaults. The picture is the same, bit for bit, for any number of threads.
  * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with; and
@@ -91,13 +92,13 @@ DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera
 /* A visible piece of a feature line, as found by the last dp_draw with DP_INK_STROKES. */
 typedef struct dp_segment {
     dp_line line;
-    float a[3], b[3];       /* both ends on the screen: x right, y down, px; third: distance along
-                               the line of sight, world units */
+    float a[3], b[3]; /* both ends on the screen: x right, y down, px; third: distance along
+                         the line of sight, world units */
     float world_a[3], world_b[3];
-    uint64_t polygon;       /* of the source, counted from 0 over all its batches */
-    uint64_t other;         /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
-    uint32_t edge;          /* from corner `edge` to the next; UINT32_MAX for an intersection */
-    float width;            /* px */
+    uint64_t polygon; /* of the source, counted from 0 over all its batches */
+    uint64_t other;   /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
+    uint32_t edge;    /* from corner `edge` to the next; UINT32_MAX for an intersection */
+    float width;      /* px */
     dp_color color;
 } dp_segment;
 
@@ -118,26 +119,27 @@ typedef enum dp_stage {
 DP_API const char *dp_stage_name(dp_stage stage);
 
 typedef struct dp_stats {
-    uint64_t polygons;         /* handed out by the source */
-    uint64_t triangles;        /* the same, polygons counted as their corners - 2 */
-    uint64_t split;            /* concave or non-planar polygons that were split */
-    uint64_t dropped;          /* sum of the next four */
-    uint64_t dropped_index;    /* index out of range */
-    uint64_t dropped_finite;   /* NaN or infinite coordinate */
-    uint64_t dropped_area;     /* no area */
-    uint64_t dropped_corners;  /* fewer than three corners */
-    uint64_t clipped;          /* crossed the near or far plane or the guard band */
-    uint64_t edges_resolved;   /* by the tiles' edge tables; counted per tile */
-    uint64_t edges_emergent;   /* left to emerge */
-    uint64_t open_edges;       /* edges met with one polygon; counted per tile */
-    uint64_t added_polygons;   /* by the primitive shaders; counted per tile */
-    uint64_t edges_lost;       /* streamed: edges given up because too many waited for their polygons, and
-                                  polygons that may cross others, because too many did */
+    uint64_t polygons;        /* handed out by the source */
+    uint64_t triangles;       /* the same, polygons counted as their corners - 2 */
+    uint64_t split;           /* concave or non-planar polygons that were split */
+    uint64_t dropped;         /* sum of the next four */
+    uint64_t dropped_index;   /* index out of range */
+    uint64_t dropped_finite;  /* NaN or infinite coordinate */
+    uint64_t dropped_area;    /* no area */
+    uint64_t dropped_corners; /* fewer than three corners */
+    uint64_t clipped;         /* crossed the near or far plane or the guard band */
+    uint64_t edges_resolved;  /* by the tiles' edge tables; counted per tile */
+    uint64_t edges_emergent;  /* left to emerge */
+    uint64_t open_edges;      /* edges met with one polygon; counted per tile */
+    uint64_t added_polygons;  /* by the primitive shaders; counted per tile */
+    uint64_t edges_lost; /* streamed: edges given up because too many waited for their polygons, and
+                            polygons that may cross others, because too many did */
     uint64_t segments;
-    uint64_t bytes;            /* scratch memory held by the context */
-    uint64_t adjacency_bytes;  /* of it, adjacency (DP_EDGES_ADJACENCY) */
-    double curvature_ms;       /* making directions of least curvature took (DP_SHADING_PENCIL); 0 where they were kept */
-    double adjacency_ms;       /* building that took, in the frame that built it; otherwise 0 */
+    uint64_t bytes;           /* scratch memory held by the context */
+    uint64_t adjacency_bytes; /* of it, adjacency (DP_EDGES_ADJACENCY) */
+    double curvature_ms; /* making directions of least curvature took (DP_SHADING_PENCIL); 0 where
+                            they were kept */
+    double adjacency_ms; /* building that took, in the frame that built it; otherwise 0 */
     double stage_ms[DP_STAGE_COUNT];
     double frame_ms;
 } dp_stats;

@@ -36,9 +36,10 @@ typedef struct dp_io_picture {
 
 DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag);
 
-/* A stroke texture from a PNG of any kind, at most 8192 px wide and high; what of it is ink: dp_texture_create.
- * DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */
-DP_API dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator, dp_texture **out, dp_diag *diag);
+/* A stroke texture from a PNG of any kind, at most 8192 px wide and high; what of it is ink:
+ * dp_texture_create. DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */
+DP_API dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator,
+                                    dp_texture **out, dp_diag *diag);
 /* A picture as read: freed by dp_io_free_pixels. */
 typedef struct dp_io_pixels {
     uint8_t *rgba; /* [height][width][4], not premultiplied */
@@ -53,12 +54,12 @@ typedef enum dp_mesh_file {
     DP_MESH_FILE_AUTO = 0, /* by the name's ending */
     DP_MESH_FILE_PLY,      /* binary little endian */
     DP_MESH_FILE_PLY_ASCII,
-    DP_MESH_FILE_STL,      /* binary */
+    DP_MESH_FILE_STL, /* binary */
     DP_MESH_FILE_OBJ
 } dp_mesh_file;
 
-/* Writes a source as a model file, streaming; the same care as for pictures. PLY and OBJ weld vertices
- * only within what the source itself indexes. The source must be rewindable for PLY. */
+/* Writes a source as a model file, streaming; the same care as for pictures. PLY and OBJ weld
+ * vertices only within what the source itself indexes. The source must be rewindable for PLY. */
 DP_API dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *source,
                                   int (*progress)(void *user, double fraction), void *user,
                                   dp_diag *diag);

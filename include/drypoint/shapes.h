@@ -11,9 +11,10 @@ extern "C" {
 /* One generated model. `name` is one of dp_shape_name(0 … dp_shape_count() - 1). */
 typedef struct dp_shape {
     const char *name;
-    uint64_t triangles; /* about how many; 0 means the shape's own default (smallest for plane ones) */
-    double size;        /* extent, world units; 0 means 2 */
-    uint32_t seed;      /* of shapes with noise (terrain) */
+    uint64_t
+        triangles; /* about how many; 0 means the shape's own default (smallest for plane ones) */
+    double size;   /* extent, world units; 0 means 2 */
+    uint32_t seed; /* of shapes with noise (terrain) */
     const dp_allocator *allocator;
 } dp_shape;
 

@@ -1,8 +1,8 @@
 /* drypoint/source.h: where polygons come from.
  *
- * A polygon source hands out batches of polygons and can (usually) be replayed from the start. A mesh
- * in memory, a file on disk, an application's callback and a generator are the same thing to the
- * rest of the library; nothing needs to be held in memory as a whole.
+ * A polygon source hands out batches of polygons and can (usually) be replayed from the start. A
+ * mesh in memory, a file on disk, an application's callback and a generator are the same thing to
+ * the rest of the library; nothing needs to be held in memory as a whole.
  *
  * A polygon is given by its corners, counter-clockwise seen from its front. It should be convex
  * and planar; one that is not is split when drawn, and the splitting diagonals never draw a line.
@@ -19,8 +19,9 @@ extern "C" {
 
 typedef struct dp_source dp_source;
 
-/* What corners carry besides a position. A corner's value is that of number `indices[corner]`, or of its
- * vertex's number where there are no indices; a number out of range (UINT32_MAX, say) is none. */
+/* What corners carry besides a position. A corner's value is that of number `indices[corner]`, or
+ * of its vertex's number where there are no indices; a number out of range (UINT32_MAX, say) is
+ * none. */
 typedef struct dp_attribute {
     const float *values;     /* NULL: there is none */
     size_t stride;           /* bytes from one to the next; 0: tight */
@@ -31,19 +32,20 @@ typedef struct dp_attribute {
 /* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
  * `stable` is set, until the source is destroyed. */
 typedef struct dp_batch {
-    const float *positions;    /* x, y, z of vertex v at (const char *)positions + v * stride */
-    size_t position_stride;    /* bytes from one vertex to the next; 0 means 12 */
-    size_t vertex_count;       /* at most UINT32_MAX */
-    const uint32_t *indices;   /* corner_count vertex numbers; NULL: corner c is vertex c */
-    size_t corner_count;       /* triangles without `firsts`: 3 * polygon_count */
-    const uint32_t *firsts;    /* polygon_count + 1 ascending corner numbers; NULL: triangles */
-    size_t polygon_count;      /* 0: the source is at its end */
-    const uint8_t *edge_flags; /* per corner: 0 = the edge to the next corner never draws; or NULL */
-    const uint16_t *groups;    /* per polygon: its group (object, material, …), or NULL: group 0 */
-    dp_attribute normals;      /* x, y, z each, of any length; length 0 is none. For shading: what is a
-                                  front and what a line follows from the positions alone */
-    dp_attribute texcoords;    /* u, v each */
-    bool stable;               /* the memory stays as it is while the source lives */
+    const float *positions;  /* x, y, z of vertex v at (const char *)positions + v * stride */
+    size_t position_stride;  /* bytes from one vertex to the next; 0 means 12 */
+    size_t vertex_count;     /* at most UINT32_MAX */
+    const uint32_t *indices; /* corner_count vertex numbers; NULL: corner c is vertex c */
+    size_t corner_count;     /* triangles without `firsts`: 3 * polygon_count */
+    const uint32_t *firsts;  /* polygon_count + 1 ascending corner numbers; NULL: triangles */
+    size_t polygon_count;    /* 0: the source is at its end */
+    const uint8_t
+        *edge_flags;        /* per corner: 0 = the edge to the next corner never draws; or NULL */
+    const uint16_t *groups; /* per polygon: its group (object, material, …), or NULL: group 0 */
+    dp_attribute normals;   /* x, y, z each, of any length; length 0 is none. For shading: what is a
+                               front and what a line follows from the positions alone */
+    dp_attribute texcoords; /* u, v each */
+    bool stable;            /* the memory stays as it is while the source lives */
 } dp_batch;
 
 /* An application's own source. */
@@ -58,9 +60,11 @@ typedef struct dp_source_callbacks {
     void (*destroy)(void *user);
     /* The name of group `group`, or NULL. Optional. */
     const char *(*group_name)(void *user, uint32_t group);
-    /* The colour of group `group`, 0xRRGGBBAA, or 0: none. Optional. May be called from several threads at once. */
+    /* The colour of group `group`, 0xRRGGBBAA, or 0: none. Optional. May be called from several
+     * threads at once. */
     uint32_t (*group_color)(void *user, uint32_t group);
-    /* A sentence about what was missing or wrong, though the source can be drawn; or NULL. Optional. */
+    /* A sentence about what was missing or wrong, though the source can be drawn; or NULL.
+     * Optional. */
     const char *(*remark)(void *user);
 } dp_source_callbacks;
 
@@ -79,8 +83,8 @@ typedef enum dp_file_format {
     DP_FORMAT_AUTO = 0, /* by content first, then by the name's ending */
     DP_FORMAT_STL,      /* ASCII or binary */
     DP_FORMAT_PLY,      /* ASCII, binary little or big endian; faces or tristrips */
-    DP_FORMAT_OBJ,      /* v, vn, vt, f, g, o, usemtl; relative indices; of its mtllib the colours */
-    DP_FORMAT_OFF       /* OFF and COFF, NOFF, … without their extras; ASCII */
+    DP_FORMAT_OBJ, /* v, vn, vt, f, g, o, usemtl; relative indices; of its mtllib the colours */
+    DP_FORMAT_OFF  /* OFF and COFF, NOFF, … without their extras; ASCII */
 } dp_file_format;
 
 typedef struct dp_file_options {
@@ -94,8 +98,8 @@ typedef struct dp_file_options {
 } dp_file_options;
 
 /* Opens a model file ("-": standard input) with the library's own readers; drypoint/io.h opens
- * every other format too. Options may be NULL. Indexed formats are read whole here; STL is streamed:
- * it is read batch by batch by dp_source_next, twice when drawn twice (once from a pipe).
+ * every other format too. Options may be NULL. Indexed formats are read whole here; STL is
+ * streamed: it is read batch by batch by dp_source_next, twice when drawn twice (once from a pipe).
  * DP_ERR_IO, DP_ERR_FORMAT (with line or offset), DP_ERR_MEMORY, DP_ERR_LIMIT,
  * DP_ERR_UNSUPPORTED for a format that is not among these. */
 DP_API dp_result dp_source_open(const char *path, const dp_file_options *options, dp_source **out,
@@ -110,8 +114,8 @@ DP_API bool dp_source_rewindable(const dp_source *source);
 DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);
 /* Its colour (that of its material, say), 0xRRGGBBAA; 0 where it has none. */
 DP_API uint32_t dp_source_group_color(const dp_source *source, uint32_t group);
-/* What was missing or wrong when it was opened, though it can be drawn: a file of materials that is not there, say.
- * Borrowed; NULL: nothing. */
+/* What was missing or wrong when it was opened, though it can be drawn: a file of materials that is
+ * not there, say. Borrowed; NULL: nothing. */
 DP_API const char *dp_source_remark(const dp_source *source);
 
 /* NULL allowed. */
@@ -119,12 +123,12 @@ DP_API void dp_source_destroy(dp_source *source);
 
 /* Extent of a source: reads it to the end and rewinds it when it can. */
 typedef struct dp_extent {
-    float min[3], max[3];     /* of the finite corners that polygons use */
-    uint64_t polygons;        /* all that the source handed out */
+    float min[3], max[3]; /* of the finite corners that polygons use */
+    uint64_t polygons;    /* all that the source handed out */
     uint64_t corners;
     uint64_t vertices;
-    uint64_t not_finite;      /* polygons with a NaN or infinite coordinate */
-    uint64_t bad_index;       /* polygons with an index out of range */
+    uint64_t not_finite; /* polygons with a NaN or infinite coordinate */
+    uint64_t bad_index;  /* polygons with an index out of range */
 } dp_extent;
 DP_API dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag);
 

@@ -1,9 +1,10 @@
 /* drypoint/style.h: which lines, how wide, in which colour, found and inked how.
  *
  * Words (docs/lines.md): a silhouette is an edge between a front-facing and a back-facing polygon;
- * a border has one polygon; the dihedral angle is measured between the front sides' insides, 180 degrees =
- * flat; a ridge has a dihedral angle <= ridge_angle (theta), a valley one > valley_angle (phi), both
- * between two front-facing polygons; an intersection is where the interiors of two polygons cross. */
+ * a border has one polygon; the dihedral angle is measured between the front sides' insides, 180
+ * degrees = flat; a ridge has a dihedral angle <= ridge_angle (theta), a valley one > valley_angle
+ * (phi), both between two front-facing polygons; an intersection is where the interiors of two
+ * polygons cross. */
 #ifndef DRYPOINT_STYLE_H
 #define DRYPOINT_STYLE_H
 
@@ -24,17 +25,18 @@ typedef enum dp_line {
 } dp_line;
 
 /* Sets of line classes. */
-#define DP_SILHOUETTE (1u << DP_LINE_SILHOUETTE)
-#define DP_RIDGE (1u << DP_LINE_RIDGE)
-#define DP_VALLEY (1u << DP_LINE_VALLEY)
-#define DP_INTERSECTION (1u << DP_LINE_INTERSECTION)
-#define DP_BORDER (1u << DP_LINE_BORDER)
+#define DP_SILHOUETTE       (1u << DP_LINE_SILHOUETTE)
+#define DP_RIDGE            (1u << DP_LINE_RIDGE)
+#define DP_VALLEY           (1u << DP_LINE_VALLEY)
+#define DP_INTERSECTION     (1u << DP_LINE_INTERSECTION)
+#define DP_BORDER           (1u << DP_LINE_BORDER)
 #define DP_SIL_RIDGE_VALLEY (DP_SILHOUETTE | DP_RIDGE | DP_VALLEY) /* Raskar 2001, Figure 3 */
-#define DP_ALL_LINES (DP_SIL_RIDGE_VALLEY | DP_INTERSECTION | DP_BORDER)
-#define DP_NO_LINES (1u << 31)
+#define DP_ALL_LINES        (DP_SIL_RIDGE_VALLEY | DP_INTERSECTION | DP_BORDER)
+#define DP_NO_LINES         (1u << 31)
 
 #define DP_COLOR_NONE 0xFFFFFF00u
-#define DP_RGB(r, g, b) (((dp_color)(r) << 24) | ((dp_color)(g) << 16) | ((dp_color)(b) << 8) | 0xFFu)
+#define DP_RGB(r, g, b)                                                                            \
+    (((dp_color)(r) << 24) | ((dp_color)(g) << 16) | ((dp_color)(b) << 8) | 0xFFu)
 
 /* How the added polygons of DP_INK_QUADS get their shape. */
 typedef enum dp_method {
@@ -53,7 +55,8 @@ typedef enum dp_between {
 /* Where lines come from. */
 typedef enum dp_edges {
     DP_EDGES_EMERGENT = 0, /* from the tiles: nothing is known about neighbours beforehand */
-    DP_EDGES_ADJACENCY     /* from adjacency, built once per topology (Hermosilla and Vázquez 2010, 2.3) */
+    DP_EDGES_ADJACENCY /* from adjacency, built once per topology (Hermosilla and Vázquez 2010, 2.3)
+                        */
 } dp_edges;
 
 typedef enum dp_ink {
@@ -74,21 +77,22 @@ typedef struct dp_style {
     float ridge_angle;                 /* theta, degrees in (0, 360); 0 means 150 */
     float valley_angle;                /* phi, degrees in (0, 360); 0 means 210 */
     dp_edges edges;
-    dp_stroke_style stroke;            /* textures, taper, jitter: strokes.h */
+    dp_stroke_style stroke; /* textures, taper, jitter: strokes.h */
     dp_method method;
     dp_between between;
     dp_ink ink;
-    int passes;              /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
-                                interval one, as printed; with 2 it does not depend on their order).
-                                strokes: 1 means that a source which is streamed is read once (dp_draw) */
-    float between_offset;    /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
-    dp_color paper;          /* 0 means white */
-    dp_color surface;        /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
-    bool cull_back_faces;    /* do not paint back faces as surface (closed models lose nothing) */
-    bool edge_table_off;     /* strokes only: resolve no edge by the tile's table, let every line emerge */
-    dp_shade shade;          /* how surfaces look (shade.h) */
-    dp_edge_map edge_map;    /* off by default */
-    dp_mirror mirror;        /* none by default */
+    int passes; /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
+                   interval one, as printed; with 2 it does not depend on their order).
+                   strokes: 1 means that a source which is streamed is read once (dp_draw) */
+    float between_offset; /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
+    dp_color paper;       /* 0 means white */
+    dp_color surface;     /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
+    bool cull_back_faces; /* do not paint back faces as surface (closed models lose nothing) */
+    bool edge_table_off; /* strokes only: resolve no edge by the tile's table, let every line emerge
+                          */
+    dp_shade shade;      /* how surfaces look (shade.h) */
+    dp_edge_map edge_map; /* off by default */
+    dp_mirror mirror;     /* none by default */
 } dp_style;
 
 /* The style with every default filled in. DP_ERR_ARGUMENT names the member that is out of range. */

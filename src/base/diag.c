@@ -38,14 +38,19 @@ dp_result dp_fail_offset(dp_diag *diag, dp_result result, uint64_t offset, const
 }
 
 const char *dp_result_name(dp_result result) {
-    static const char *const names[] = {"ok",          "wrong argument",   "out of memory",
-                                        "i/o error",   "bad file content", "not supported",
-                                        "limit reached", "cancelled"};
+    static const char *const names[] = {"ok",
+                                        "wrong argument",
+                                        "out of memory",
+                                        "i/o error",
+                                        "bad file content",
+                                        "not supported",
+                                        "limit reached",
+                                        "cancelled"};
     const size_t index = (size_t)result;
     return index < sizeof names / sizeof *names ? names[index] : "unknown result";
 }
 
-#define STRING(x) #x
+#define STRING(x)                    #x
 #define VERSION(major, minor, patch) STRING(major) "." STRING(minor) "." STRING(patch)
 
 const char *dp_version(void) {

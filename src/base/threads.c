@@ -110,8 +110,8 @@ void dp_threads_destroy(dp_threads *threads) {
 
 uint32_t dp_threads_count(const dp_threads *threads) { return threads->count; }
 
-/* Scratch memory is per worker, so the application's loop gets a free worker number per call; should
- * it run more calls at once than it said, the extra ones wait for a number. */
+/* Scratch memory is per worker, so the application's loop gets a free worker number per call;
+ * should it run more calls at once than it said, the extra ones wait for a number. */
 static uint32_t claim(dp_threads *threads) {
     for (;;)
         for (uint32_t i = 0; i < threads->count; i++)

@@ -16,8 +16,12 @@ typedef struct dp_vec3 {
 
 static inline dp_vec3 dp_v3(double x, double y, double z) { return (dp_vec3){x, y, z}; }
 static inline dp_vec3 dp_v3f(const float p[3]) { return (dp_vec3){p[0], p[1], p[2]}; }
-static inline dp_vec3 dp_add(dp_vec3 a, dp_vec3 b) { return dp_v3(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline dp_vec3 dp_sub(dp_vec3 a, dp_vec3 b) { return dp_v3(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline dp_vec3 dp_add(dp_vec3 a, dp_vec3 b) {
+    return dp_v3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline dp_vec3 dp_sub(dp_vec3 a, dp_vec3 b) {
+    return dp_v3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
 static inline dp_vec3 dp_scale(dp_vec3 a, double s) { return dp_v3(a.x * s, a.y * s, a.z * s); }
 static inline dp_vec3 dp_mad(dp_vec3 a, dp_vec3 b, double s) { return dp_add(a, dp_scale(b, s)); }
 static inline double dp_dot(dp_vec3 a, dp_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

@@ -1,10 +1,12 @@
-/* What the primitive shaders are made of: the paper's formula in space, and rectangles on the screen. */
+/* What the primitive shaders are made of: the paper's formula in space, and rectangles on the
+ * screen. */
 #include "features/features.h"
 
 #define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
 
 dp_pen dp_pen_make(dp_method method, double reach, double angle) {
-    return (dp_pen){method, reach, angle, cos(angle * RADIANS_PER_DEGREE), sin(angle * RADIANS_PER_DEGREE)};
+    return (dp_pen){method, reach, angle, cos(angle * RADIANS_PER_DEGREE),
+                    sin(angle * RADIANS_PER_DEGREE)};
 }
 
 dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, const dp_pen *pen) {
@@ -17,10 +19,10 @@ dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, const dp_pen *pen) {
 
 /* ------- the paper's formula ------- */
 
-/* In 2.1 V·N > 0 (the polygon faces away), in 2.2 V·R < 0 (the quad is seen): both mean to move along
- * `direction`, so the quotient's size is taken. */
-dp_vec3 dp_paper_offset(const dp_view *view, dp_vec3 p, dp_vec3 e, dp_vec3 direction, dp_vec3 normal,
-                        double px) {
+/* In 2.1 V·N > 0 (the polygon faces away), in 2.2 V·R < 0 (the quad is seen): both mean to move
+ * along `direction`, so the quotient's size is taken. */
+dp_vec3 dp_paper_offset(const dp_view *view, dp_vec3 p, dp_vec3 e, dp_vec3 direction,
+                        dp_vec3 normal, double px) {
     const dp_clip_point c = dp_to_clip(view, p);
     const dp_vec3 v = dp_view_vector(view, p);
     const double wz = px / view->focal * (view->perspective ? c.distance : 1);
@@ -40,7 +42,8 @@ static uint32_t cut(dp_pointd *points, uint32_t n, double a, double b, double c)
         if (ip >= 0) points[count++] = p;
         if ((ip < 0) == (iq < 0)) continue;
         const double t = ip / (ip - iq);
-        points[count++] = (dp_pointd){p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.d + (q.d - p.d) * t};
+        points[count++] =
+            (dp_pointd){p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.d + (q.d - p.d) * t};
     }
     return count >= 3 ? count : 0;
 }
@@ -88,18 +91,20 @@ bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *point
     out->count = cut(out->points, out->count, -e->nx, -e->ny, n + reach);
     if (out->count) out->count = cut(out->points, out->count, e->nx, e->ny, reach - n);
     if (out->count) out->count = cut(out->points, out->count, e->tx, e->ty, reach - t);
-    if (out->count) out->count = cut(out->points, out->count, -e->tx, -e->ty, reach + t + e->length);
+    if (out->count)
+        out->count = cut(out->points, out->count, -e->tx, -e->ty, reach + t + e->length);
     return out->count && set_plane(out);
 }
 
-/* The formula needs corners in front of the eye: the edge is clipped before it is moved, and what it
- * sweeps is clipped once more. */
-bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_vec3 normal, double px,
-                   dp_added *out) {
+/* The formula needs corners in front of the eye: the edge is clipped before it is moved, and what
+ * it sweeps is clipped once more. */
+bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_vec3 normal,
+                   double px, dp_added *out) {
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
     const dp_clip_point ca = p->clip[edge], cb = p->clip[next];
     double t0 = 0, t1 = 1;
-    if ((dp_outcode(p->view, ca) | dp_outcode(p->view, cb)) && !dp_clip_segment(p->view, ca, cb, &t0, &t1))
+    if ((dp_outcode(p->view, ca) | dp_outcode(p->view, cb)) &&
+        !dp_clip_segment(p->view, ca, cb, &t0, &t1))
         return false;
     const dp_vec3 e = dp_edge_direction(p, edge);
     const dp_vec3 from = p->world[edge], to = p->world[next];
@@ -114,17 +119,19 @@ bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_v
 /* Shorter edges (px) have no direction to speak of. */
 static const double SHORTEST = 1.0 / 4096;
 
-/* How a point at `c`, on the edge, moves on the screen with a step along q; 1 / w² is given, as it is the same for
- * any direction. */
-static dp_motion motion_of(const dp_view *view, const dp_screen_edge *edge, dp_clip_point c, double inverse2, dp_vec3 q) {
+/* How a point at `c`, on the edge, moves on the screen with a step along q; 1 / w² is given, as it
+ * is the same for any direction. */
+static dp_motion motion_of(const dp_view *view, const dp_screen_edge *edge, dp_clip_point c,
+                           double inverse2, dp_vec3 q) {
     const double(*m)[4] = view->clip;
     const double x = m[0][0] * q.x + m[0][1] * q.y + m[0][2] * q.z;
     const double y = m[1][0] * q.x + m[1][1] * q.y + m[1][2] * q.z;
     const double w = m[3][0] * q.x + m[3][1] * q.y + m[3][2] * q.z;
     const double sx = 0.5 * view->width * (x * c.w - c.x * w) * inverse2;
     const double sy = -0.5 * view->height * (y * c.w - c.y * w) * inverse2;
-    const double d = view->perspective ? -w * inverse2
-                                       : -(view->sight[0] * q.x + view->sight[1] * q.y + view->sight[2] * q.z);
+    const double d = view->perspective
+                         ? -w * inverse2
+                         : -(view->sight[0] * q.x + view->sight[1] * q.y + view->sight[2] * q.z);
     const double out = sx * edge->nx + sy * edge->ny, along = sx * edge->tx + sy * edge->ty;
     return (dp_motion){out, d - edge->along * along};
 }
@@ -136,7 +143,8 @@ static dp_lean lean_of(const dp_screen_edge *edge, dp_motion m) {
 }
 
 /* Fills an edge whose ends on the screen are set. */
-static bool finish_edge(const dp_primitive *p, uint32_t edge, dp_clip_point ca, dp_clip_point cb, dp_screen_edge *out) {
+static bool finish_edge(const dp_primitive *p, uint32_t edge, dp_clip_point ca, dp_clip_point cb,
+                        dp_screen_edge *out) {
     const double x = out->b.x - out->a.x, y = out->b.y - out->a.y;
     out->length = sqrt(x * x + y * y);
     if (!(out->length > SHORTEST) || !isfinite(out->length + out->a.d + out->b.d)) return false;
@@ -161,9 +169,12 @@ bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *o
     const dp_clip_point a = p->clip[edge], b = p->clip[edge + 1 == p->n ? 0 : edge + 1];
     const int code_b = dp_outcode(p->view, b);
     double t0 = 0, t1 = 1;
-    if ((dp_outcode(p->view, a) | code_b) && !dp_clip_segment(p->view, a, b, &t0, &t1)) return false;
-    /* ends that are not clipped stay as they are, bit for bit: the polygon's own outline runs there */
-    const dp_clip_point ca = t0 > 0 ? dp_clip_mix(a, b, t0) : a, cb = t1 < 1 ? dp_clip_mix(a, b, t1) : b;
+    if ((dp_outcode(p->view, a) | code_b) && !dp_clip_segment(p->view, a, b, &t0, &t1))
+        return false;
+    /* ends that are not clipped stay as they are, bit for bit: the polygon's own outline runs there
+     */
+    const dp_clip_point ca = t0 > 0 ? dp_clip_mix(a, b, t0) : a,
+                        cb = t1 < 1 ? dp_clip_mix(a, b, t1) : b;
     out->a = dp_to_screen(p->view, ca);
     out->b = dp_to_screen(p->view, cb);
     out->ends_outside = code_b != 0;
@@ -206,11 +217,12 @@ void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_adde
 /* Along Q (2.2): motions add up as directions do. */
 dp_lean dp_quad_lean(const dp_screen_edge *edge, const dp_pen *pen) {
     const dp_motion o = edge->outward, n = edge->normal;
-    return lean_of(edge, (dp_motion){-pen->sine * n.out - pen->cosine * o.out, -pen->sine * n.rise - pen->cosine * o.rise});
+    return lean_of(edge, (dp_motion){-pen->sine * n.out - pen->cosine * o.out,
+                                     -pen->sine * n.rise - pen->cosine * o.rise});
 }
 
-/* Joints are made of triangles whose rims miss the circle by no more than this (px), or as many as there is
- * room for. */
+/* Joints are made of triangles whose rims miss the circle by no more than this (px), or as many as
+ * there is room for. */
 static const double SAGITTA = 0.3;
 enum { SPANS = DP_ADDED_MOST - 1 };
 
@@ -221,12 +233,14 @@ typedef struct turn {
 
 static turn turned(turn a, turn b) { return (turn){a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 
-/* One span is 2 acos(1 - sagitta / radius); they are laid one after the other until `angle` is reached. */
+/* One span is 2 acos(1 - sagitta / radius); they are laid one after the other until `angle` is
+ * reached. */
 static uint32_t spans_of(turn angle, double reach) {
     const double half = 1 - dp_min(SAGITTA / reach, 1), c = 2 * half * half - 1;
     const turn span = {c, sqrt(dp_max(1 - c * c, 0))};
     uint32_t count = 1;
-    for (turn sum = span; count < SPANS && sum.s > 0 && sum.c > angle.c; sum = turned(sum, span)) count++;
+    for (turn sum = span; count < SPANS && sum.s > 0 && sum.c > angle.c; sum = turned(sum, span))
+        count++;
     return count;
 }
 
@@ -240,7 +254,8 @@ static turn share_of(turn angle, uint32_t spans) {
     return (turn){cos(share), sin(share)};
 }
 
-/* How much the quad at an edge rises over the polygon's own plane, depth per px. NaN: it faces away. */
+/* How much the quad at an edge rises over the polygon's own plane, depth per px. NaN: it faces
+ * away. */
 static double rise_of(const dp_screen_edge *e, const dp_pen *pen) {
     const dp_lean lean = dp_quad_lean(e, pen);
     return lean.outward ? lean.slope - e->own : NAN;
@@ -250,10 +265,12 @@ static double rise_of(const dp_screen_edge *e, const dp_pen *pen) {
 static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, double y, double rise) {
     const double t = x * e->tx + y * e->ty, n = x * e->nx + y * e->ny;
     const double d = e->b.d + reach * (e->along * t + e->own * n + rise);
-    return (dp_pointd){e->b.x + reach * x, e->b.y + reach * y, dp_min(d, e->b.d + reach * e->steep)};
+    return (dp_pointd){e->b.x + reach * x, e->b.y + reach * y,
+                       dp_min(d, e->b.d + reach * e->steep)};
 }
 
-/* The thin triangle from the corner where `e` ends to two points of the rim. False: it covers nothing. */
+/* The thin triangle from the corner where `e` ends to two points of the rim. False: it covers
+ * nothing. */
 static bool set_thin(const dp_screen_edge *e, dp_pointd from, dp_pointd to, dp_added *out) {
     const dp_pointd o = e->b;
     const double ax = from.x - o.x, ay = from.y - o.y, ad = from.d - o.d;
@@ -269,8 +286,8 @@ static bool set_thin(const dp_screen_edge *e, dp_pointd from, dp_pointd to, dp_a
     return isfinite(out->d0);
 }
 
-uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen, double reach, bool folded,
-                         dp_added *out) {
+uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen, double reach,
+                         bool folded, dp_added *out) {
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
     dp_screen_edge rooms[2];
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &rooms[0]);

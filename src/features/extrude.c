@@ -1,10 +1,11 @@
-/* Extruding a silhouette edge: see extrude.h. All in screen space, so that widths are exact in pixels; depth is
- * that of the edge's ends (Listing 2.2 leaves z as it is).
+/* Extruding a silhouette edge: see extrude.h. All in screen space, so that widths are exact in
+ * pixels; depth is that of the edge's ends (Listing 2.2 leaves z as it is).
  *
- * Equation (2.1) gives the texture coordinates of e1 and e2: the outer rim n1, e1, e2, n2 is laid onto the edge a, b
- * in proportion to its lengths d_a = |n1 e1|, d_b = |e1 e2| and d_c = |e2 n2|. As printed both lines have d_a in the
- * numerator, and v = 0; by symmetry the second must be d_c, or the rim of an edge and of the same edge turned
- * round would differ, and Figure 2.4 says that v is 1 outside. |ab| is read as the unit vector, d as the length. */
+ * Equation (2.1) gives the texture coordinates of e1 and e2: the outer rim n1, e1, e2, n2 is laid
+ * onto the edge a, b in proportion to its lengths d_a = |n1 e1|, d_b = |e1 e2| and d_c = |e2 n2|.
+ * As printed both lines have d_a in the numerator, and v = 0; by symmetry the second must be d_c,
+ * or the rim of an edge and of the same edge turned round would differ, and Figure 2.4 says that v
+ * is 1 outside. |ab| is read as the unit vector, d as the length. */
 #include "features/extrude.h"
 
 #include <math.h>
@@ -36,8 +37,10 @@ bool dp_extrude(const dp_silhouette_edge *e, double width, dp_fringe_point out[D
     const double ox = -ey * side, oy = ex * side; /* square to the edge, outwards */
     const dp_pointd e1 = {e->a.x + ox * width, e->a.y + oy * width, e->a.d};
     const dp_pointd e2 = {e->b.x + ox * width, e->b.y + oy * width, e->b.d};
-    const dp_pointd n1 = beyond(e->a, e->normal_a, ox, oy, width), n2 = beyond(e->b, e->normal_b, ox, oy, width);
-    const double da = distance(n1, e1), db = distance(e1, e2), dc = distance(e2, n2), rim = da + db + dc;
+    const dp_pointd n1 = beyond(e->a, e->normal_a, ox, oy, width),
+                    n2 = beyond(e->b, e->normal_b, ox, oy, width);
+    const double da = distance(n1, e1), db = distance(e1, e2), dc = distance(e2, n2),
+                 rim = da + db + dc;
     const double t1 = d * da / rim, t2 = d * dc / rim; /* (2.1) */
     out[0] = (dp_fringe_point){n1, e->a.x, e->a.y, 1};
     out[1] = (dp_fringe_point){e1, e->a.x + ex * t1, e->a.y + ey * t1, 1};

@@ -1,9 +1,11 @@
-/* Intersections (Raskar 2001, 2.4): nothing is added; a polygon is tested itself, where it lies behind the
- * surface but trapped close to it (quads.c). What is decided here is which two polygons may do so. */
+/* Intersections (Raskar 2001, 2.4): nothing is added; a polygon is tested itself, where it lies
+ * behind the surface but trapped close to it (quads.c). What is decided here is which two polygons
+ * may do so. */
 #include "features/features.h"
 
 static const float *corner(const dp_polygons *polygons, uint32_t polygon, uint32_t i) {
-    return dp_vertex_position(polygons, dp_corner_vertex(polygons, dp_first_corner(polygons, polygon) + i));
+    return dp_vertex_position(polygons,
+                              dp_corner_vertex(polygons, dp_first_corner(polygons, polygon) + i));
 }
 
 bool dp_polygons_touch(const dp_polygons *polygons, uint32_t a, uint32_t b) {

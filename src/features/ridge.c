@@ -7,12 +7,13 @@
 
 static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     const dp_vec3 e = dp_edge_direction(p, edge), r = dp_quad_normal(e, p->normal, pen);
-    if (dp_dot(dp_view_vector(p->view, p->world[edge]), r) >= 0) return 0; /* culled: it faces away */
+    if (dp_dot(dp_view_vector(p->view, p->world[edge]), r) >= 0)
+        return 0; /* culled: it faces away */
     return dp_paper_quad(p, edge, dp_quad_direction(e, p->normal, pen), r, pen->reach, out);
 }
 
-/* Facing away, a quad at theta < 180 leads in under its own polygon and is not seen. At theta > 180 it
- * leans over towards the eye: every neighbour that can be seen is folded by more than theta. */
+/* Facing away, a quad at theta < 180 leads in under its own polygon and is not seen. At theta > 180
+ * it leans over towards the eye: every neighbour that can be seen is folded by more than theta. */
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);

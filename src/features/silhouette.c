@@ -1,10 +1,9 @@
 /* Silhouettes (Raskar 2001, 2.1): every back-facing polygon is enlarged in its own plane.
  *
- * The paper's 2n-gon is handed out edge by edge: the quad beyond the edge, and the triangle between it and
- * the next edge's quad at their common corner. The polygon itself is not painted with ink: where it is
- * seen (an open model) it is surface.
- * Where a front-facing polygon lies next to it, the enlargement shows beside that one's outline; elsewhere
- * it stays hidden behind the front. */
+ * The paper's 2n-gon is handed out edge by edge: the quad beyond the edge, and the triangle between
+ * it and the next edge's quad at their common corner. The polygon itself is not painted with ink:
+ * where it is seen (an open model) it is surface. Where a front-facing polygon lies next to it, the
+ * enlargement shows beside that one's outline; elsewhere it stays hidden behind the front. */
 #include "features/features.h"
 
 static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
@@ -13,7 +12,8 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
     if ((p->edge_flags && !p->edge_flags[next]) || dp_outcode(p->view, p->clip[next])) return count;
     const dp_vec3 corner = p->world[next], f = dp_edge_direction(p, next);
-    const dp_vec3 bevel[3] = {corner, dp_paper_offset(p->view, corner, e, dp_cross(e, n), n, pen->reach),
+    const dp_vec3 bevel[3] = {corner,
+                              dp_paper_offset(p->view, corner, e, dp_cross(e, n), n, pen->reach),
                               dp_paper_offset(p->view, corner, f, dp_cross(f, n), n, pen->reach)};
     count += dp_paper_project(p, edge, bevel, 3, DP_PAPER_REACH * pen->reach, &out[count]);
     return count;
@@ -23,7 +23,8 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
-    if (!e || e->own == -INFINITY) return 0; /* it leads straight away from the eye: nothing to be seen */
+    if (!e || e->own == -INFINITY)
+        return 0; /* it leads straight away from the eye: nothing to be seen */
     dp_screen_quad(e, pen->reach, dp_min(e->own, e->steep), &out[0]);
     return 1 + dp_screen_joint(p, edge, pen, pen->reach, false, &out[1]);
 }

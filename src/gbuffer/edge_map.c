@@ -1,7 +1,7 @@
 /* The edge map: one run of pixels through a detector, groups as a third source, then thresholds.
  *
- * A strength is how far 1 - I lies between a threshold and the threshold plus softness; as printed it is 1 - I
- * itself, clamped. Pixels of groups that are not enhanced have none. */
+ * A strength is how far 1 - I lies between a threshold and the threshold plus softness; as printed
+ * it is 1 - I itself, clamped. Pixels of groups that are not enhanced have none. */
 #include "gbuffer/edge_map.h"
 
 #include <string.h>
@@ -13,14 +13,17 @@ static dp_rows rows_of(const float *plane, size_t at, size_t stride, int radius)
 }
 
 static dp_depth_measure measure_of(const dp_gbuffer *g, const dp_edge_map *map) {
-    if (map->as_printed) return (dp_depth_measure){.scale = 1 / (g->far_z - g->near_z), .both_sides = true};
-    return (dp_depth_measure){.scale = g->fy / map->profile_depth, .perspective = g->perspective,
+    if (map->as_printed)
+        return (dp_depth_measure){.scale = 1 / (g->far_z - g->near_z), .both_sides = true};
+    return (dp_depth_measure){.scale = g->fy / map->profile_depth,
+                              .perspective = g->perspective,
                               .both_sides = map->far_side};
 }
 
-/* C1 adds up to 1/2 along a straight step, of whose eight neighbours three lie beyond: twice that is whole. */
-static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, uint32_t x0, uint32_t y, uint32_t n,
-                      float *i_z) {
+/* C1 adds up to 1/2 along a straight step, of whose eight neighbours three lie beyond: twice that
+ * is whole. */
+static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, uint32_t x0,
+                      uint32_t y, uint32_t n, float *i_z) {
     const dp_depth_measure m = measure_of(g, map);
     const size_t at = (size_t)y * g->stride + x0;
     const dp_rays rays = {g->perspective, g->cx, g->cy, g->fx, g->fy};
@@ -32,14 +35,17 @@ static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, ui
         for (uint32_t i = 0; i < n; i++) slope[i] *= 2 * (float)radius / map->profile_depth;
     }
     for (int pass = 0; pass < (int)map->c1_passes; pass++) {
-        if (map->as_printed) g->detectors->c1_printed(z, &m, pass, radius, n, i_z);
-        else g->detectors->c1_scaled(z, slope, &m, pass, radius, n, i_z);
+        if (map->as_printed)
+            g->detectors->c1_printed(z, &m, pass, radius, n, i_z);
+        else
+            g->detectors->c1_scaled(z, slope, &m, pass, radius, n, i_z);
     }
     const float whole = map->as_printed ? 1 : 2;
     for (uint32_t i = 0; i < n; i++) i_z[i] = 1 - dp_minf(whole * i_z[i], 1);
 }
 
-/* Neighbours of another group that lie behind, or beside where this group's number is the larger. */
+/* Neighbours of another group that lie behind, or beside where this group's number is the larger.
+ */
 static bool meets_group(const dp_gbuffer *g, const dp_edge_map *map, size_t at) {
     const size_t r = map->radius, down = r * g->stride;
     const size_t neighbours[4] = {at - down - r, at - down + r, at + down - r, at + down + r};
@@ -78,14 +84,15 @@ static dp_threshold threshold_of(const dp_edge_map *map, float at, float softnes
     return map->as_printed ? (dp_threshold){0, 1} : (dp_threshold){at, 1 / softness};
 }
 
-void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, uint32_t x0, uint32_t x1,
-                     dp_edge_run *out) {
+void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, uint32_t x0,
+                     uint32_t x1, dp_edge_run *out) {
     const size_t at = (size_t)y * g->stride + x0;
     const uint32_t n = x1 - x0;
     const int radius = (int)map->radius;
     const dp_depth_measure m = measure_of(g, map);
     const dp_rows z = rows_of(map->as_printed ? g->distance : g->depth, at, g->stride, radius);
-    const dp_rows nx = rows_of(g->nx, at, g->stride, radius), ny = rows_of(g->ny, at, g->stride, radius);
+    const dp_rows nx = rows_of(g->nx, at, g->stride, radius),
+                  ny = rows_of(g->ny, at, g->stride, radius);
     const dp_rows nz = rows_of(g->nz, at, g->stride, radius);
     if (map->as_printed) {
         g->detectors->diagonal_normals(nx, ny, nz, radius, n, out->inner);

@@ -1,15 +1,16 @@
 /* The first pass: what the samples of a tile hold becomes one surface per pixel.
  *
- * A pixel's samples that lie on one surface (near each other in depth, or on one plane) are taken together; the
- * greatest such part is the pixel's surface, the nearer one of two halves. How great it is (`share`) and how far
- * away the rest lies (`other`) is kept, so that colours can be put together again later: this is what
- * multisampling resolves, at the price of one shading per pixel.
+ * A pixel's samples that lie on one surface (near each other in depth, or on one plane) are taken
+ * together; the greatest such part is the pixel's surface, the nearer one of two halves. How great
+ * it is (`share`) and how far away the rest lies (`other`) is kept, so that colours can be put
+ * together again later: this is what multisampling resolves, at the price of one shading per pixel.
  *
- * The normal is interpolated, right in perspective, at a sample that the polygon covers; the distance is that of
- * the polygon's plane at the pixel's centre, so that neighbours differ as the surface does and not as their
- * samples' places do. What the polygons give is first collected for a row; turning, facing and normalizing
- * then run over the whole row. The loops that nearly all pixels go through are in fill.inc; here is what conducts
- * them, and the general way: pixels of several surfaces, polygons that were clipped or have more than three corners. */
+ * The normal is interpolated, right in perspective, at a sample that the polygon covers; the
+ * distance is that of the polygon's plane at the pixel's centre, so that neighbours differ as the
+ * surface does and not as their samples' places do. What the polygons give is first collected for a
+ * row; turning, facing and normalizing then run over the whole row. The loops that nearly all
+ * pixels go through are in fill.inc; here is what conducts them, and the general way: pixels of
+ * several surfaces, polygons that were clipped or have more than three corners. */
 #include "gbuffer/fill.h"
 
 #include <string.h>
@@ -19,10 +20,12 @@ typedef struct picked {
     uint32_t polygon; /* of the tile */
     float x, y, d;    /* where it is sampled */
     uint8_t share;
-    float other;      /* depth of the rest; DP_DEPTH_EMPTY: paper */
+    float other; /* depth of the rest; DP_DEPTH_EMPTY: paper */
 } picked;
 
-static float step_at(const dp_fill *f, float d) { return f->g->perspective ? f->step * d : f->step; }
+static float step_at(const dp_fill *f, float d) {
+    return f->g->perspective ? f->step * d : f->step;
+}
 
 /* Which of the samples lie on the surface that sample `s` shows, as a set. */
 static uint32_t samples_with(const dp_fill *f, size_t lane, uint32_t s, float px, float py) {
@@ -35,7 +38,8 @@ static uint32_t samples_with(const dp_fill *f, size_t lane, uint32_t s, float px
     for (uint32_t i = 0; i < n; i++) {
         if (winner[i] == UINT32_MAX) continue;
         const float x = px + w->sampling.x[i / 4][i % 4], y = py + w->sampling.y[i / 4][i % 4];
-        if (fabsf(d[i] - d[s]) <= near || fabsf(d[i] - dp_plane_at(p, x, y)) <= near) set |= 1u << i;
+        if (fabsf(d[i] - d[s]) <= near || fabsf(d[i] - dp_plane_at(p, x, y)) <= near)
+            set |= 1u << i;
     }
     return set;
 }
@@ -52,15 +56,20 @@ static void pick_part(const dp_fill *f, size_t lane, float px, float py, picked 
         if (winner[t] == UINT32_MAX || set >> t & 1) continue;
         const uint32_t rest = samples_with(f, lane, t, px, py);
         const uint32_t more = (uint32_t)__builtin_popcount(rest);
-        if (more > count || (more == count && w->depth[lane + t] > w->depth[lane + s])) set = rest, s = t;
+        if (more > count || (more == count && w->depth[lane + t] > w->depth[lane + s]))
+            set = rest, s = t;
         break;
     }
     const uint32_t left = ~set & ((1u << n) - 1);
-    *out = (picked){.polygon = winner[s], .d = w->depth[lane + s],
-                  .x = px + w->sampling.x[s / 4][s % 4], .y = py + w->sampling.y[s / 4][s % 4],
-                  .share = (uint8_t)(255 * (uint32_t)__builtin_popcount(set) >> __builtin_ctz(n)), /* n is 4, 8 or 16 */
-                  .other = DP_DEPTH_EMPTY};
-    if (left && winner[__builtin_ctz(left)] != UINT32_MAX) out->other = w->depth[lane + (uint32_t)__builtin_ctz(left)];
+    *out = (picked){.polygon = winner[s],
+                    .d = w->depth[lane + s],
+                    .x = px + w->sampling.x[s / 4][s % 4],
+                    .y = py + w->sampling.y[s / 4][s % 4],
+                    .share = (uint8_t)(255 * (uint32_t)__builtin_popcount(set) >>
+                                       __builtin_ctz(n)), /* n is 4, 8 or 16 */
+                    .other = DP_DEPTH_EMPTY};
+    if (left && winner[__builtin_ctz(left)] != UINT32_MAX)
+        out->other = w->depth[lane + (uint32_t)__builtin_ctz(left)];
 }
 
 /* A pixel that holds more than one polygon, or not only polygons. */
@@ -95,11 +104,15 @@ typedef struct weights {
     float weight[3];    /* none below zero */
 } weights;
 
-static float cross2(dp_vertex a, dp_vertex b, float x, float y) { return (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x); }
+static float cross2(dp_vertex a, dp_vertex b, float x, float y) {
+    return (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x);
+}
 
-/* Of the triangles (0, i - 1, i) of the polygon's fan the one that holds the point, or comes nearest to it. Areas
- * on the screen times depth are weights in space (perspective), but for a common factor. */
-static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y, weights *out) {
+/* Of the triangles (0, i - 1, i) of the polygon's fan the one that holds the point, or comes
+ * nearest to it. Areas on the screen times depth are weights in space (perspective), but for a
+ * common factor. */
+static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y,
+                           weights *out) {
     const dp_vertex *const at = w->points + p->point;
     const uint32_t first = dp_first_corner(&w->frame->polygons, p->id);
     const bool perspective = w->frame->view.perspective;
@@ -119,18 +132,25 @@ static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, fl
 }
 
 /* The same in space, for a polygon whose points are not its corners any more. */
-static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y, float d, weights *out) {
+static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y,
+                          float d, weights *out) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    const dp_vec3 q = dp_unproject(&w->frame->view, (dp_pointd){(double)x + w->tile_x, (double)y + w->tile_y, d});
+    const dp_vec3 q =
+        dp_unproject(&w->frame->view, (dp_pointd){(double)x + w->tile_x, (double)y + w->tile_y, d});
     const dp_vec3 normal = dp_polygon_normal(w->frame, p->id);
-    const dp_vec3 a = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first))), q);
+    const dp_vec3 a =
+        dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first))), q);
     double best = -INFINITY;
     for (uint32_t i = 2; i < n; i++) {
-        const dp_vec3 b = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i - 1))), q);
-        const dp_vec3 c = dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i))), q);
-        const double e[3] = {dp_dot(dp_cross(b, c), normal), dp_dot(dp_cross(c, a), normal), dp_dot(dp_cross(a, b), normal)};
-        const double least = dp_min(e[0], dp_min(e[1], e[2])), sum = fabs(e[0]) + fabs(e[1]) + fabs(e[2]);
+        const dp_vec3 b = dp_sub(
+            dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i - 1))), q);
+        const dp_vec3 c =
+            dp_sub(dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i))), q);
+        const double e[3] = {dp_dot(dp_cross(b, c), normal), dp_dot(dp_cross(c, a), normal),
+                             dp_dot(dp_cross(a, b), normal)};
+        const double least = dp_min(e[0], dp_min(e[1], e[2])),
+                     sum = fabs(e[0]) + fabs(e[1]) + fabs(e[2]);
         if (i > 2 && !(least > best)) continue;
         best = least;
         *out = (weights){{first, first + i - 1, first + i}, {0}};
@@ -142,9 +162,11 @@ static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, flo
 static void sum_normals(const dp_fill *f, const weights *at, float sign, float out[3]) {
     const dp_polygons *const polygons = &f->w->frame->polygons;
     const int16_t *n[3];
-    for (int k = 0; k < 3; k++) n[k] = dp_fill_normal(f, at->corner[k], dp_corner_vertex(polygons, at->corner[k]));
     for (int k = 0; k < 3; k++)
-        out[k] = sign * (at->weight[0] * (float)n[0][k] + at->weight[1] * (float)n[1][k] + at->weight[2] * (float)n[2][k]);
+        n[k] = dp_fill_normal(f, at->corner[k], dp_corner_vertex(polygons, at->corner[k]));
+    for (int k = 0; k < 3; k++)
+        out[k] = sign * (at->weight[0] * (float)n[0][k] + at->weight[1] * (float)n[1][k] +
+                         at->weight[2] * (float)n[2][k]);
 }
 
 static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
@@ -152,7 +174,8 @@ static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
     float sum = 0, uv[2] = {0, 0};
     f->g->u[pixel] = f->g->v[pixel] = NAN;
     for (int k = 0; k < 3; k++) {
-        const uint32_t i = dp_attribute_number(&p->texcoords, at->corner[k], dp_corner_vertex(p, at->corner[k]));
+        const uint32_t i =
+            dp_attribute_number(&p->texcoords, at->corner[k], dp_corner_vertex(p, at->corner[k]));
         if (i == UINT32_MAX) return;
         const float *const t = dp_attribute_value(&p->texcoords, i);
         uv[0] += at->weight[k] * t[0], uv[1] += at->weight[k] * t[1];
@@ -167,8 +190,10 @@ static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row 
     const dp_tile_polygon *const p = &w->polygons[r->polygon[x]];
     weights at = {{0}, {0}};
     float normal[3] = {0, 0, 0};
-    if (p->flags & DP_POLYGON_CLIPPED) space_weights(w, p, r->x[x], r->y_at[x], r->d[x], &at);
-    else screen_weights(w, p, r->x[x], r->y_at[x], &at);
+    if (p->flags & DP_POLYGON_CLIPPED)
+        space_weights(w, p, r->x[x], r->y_at[x], r->d[x], &at);
+    else
+        screen_weights(w, p, r->x[x], r->y_at[x], &at);
     if (!f->facets) sum_normals(f, &at, p->flags & DP_POLYGON_FRONT ? 1 : -1, normal);
     r->wx[x] = normal[0], r->wy[x] = normal[1], r->wz[x] = normal[2];
     if (f->g->textured) put_texcoord(f, &at, pixel);
@@ -177,7 +202,8 @@ static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row 
 static void put_texcoords(const dp_fill *f, const dp_fill_row *r, size_t pixel) {
     for (uint64_t bits = r->mask & ~r->odd; bits; bits &= bits - 1) {
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
-        const weights at = {{r->first[x], r->first[x] + 1, r->first[x] + 2}, {r->weight[0][x], r->weight[1][x], r->weight[2][x]}};
+        const weights at = {{r->first[x], r->first[x] + 1, r->first[x] + 2},
+                            {r->weight[0][x], r->weight[1][x], r->weight[2][x]}};
         put_texcoord(f, &at, pixel + x);
     }
 }
@@ -195,7 +221,8 @@ static void put_ids(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_
     const dp_gbuffer *const g = f->g;
     uint16_t *const id = g->id + pixel;
     if (polygons->groups)
-        for (uint32_t i = 0; i < n; i++) id[i] = r->mask >> (x0 + i) & 1 ? id_of(polygons, r->id[x0 + i]) : 0;
+        for (uint32_t i = 0; i < n; i++)
+            id[i] = r->mask >> (x0 + i) & 1 ? id_of(polygons, r->id[x0 + i]) : 0;
     else
         for (uint32_t i = 0; i < n; i++) id[i] = (uint16_t)r->in[x0 + i];
     if (!g->polygon) return;
@@ -205,7 +232,8 @@ static void put_ids(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_
     }
 }
 
-/* Pixels that surfaces share: how much is whose, what lies beside, and which are fringes. After finishing. */
+/* Pixels that surfaces share: how much is whose, what lies beside, and which are fringes. After
+ * finishing. */
 static void share_pixel(const dp_fill *f, float other, uint8_t share, size_t pixel) {
     dp_gbuffer *const g = f->g;
     const bool paper = other <= DP_DEPTH_EMPTY;
@@ -228,24 +256,30 @@ static void fill_background(dp_gbuffer *g, size_t pixel, uint32_t n) {
     memset(g->nz + pixel, 0, n * sizeof(float));
 }
 
-static size_t row_place(const dp_fill *f, uint32_t y) { return (size_t)(f->w->tile_y + y) * f->g->stride + f->w->tile_x; }
+static size_t row_place(const dp_fill *f, uint32_t y) {
+    return (size_t)(f->w->tile_y + y) * f->g->stride + f->w->tile_x;
+}
 
 /* What each pixel of row y shows; background where that is nothing. */
 static void begin_row(const dp_fill *f, uint32_t y, uint32_t width, dp_fill_row *r) {
     const size_t row = row_place(f, y);
     r->y = y, r->x0 = r->x1 = 0;
-    if (f->w->frame->target.samples == 4) f->g->fillers->pick(f, r);
-    else pick_row(f, r);
+    if (f->w->frame->target.samples == 4)
+        f->g->fillers->pick(f, r);
+    else
+        pick_row(f, r);
     r->mask &= ~(uint64_t)0 >> (64 - width);
     if (!r->mask) {
         fill_background(f->g, row, width);
         return;
     }
     r->x0 = (uint32_t)__builtin_ctzll(r->mask) / DP_GBUFFER_STRIP * DP_GBUFFER_STRIP;
-    r->x1 = (63 - (uint32_t)__builtin_clzll(r->mask)) / DP_GBUFFER_STRIP * DP_GBUFFER_STRIP + DP_GBUFFER_STRIP;
+    r->x1 = (63 - (uint32_t)__builtin_clzll(r->mask)) / DP_GBUFFER_STRIP * DP_GBUFFER_STRIP +
+            DP_GBUFFER_STRIP;
     if (r->x0) fill_background(f->g, row, r->x0);
     if (r->x1 < width) fill_background(f->g, row + r->x1, width - r->x1);
-    for (uint64_t bits = r->mixed & r->mask; bits; bits &= bits - 1) put_part(f, (uint32_t)__builtin_ctzll(bits), r);
+    for (uint64_t bits = r->mixed & r->mask; bits; bits &= bits - 1)
+        put_part(f, (uint32_t)__builtin_ctzll(bits), r);
     f->g->fillers->find(f, r);
 }
 
@@ -277,8 +311,8 @@ static void end_row(const dp_fill *f, dp_fill_row *r) {
     if (g->textured) put_texcoords(f, r, row);
 }
 
-/* Rows are begun two rows ahead: of each first its polygons, then their corners, then the normals come out of memory, and
- * nearly all the time would go into waiting. */
+/* Rows are begun two rows ahead: of each first its polygons, then their corners, then the normals
+ * come out of memory, and nearly all the time would go into waiting. */
 static void fill_rows(const dp_fill *f, uint32_t width, uint32_t height) {
     enum { AHEAD = 2, KEPT = AHEAD + 1 };
     dp_fill_row rows[KEPT];
@@ -294,8 +328,12 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals)
     uint64_t *const mask = g->mask + (size_t)w->tile * DP_TILE;
     const uint32_t width = g->width - w->tile_x < DP_TILE ? g->width - w->tile_x : DP_TILE;
     const uint32_t height = g->height - w->tile_y < DP_TILE ? g->height - w->tile_y : DP_TILE;
-    const bool bare = w->frame->tile_pieces[w->tile].bare, facets = normals == DP_NORMALS_FACET || !g->normals;
-    const dp_fill f = {.g = g, .w = w, .facets = facets, .weighted = !facets || g->textured,
+    const bool bare = w->frame->tile_pieces[w->tile].bare,
+               facets = normals == DP_NORMALS_FACET || !g->normals;
+    const dp_fill f = {.g = g,
+                       .w = w,
+                       .facets = facets,
+                       .weighted = !facets || g->textured,
                        .step = (float)(1 / w->frame->view.focal)};
     memset(mask, 0, DP_TILE * sizeof *mask);
     memset(g->shared + (size_t)w->tile * DP_TILE, 0, DP_TILE * sizeof *mask);

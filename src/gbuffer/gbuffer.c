@@ -1,7 +1,7 @@
 /* The G-buffer's planes: memory, background, margin, the range of distances.
  *
- * All planes lie in one block, each (tiles' width + 2 margins) x (height + 2 margins), rows padded to 16 floats: tiles are
- * filled in whole vectors. */
+ * All planes lie in one block, each (tiles' width + 2 margins) x (height + 2 margins), rows padded
+ * to 16 floats: tiles are filled in whole vectors. */
 #include "gbuffer/gbuffer.h"
 
 #include "gbuffer/detect.h"
@@ -18,17 +18,21 @@ void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
 }
 
 static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
-    const size_t floats = g->textured ? 8 : 6, bytes = plane * (floats * sizeof(float) + sizeof(uint16_t) + 1);
+    const size_t floats = g->textured ? 8 : 6,
+                 bytes = plane * (floats * sizeof(float) + sizeof(uint16_t) + 1);
     return dp_reserve(frame->memory, &g->block, &g->block_cap, bytes, 1) &&
-           dp_reserve(frame->memory, &g->mask, &g->mask_cap, 2 * tiles * DP_TILE, sizeof *g->mask) &&
+           dp_reserve(frame->memory, &g->mask, &g->mask_cap, 2 * tiles * DP_TILE,
+                      sizeof *g->mask) &&
            dp_reserve(frame->memory, &g->clean, &g->clean_cap, tiles, 1);
 }
 
 static void place_planes(dp_gbuffer *g, size_t plane) {
     const size_t origin = DP_GBUFFER_MARGIN * g->stride + DP_GBUFFER_MARGIN;
-    float **const planes[] = {&g->nx, &g->ny, &g->nz, &g->distance, &g->depth, &g->other, &g->u, &g->v};
+    float **const planes[] = {&g->nx,    &g->ny,    &g->nz, &g->distance,
+                              &g->depth, &g->other, &g->u,  &g->v};
     const size_t floats = g->textured ? 8 : 6;
-    for (size_t i = 0; i < 8; i++) *planes[i] = i < floats ? (float *)g->block + i * plane + origin : NULL;
+    for (size_t i = 0; i < 8; i++)
+        *planes[i] = i < floats ? (float *)g->block + i * plane + origin : NULL;
     uint16_t *const ids = (uint16_t *)(void *)((float *)g->block + floats * plane);
     g->id = ids + origin;
     g->share = (uint8_t *)(ids + plane) + origin;
@@ -41,7 +45,8 @@ static void take_camera(dp_gbuffer *g, const dp_frame *frame) {
     const dp_vec3 o = dp_unproject(view, (dp_pointd){0, 0, d});
     const dp_vec3 x = dp_sub(dp_unproject(view, (dp_pointd){1, 0, d}), o);
     const dp_vec3 y = dp_sub(dp_unproject(view, (dp_pointd){0, 1, d}), o);
-    const dp_vec3 right = dp_unit(x), back = dp_scale(view->forward, -1), up = dp_scale(dp_unit(y), -1);
+    const dp_vec3 right = dp_unit(x), back = dp_scale(view->forward, -1),
+                  up = dp_scale(dp_unit(y), -1);
     const dp_vec3 rows[3] = {right, up, back};
     for (int r = 0; r < 3; r++)
         g->rotation[r][0] = rows[r].x, g->rotation[r][1] = rows[r].y, g->rotation[r][2] = rows[r].z;
@@ -49,13 +54,14 @@ static void take_camera(dp_gbuffer *g, const dp_frame *frame) {
     g->perspective = view->perspective;
     g->eye = view->eye;
     g->fx = (float)(1 / dp_length(x)), g->fy = (float)(1 / dp_length(y));
-    g->cx = (float)(dp_dot(axis, right) / dp_length(x)), g->cy = (float)(-dp_dot(axis, up) / dp_length(y));
+    g->cx = (float)(dp_dot(axis, right) / dp_length(x)),
+    g->cy = (float)(-dp_dot(axis, up) / dp_length(y));
 }
 
 bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     const uint32_t width = frame->target.width, height = frame->target.height;
-    const bool same = g->block && g->width == width && g->height == height && g->textured == textured &&
-                      g->perspective == frame->view.perspective;
+    const bool same = g->block && g->width == width && g->height == height &&
+                      g->textured == textured && g->perspective == frame->view.perspective;
     take_camera(g, frame);
     g->normals = NULL;
     g->detectors = dp_detectors_for(dp_kernels_best()->lanes);
@@ -76,21 +82,25 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     return true;
 }
 
-/* Repeats the border of one tile in one plane: its rows to the left and right, then what these rows have become
- * above and below. Tiles inside have none. */
+/* Repeats the border of one tile in one plane: its rows to the left and right, then what these rows
+ * have become above and below. Tiles inside have none. */
 static void pad_tile(const dp_gbuffer *g, uint32_t tile, void *plane_at, size_t size) {
     const uint32_t tx = tile % g->tiles_x, ty = tile / g->tiles_x;
-    const bool left = tx == 0, right = tx == g->tiles_x - 1, top = ty == 0, bottom = ty == g->tiles_y - 1;
+    const bool left = tx == 0, right = tx == g->tiles_x - 1, top = ty == 0,
+               bottom = ty == g->tiles_y - 1;
     const size_t x0 = (size_t)tx * DP_TILE, x1 = right ? g->width : x0 + DP_TILE;
     const size_t y0 = (size_t)ty * DP_TILE, y1 = bottom ? g->height : y0 + DP_TILE;
     for (size_t y = y0; y < y1; y++) {
         char *const row = (char *)plane_at + y * g->stride * size;
         for (size_t i = 1; left && i <= DP_GBUFFER_MARGIN; i++) memcpy(row - i * size, row, size);
-        for (size_t i = 0; right && i < DP_GBUFFER_MARGIN; i++) memcpy(row + (x1 + i) * size, row + (x1 - 1) * size, size);
+        for (size_t i = 0; right && i < DP_GBUFFER_MARGIN; i++)
+            memcpy(row + (x1 + i) * size, row + (x1 - 1) * size, size);
     }
-    char *const first = (char *)plane_at + y0 * g->stride * size + x0 * size - (left ? DP_GBUFFER_MARGIN * size : 0);
+    char *const first = (char *)plane_at + y0 * g->stride * size + x0 * size -
+                        (left ? DP_GBUFFER_MARGIN * size : 0);
     char *const last = first + (y1 - 1 - y0) * g->stride * size;
-    const size_t row = (x1 - x0 + (left ? DP_GBUFFER_MARGIN : 0) + (right ? DP_GBUFFER_MARGIN : 0)) * size;
+    const size_t row =
+        (x1 - x0 + (left ? DP_GBUFFER_MARGIN : 0) + (right ? DP_GBUFFER_MARGIN : 0)) * size;
     for (size_t i = 1; i <= DP_GBUFFER_MARGIN; i++) {
         if (top) memcpy(first - i * g->stride * size, first, row);
         if (bottom) memcpy(last + i * g->stride * size, last, row);
@@ -103,7 +113,8 @@ void dp_gbuffer_pad(dp_gbuffer *g) {
         const bool inside = tx > 0 && ty > 0 && tx < g->tiles_x - 1 && ty < g->tiles_y - 1;
         if (inside || g->clean[tile] == 2) continue;
         float *const planes[] = {g->nx, g->ny, g->nz, g->distance, g->depth};
-        for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) pad_tile(g, tile, planes[i], sizeof(float));
+        for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+            pad_tile(g, tile, planes[i], sizeof(float));
         pad_tile(g, tile, g->id, sizeof(uint16_t));
         if (g->clean[tile]) g->clean[tile] = 2;
     }
@@ -122,7 +133,8 @@ static void extend(range *r, const dp_frame *frame, uint32_t vertex) {
     r->least = dp_minf(z, r->least), r->most = dp_maxf(z, r->most);
 }
 
-void dp_gbuffer_fit_range(dp_gbuffer *g, const dp_frame *frame, const uint8_t *enhanced, uint32_t enhanced_count) {
+void dp_gbuffer_fit_range(dp_gbuffer *g, const dp_frame *frame, const uint8_t *enhanced,
+                          uint32_t enhanced_count) {
     const dp_polygons *const p = &frame->polygons;
     range r = {DP_FAR, -DP_FAR};
     if (!enhanced) {

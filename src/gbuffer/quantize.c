@@ -1,5 +1,6 @@
-/* The G-buffer as the paper keeps it: RGB normals and alpha distance of 8 bits each, expanded again. Shows what
- * 8 bits do to edges; near and far fit the enhanced groups as closely as they can. */
+/* The G-buffer as the paper keeps it: RGB normals and alpha distance of 8 bits each, expanded
+ * again. Shows what 8 bits do to edges; near and far fit the enhanced groups as closely as they
+ * can. */
 #include "gbuffer/gbuffer.h"
 
 /* To one of 256 steps of [0, 1]. */
@@ -12,7 +13,8 @@ static void quantize_row(const dp_gbuffer *g, size_t at, uint32_t n) {
     const float range = g->far_z - g->near_z, inverse = 1 / range, near = g->near_z;
     float *const planes[3] = {g->nx + at, g->ny + at, g->nz + at};
     for (int k = 0; k < 3; k++)
-        for (uint32_t i = 0; i < n; i++) planes[k][i] = 2 * to_steps(planes[k][i] * 0.5f + 0.5f) - 1;
+        for (uint32_t i = 0; i < n; i++)
+            planes[k][i] = 2 * to_steps(planes[k][i] * 0.5f + 0.5f) - 1;
     for (uint32_t i = 0; i < n; i++) {
         const float z = g->distance[at + i];
         if (!(z < DP_FAR)) continue;
@@ -26,6 +28,7 @@ void dp_gbuffer_quantize(dp_gbuffer *g, uint32_t tile) {
     const uint32_t y0 = tile / g->tiles_x * DP_TILE;
     for (uint32_t row = 0; row < DP_TILE && y0 + row < g->height; row++) {
         uint32_t x0, x1;
-        if (dp_gbuffer_span(g, tile, row, &x0, &x1)) quantize_row(g, (y0 + row) * g->stride + x0, x1 - x0);
+        if (dp_gbuffer_span(g, tile, row, &x0, &x1))
+            quantize_row(g, (y0 + row) * g->stride + x0, x1 - x0);
     }
 }

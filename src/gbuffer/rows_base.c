@@ -1,7 +1,7 @@
 /* The loops over rows for any processor, and which are chosen. */
-#define DP_LANES 4
+#define DP_LANES     4
 #define DP_DETECTORS dp_detectors_base
-#define DP_FILLERS dp_fillers_base
+#define DP_FILLERS   dp_fillers_base
 #include "gbuffer/rows.inc"
 
 const dp_detectors *dp_detectors_for(uint32_t lanes) {

@@ -70,7 +70,8 @@ static void turn_normal(const transform *t, struct aiVector3D n, float to[3]) {
     }
 }
 
-static bool add_attributes(dp_builder *builder, const struct aiMesh *mesh, unsigned i, const transform *t) {
+static bool add_attributes(dp_builder *builder, const struct aiMesh *mesh, unsigned i,
+                           const transform *t) {
     if (mesh->mNormals) {
         float *const to = dp_builder_vertex_value(builder, &builder->normals, 3);
         if (!to) return false;
@@ -125,7 +126,8 @@ static bool find_group(dp_builder *builder, const struct aiNode *node, const str
 
 static uint32_t to_byte(float v) { return v <= 0 ? 0 : v >= 1 ? 255 : (uint32_t)(v * 255 + 0.5f); }
 
-/* The material's colour, in the file's own encoding. Assimp gives files without materials a grey one. */
+/* The material's colour, in the file's own encoding. Assimp gives files without materials a grey
+ * one. */
 static bool add_color(dp_builder *builder, const struct aiScene *scene, const struct aiMesh *mesh,
                       uint16_t group) {
     struct aiColor4D c;
@@ -174,13 +176,14 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
     return DP_OK;
 }
 
-/* Positions, normals, texture coordinates and faces only; FBX without the helper nodes that its pivots would become. */
+/* Positions, normals, texture coordinates and faces only; FBX without the helper nodes that its
+ * pivots would become. */
 static const struct aiScene *import(const char *path) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     if (!properties) return NULL;
-    const int dropped = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_BONEWEIGHTS |
-                        aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
-                        aiComponent_CAMERAS;
+    const int dropped = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                        aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES |
+                        aiComponent_LIGHTS | aiComponent_CAMERAS;
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, dropped);
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
     const struct aiScene *const scene =

@@ -98,9 +98,8 @@ bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba) {
 }
 
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *a, size_t width) {
-    if (a->count + 1 >= UINT32_MAX ||
-        !dp_reserve(&builder->allocator, &a->values, &a->capacity, a->count + 1,
-                    width * sizeof(float)))
+    if (a->count + 1 >= UINT32_MAX || !dp_reserve(&builder->allocator, &a->values, &a->capacity,
+                                                  a->count + 1, width * sizeof(float)))
         return NULL;
     return a->values + width * a->count++;
 }
@@ -140,9 +139,8 @@ dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag) {
 }
 
 static dp_attribute attribute_of(const dp_builder_attribute *a) {
-    return (dp_attribute){.values = a->count ? a->values : NULL,
-                          .count = a->count,
-                          .indices = a->indices};
+    return (dp_attribute){
+        .values = a->count ? a->values : NULL, .count = a->count, .indices = a->indices};
 }
 
 /* The source. */

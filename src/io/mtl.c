@@ -1,7 +1,9 @@
-/* Material libraries: of each `newmtl` its `Kd`, the colour of what is lit, taken as the file has it.
+/* Material libraries: of each `newmtl` its `Kd`, the colour of what is lit, taken as the file has
+ * it.
  *
- * Nothing here stops a model from being read: what is missing or broken has no colour. Kd with one number is grey;
- * numbers beyond [0, 1] are held to it. Only regular files are opened, so that no pipe and no device is waited for.
+ * Nothing here stops a model from being read: what is missing or broken has no colour. Kd with one
+ * number is grey; numbers beyond [0, 1] are held to it. Only regular files are opened, so that no
+ * pipe and no device is waited for.
  *
  * Does not handle: textures (map_Kd), Kd as a spectrum or as CIE XYZ, transparency. */
 #include "io/mtl.h"
@@ -27,7 +29,8 @@ void dp_materials_destroy(dp_materials *m) {
 
 bool dp_materials_find(dp_materials *m, const char *name, uint16_t *number) {
     if (!dp_groups_find(&m->names, name, number) ||
-        !dp_reserve(&m->names.allocator, &m->colors, &m->color_capacity, (size_t)*number + 1, sizeof *m->colors))
+        !dp_reserve(&m->names.allocator, &m->colors, &m->color_capacity, (size_t)*number + 1,
+                    sizeof *m->colors))
         return false;
     while (m->color_count <= *number) m->colors[m->color_count++] = 0;
     return true;
@@ -51,7 +54,9 @@ static uint32_t read_color(dp_stream *stream) {
     }
     const bool grey = n == 1 && (!dp_text_blank(stream) || *stream->cursor == '#');
     if (grey) rgb[1] = rgb[2] = rgb[0];
-    return grey || n == 3 ? to_byte(rgb[0]) << 24 | to_byte(rgb[1]) << 16 | to_byte(rgb[2]) << 8 | 255 : 0;
+    return grey || n == 3
+               ? to_byte(rgb[0]) << 24 | to_byte(rgb[1]) << 16 | to_byte(rgb[2]) << 8 | 255
+               : 0;
 }
 
 bool dp_read_mtl(dp_stream *stream, dp_materials *materials) {
@@ -74,15 +79,16 @@ bool dp_read_mtl(dp_stream *stream, dp_materials *materials) {
 
 /* ------- finding libraries ------- */
 
-/* The library's place: beside the model, unless its name begins with a slash. Backslashes are another system's slashes. False
- * where it is too long. */
+/* The library's place: beside the model, unless its name begins with a slash. Backslashes are
+ * another system's slashes. False where it is too long. */
 static bool find_place(const char *path, const char *name, size_t length, char place[PATH]) {
     const char *const slash = strrchr(path, '/');
     const size_t folder = *name == '/' || *name == '\\' || !slash ? 0 : (size_t)(slash + 1 - path);
     if (folder + length + 3 > PATH) return false;
     memcpy(place, path, folder);
     size_t at = folder;
-    if (!folder && *name != '/' && *name != '\\') place[at++] = '.', place[at++] = '/'; /* "-" is a file, too */
+    if (!folder && *name != '/' && *name != '\\')
+        place[at++] = '.', place[at++] = '/'; /* "-" is a file, too */
     for (size_t i = 0; i < length; i++) place[at++] = name[i] == '\\' ? '/' : name[i];
     place[at] = 0;
     return true;
@@ -90,7 +96,8 @@ static bool find_place(const char *path, const char *name, size_t length, char p
 
 typedef enum opened { READ, NOT_THERE, NO_MEMORY } opened;
 
-static opened read_library(const char *path, const char *name, size_t length, dp_materials *materials) {
+static opened read_library(const char *path, const char *name, size_t length,
+                           dp_materials *materials) {
     char place[PATH];
     struct stat status;
     dp_stream *stream = NULL;
@@ -114,12 +121,14 @@ static void note_missing(const char *name, size_t length, char *remark, size_t s
         if ((uint8_t)*p < ' ' || *p == 0x7f) *p = '?';
 }
 
-bool dp_open_mtl(const char *path, const char *names, dp_materials *materials, char *remark, size_t size) {
+bool dp_open_mtl(const char *path, const char *names, dp_materials *materials, char *remark,
+                 size_t size) {
     const opened whole = *names ? read_library(path, names, strlen(names), materials) : READ;
     if (whole != NOT_THERE) return whole == READ;
     for (const char *word = names; *word; word += strspn(word, " \t")) {
         const size_t length = strcspn(word, " \t");
-        const opened o = length == strlen(names) ? NOT_THERE : read_library(path, word, length, materials);
+        const opened o =
+            length == strlen(names) ? NOT_THERE : read_library(path, word, length, materials);
         if (o == NO_MEMORY) return false;
         if (o == NOT_THERE) note_missing(word, length, remark, size);
         word += length;

@@ -2,12 +2,13 @@
  *
  * Polygons stay polygons. A face's group is named by what holds at its line,
  * "object/group/material" without the parts that were not given; groups are numbered as their first
- * face comes, and have the colour of their material (mtl.c), wherever in the file its library is named. An index that names no vertex (0, before the first vertex, beyond 32 bits) becomes
+ * face comes, and have the colour of their material (mtl.c), wherever in the file its library is
+ * named. An index that names no vertex (0, before the first vertex, beyond 32 bits) becomes
  * UINT32_MAX: the engine drops the face and counts it. One that names no normal or texture
  * coordinate is none.
  *
- * Does not handle: free-form curves and surfaces, points, lines, smoothing groups; their lines are passed
- * over. */
+ * Does not handle: free-form curves and surfaces, points, lines, smoothing groups; their lines are
+ * passed over. */
 #include "io/readers.h"
 
 #include "io/mtl.h"
@@ -61,8 +62,8 @@ static bool note_material(obj *self) {
     uint16_t number = 0;
     const bool named = *self->names[MATERIAL];
     if (named && !dp_materials_find(&self->materials, self->names[MATERIAL], &number)) return false;
-    if (!dp_reserve(&self->builder->allocator, &self->material_of, &self->material_capacity, (size_t)self->group + 1,
-                    sizeof *self->material_of))
+    if (!dp_reserve(&self->builder->allocator, &self->material_of, &self->material_capacity,
+                    (size_t)self->group + 1, sizeof *self->material_of))
         return false;
     while (self->material_count <= self->group) self->material_of[self->material_count++] = 0;
     self->material_of[self->group] = named ? 1 + (uint32_t)number : 0;
@@ -72,7 +73,8 @@ static bool note_material(obj *self) {
 static bool color_groups(obj *self) {
     for (size_t g = 0; g < self->material_count; g++) {
         if (!self->material_of[g]) continue;
-        const uint32_t color = dp_materials_color(&self->materials, (uint16_t)(self->material_of[g] - 1));
+        const uint32_t color =
+            dp_materials_color(&self->materials, (uint16_t)(self->material_of[g] - 1));
         if (color && !dp_builder_color(self->builder, (uint16_t)g, color)) return false;
     }
     return true;
@@ -90,7 +92,8 @@ static dp_result find_group(obj *self) {
         length += size;
     }
     self->renamed = false;
-    if (dp_groups_find(&self->builder->names, joined, &self->group) && note_material(self)) return DP_OK;
+    if (dp_groups_find(&self->builder->names, joined, &self->group) && note_material(self))
+        return DP_OK;
     return dp_builder_fail(self->builder, self->diag);
 }
 
@@ -162,8 +165,8 @@ static dp_result read_libraries(obj *self) {
     char names[LIBRARIES];
     dp_text_blank(self->stream);
     dp_text_rest(self->stream, names, sizeof names);
-    if (!self->stream->path ||
-        dp_open_mtl(self->stream->path, names, &self->materials, self->builder->remark, sizeof self->builder->remark))
+    if (!self->stream->path || dp_open_mtl(self->stream->path, names, &self->materials,
+                                           self->builder->remark, sizeof self->builder->remark))
         return DP_OK;
     return dp_builder_fail(self->builder, self->diag);
 }

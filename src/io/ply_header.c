@@ -63,10 +63,10 @@ static dp_ply_role role_of(dp_ply_kind kind, bool list, const char *name) {
     static const struct {
         const char *name;
         dp_ply_role role;
-    } roles[] = {{"x", DP_PLY_X},        {"y", DP_PLY_Y},        {"z", DP_PLY_Z},
-                 {"nx", DP_PLY_NX},      {"ny", DP_PLY_NY},      {"nz", DP_PLY_NZ},
-                 {"s", DP_PLY_S},        {"t", DP_PLY_T},        {"u", DP_PLY_S},
-                 {"v", DP_PLY_T},        {"texture_u", DP_PLY_S}, {"texture_v", DP_PLY_T}};
+    } roles[] = {{"x", DP_PLY_X},   {"y", DP_PLY_Y},         {"z", DP_PLY_Z},
+                 {"nx", DP_PLY_NX}, {"ny", DP_PLY_NY},       {"nz", DP_PLY_NZ},
+                 {"s", DP_PLY_S},   {"t", DP_PLY_T},         {"u", DP_PLY_S},
+                 {"v", DP_PLY_T},   {"texture_u", DP_PLY_S}, {"texture_v", DP_PLY_T}};
     for (size_t i = 0; kind == DP_PLY_VERTEX && !list && i < sizeof roles / sizeof *roles; i++)
         if (strcmp(roles[i].name, name) == 0) return roles[i].role;
     if (!list || (strcmp(name, "vertex_indices") != 0 && strcmp(name, "vertex_index") != 0))

@@ -1,7 +1,7 @@
 /* Reading PNG files, for textures, through libpng's simplified interface.
  *
- * Any PNG is taken (palette, grey, 16 bits, interlaced): libpng turns it into RGBA of 8 bits. What of that is ink
- * is decided by dp_texture_create. Does not handle: other formats. */
+ * Any PNG is taken (palette, grey, 16 bits, interlaced): libpng turns it into RGBA of 8 bits. What
+ * of that is ink is decided by dp_texture_create. Does not handle: other formats. */
 #include <drypoint/io.h>
 
 #include "base/diag.h"
@@ -15,11 +15,15 @@
 enum { LARGEST_STROKE = 8192 /* px, a side */ };
 static const size_t MOST_PIXELS = (size_t)1 << 28;
 
-static dp_result read_pixels(png_image *image, const dp_allocator *memory, dp_io_pixels *out, dp_diag *diag) {
+static dp_result read_pixels(png_image *image, const dp_allocator *memory, dp_io_pixels *out,
+                             dp_diag *diag) {
     if ((size_t)image->width * image->height > MOST_PIXELS)
-        return dp_fail(diag, DP_ERR_LIMIT, "%u x %u pixels are too many", image->width, image->height);
+        return dp_fail(diag, DP_ERR_LIMIT, "%u x %u pixels are too many", image->width,
+                       image->height);
     uint8_t *const rgba = dp_alloc_array(memory, (size_t)image->width * image->height, 4);
-    if (!rgba) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for %u x %u pixels", image->width, image->height);
+    if (!rgba)
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for %u x %u pixels", image->width,
+                       image->height);
     image->format = PNG_FORMAT_RGBA;
     if (!png_image_finish_read(image, NULL, rgba, 0, NULL)) {
         dp_free(memory, rgba);
@@ -30,23 +34,28 @@ static dp_result read_pixels(png_image *image, const dp_allocator *memory, dp_io
 }
 
 /* Up to `most` px a side. */
-static dp_result read_file(const char *path, uint32_t most, const dp_allocator *memory, dp_io_pixels *out, dp_diag *diag) {
+static dp_result read_file(const char *path, uint32_t most, const dp_allocator *memory,
+                           dp_io_pixels *out, dp_diag *diag) {
     FILE *const file = fopen(path, "rb");
     if (!file) return dp_fail(diag, DP_ERR_IO, "cannot be opened: %s", strerror(errno));
     png_image image = {.version = PNG_IMAGE_VERSION};
     dp_result result;
     if (!png_image_begin_read_from_stdio(&image, file))
-        result = dp_fail(diag, DP_ERR_FORMAT, "this is no PNG (%s); textures are read from PNG files", image.message);
+        result = dp_fail(diag, DP_ERR_FORMAT,
+                         "this is no PNG (%s); textures are read from PNG files", image.message);
     else if (image.width > most || image.height > most)
-        result = dp_fail(diag, DP_ERR_LIMIT, "a texture of %u x %u px; give one of at most %u x %u", image.width, image.height, most, most);
-    else result = read_pixels(&image, memory, out, diag);
+        result = dp_fail(diag, DP_ERR_LIMIT, "a texture of %u x %u px; give one of at most %u x %u",
+                         image.width, image.height, most, most);
+    else
+        result = read_pixels(&image, memory, out, diag);
     png_image_free(&image);
     fclose(file);
     return result;
 }
 
 dp_result dp_io_read_png(const char *path, dp_io_pixels *pixels, dp_diag *diag) {
-    if (!path || !pixels) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_read_png: nothing to read, or nowhere");
+    if (!path || !pixels)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_read_png: nothing to read, or nowhere");
     *pixels = (dp_io_pixels){0};
     const dp_allocator memory = dp_allocator_resolve(NULL);
     return read_file(path, UINT32_MAX, &memory, pixels, diag);
@@ -59,14 +68,20 @@ void dp_io_free_pixels(dp_io_pixels *pixels) {
     *pixels = (dp_io_pixels){0};
 }
 
-dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator, dp_texture **out, dp_diag *diag) {
-    if (!path || !out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_read_texture: path or out is NULL");
+dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator, dp_texture **out,
+                             dp_diag *diag) {
+    if (!path || !out)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_read_texture: path or out is NULL");
     *out = NULL;
     const dp_allocator memory = dp_allocator_resolve(allocator);
     dp_io_pixels p = {0};
     const dp_result result = read_file(path, LARGEST_STROKE, &memory, &p, diag);
     if (result) return result;
-    const dp_texture_desc desc = {.pixels = p.rgba, .width = p.width, .height = p.height, .channels = 4, .allocator = &memory};
+    const dp_texture_desc desc = {.pixels = p.rgba,
+                                  .width = p.width,
+                                  .height = p.height,
+                                  .channels = 4,
+                                  .allocator = &memory};
     const dp_result made = dp_texture_create(&desc, out, diag);
     dp_free(&memory, p.rgba);
     return made;

@@ -230,7 +230,8 @@ static dp_result stl_rewind(void *user, dp_diag *diag) {
 }
 
 /* From any thread: only the file's size may have changed since it was opened. */
-static dp_result stl_records(void *user, uint64_t first, uint32_t count, uint8_t *to, dp_diag *diag) {
+static dp_result stl_records(void *user, uint64_t first, uint32_t count, uint8_t *to,
+                             dp_diag *diag) {
     const stl *const self = user;
     const uint64_t at = HEADER + RECORD * first;
     const size_t size = (size_t)RECORD * count;
@@ -315,7 +316,9 @@ dp_result dp_read_stl(dp_stream *stream, dp_source **out, dp_diag *diag) {
                                            .destroy = stl_destroy,
                                            .group_name = stl_group_name};
     if (!result) result = dp_source_from_callbacks(&callbacks, &stream->allocator, out, diag);
-    if (result) release(self);
-    else offer_records(self, *out);
+    if (result)
+        release(self);
+    else
+        offer_records(self, *out);
     return result;
 }

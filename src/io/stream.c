@@ -177,8 +177,8 @@ size_t dp_stream_hint(const dp_stream *stream, uint64_t count, size_t bytes) {
     return (size_t)(count < most ? count : most);
 }
 
-bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, size_t size, size_t *got,
-                       int *error) {
+bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, size_t size,
+                       size_t *got, int *error) {
     *got = 0;
     if (stream->descriptor < 0) {
         const uint64_t left = offset < stream->size ? stream->size - offset : 0;
@@ -190,7 +190,8 @@ bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, si
         const ssize_t count = pread(stream->descriptor, to + *got, size - *got,
                                     (off_t)((uint64_t)stream->start + offset + *got));
         if (count == 0) break;
-        if (count > 0) *got += (size_t)count;
+        if (count > 0)
+            *got += (size_t)count;
         else if (errno != EINTR) {
             *error = errno;
             return false;

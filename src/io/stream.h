@@ -55,10 +55,11 @@ uint64_t dp_stream_offset(const dp_stream *stream);
  * what is left of the file can hold. Headers lie; sizes of files do not. */
 size_t dp_stream_hint(const dp_stream *stream, uint64_t count, size_t bytes);
 
-/* Copies up to `size` bytes from byte `offset` of the stream, which must be rewindable, and leaves the
- * window alone; may be called from several threads. *got: how many there were. False: *error (errno). */
-bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, size_t size, size_t *got,
-                       int *error);
+/* Copies up to `size` bytes from byte `offset` of the stream, which must be rewindable, and leaves
+ * the window alone; may be called from several threads. *got: how many there were. False: *error
+ * (errno). */
+bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, size_t size,
+                       size_t *got, int *error);
 
 bool dp_stream_rewindable(const dp_stream *stream);
 dp_result dp_stream_rewind(dp_stream *stream, dp_diag *diag);

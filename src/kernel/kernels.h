@@ -1,8 +1,8 @@
 /* The kernels: loops over many vertices, polygons or samples, for several kinds of processors.
  *
- * Each is written once, in the .inc files, on vectors whose width is a constant (lanes.h), and compiled
- * for each width in plain.c, base.c, avx2.c and avx512.c. Plain C is the truth: the others do the same operations
- * in the same order and give the same bits (tests/unit/test_kernels.c). */
+ * Each is written once, in the .inc files, on vectors whose width is a constant (lanes.h), and
+ * compiled for each width in plain.c, base.c, avx2.c and avx512.c. Plain C is the truth: the others
+ * do the same operations in the same order and give the same bits (tests/unit/test_kernels.c). */
 #ifndef DP_KERNEL_KERNELS_H
 #define DP_KERNEL_KERNELS_H
 
@@ -30,47 +30,64 @@ typedef struct dp_kernels {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;
     /* `count` positions, `stride` bytes apart, to the screen (transform.inc, pipe/vertices.c). */
-    void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count, struct dp_vertex *out);
-    /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px (place.inc). */
-    void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count, struct dp_tile_rect *rects);
-    /* Parts a bin's entries: front faces go to ids[*count] and on, back faces to the others (place.inc). */
-    void (*part)(const uint32_t *entries, uint32_t n, uint32_t *ids, uint32_t *count, uint32_t *backs, uint32_t *back_count);
-    /* Appends triangles to the tile's polygons, planes and boxes made, and draws front faces, or else
-     * back faces that are not hidden (assemble.inc). */
-    void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count, bool backs);
-    /* Keeps those triangles that the tile's front faces do not hide; returns how many (cull.inc). */
+    void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count,
+                      struct dp_vertex *out);
+    /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px
+     * (place.inc). */
+    void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count,
+                  struct dp_tile_rect *rects);
+    /* Parts a bin's entries: front faces go to ids[*count] and on, back faces to the others
+     * (place.inc). */
+    void (*part)(const uint32_t *entries, uint32_t n, uint32_t *ids, uint32_t *count,
+                 uint32_t *backs, uint32_t *back_count);
+    /* Appends triangles to the tile's polygons, planes and boxes made, and draws front faces, or
+     * else back faces that are not hidden (assemble.inc). */
+    void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count,
+                     bool backs);
+    /* Keeps those triangles that the tile's front faces do not hide; returns how many (cull.inc).
+     */
     uint32_t (*cull)(struct dp_tile_worker *worker, uint32_t *ids, uint32_t count);
-    /* Lists those of the tile's polygons that are not hidden, and flags the others; all unless `culling` (cull.inc). */
+    /* Lists those of the tile's polygons that are not hidden, and flags the others; all unless
+     * `culling` (cull.inc). */
     void (*see)(struct dp_tile_worker *worker, bool culling);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
-    void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon, uint32_t index);
+    void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon,
+                   uint32_t index);
     /* The unit normals of the tile's unsure triangles (normals.inc). */
     void (*normals)(struct dp_tile_worker *worker);
-    /* Appends the edges of the tile's seen triangles to its list, but for those that end at calm vertices
-     * (umbrellas.inc), and lists whose normals are to be made (edges.inc). */
+    /* Appends the edges of the tile's seen triangles to its list, but for those that end at calm
+     * vertices (umbrellas.inc), and lists whose normals are to be made (edges.inc). */
     void (*list_edges)(struct dp_tile_worker *worker);
-    /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong together (edges.inc). */
+    /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong
+     * together (edges.inc). */
     bool (*flatten)(struct dp_tile_worker *worker);
     /* Normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
-    /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a vector more; returns how
-     * many (meet.inc). */
-    uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows, uint32_t *list);
-    /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for neighbours; returns how many
-     * (meet.inc). */
+    /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a
+     * vector more; returns how many (meet.inc). */
+    uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows,
+                          uint32_t *list);
+    /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for
+     * neighbours; returns how many (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
-    /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has any (cover.inc). */
-    uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t n, struct dp_coverage_patch *out);
+    /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has
+     * any (cover.inc). */
+    uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x,
+                      uint32_t y, uint32_t n, struct dp_coverage_patch *out);
     /* The same of `rows` rows of DP_PATCH pixels, at most as many. */
-    uint64_t (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x, uint32_t y, uint32_t rows, struct dp_coverage_patch *out);
-    /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general way: in the first
-     * reading, with their normals, and in the second (sift.inc, stream/sift.c). */
-    void (*sift)(struct dp_chunk *chunk, const struct dp_triangles *triangles, const struct dp_chunk_view *view);
-    void (*touch)(struct dp_chunk *chunk, const struct dp_triangles *triangles, const struct dp_chunk_view *view);
+    uint64_t (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke,
+                            uint32_t x, uint32_t y, uint32_t rows, struct dp_coverage_patch *out);
+    /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general
+     * way: in the first reading, with their normals, and in the second (sift.inc, stream/sift.c).
+     */
+    void (*sift)(struct dp_chunk *chunk, const struct dp_triangles *triangles,
+                 const struct dp_chunk_view *view);
+    void (*touch)(struct dp_chunk *chunk, const struct dp_triangles *triangles,
+                  const struct dp_chunk_view *view);
 } dp_kernels;
 
 extern const dp_kernels dp_kernels_plain, dp_kernels_base, dp_kernels_avx2, dp_kernels_avx512;

@@ -1,10 +1,11 @@
-/* Vectors of DP_LANES floats or ints, for kernels that are written once and compiled for several widths.
+/* Vectors of DP_LANES floats or ints, for kernels that are written once and compiled for several
+ * widths.
  *
- * A file that includes this has set DP_LANES: 1 is plain C, 4 any processor (SSE2, NEON), 8 AVX2, 16 AVX-512.
- * Every operation is one IEEE operation per lane, the same at any width, so that all widths give equal
- * bits (contraction is off, cmake/). A mask comes from a comparison and goes into `l_select` and
- * `lm_bits`; how it is kept is this file's business.
- * `l_min`, `l_max` give their second argument where either is NaN, as dp_minf and dp_maxf do. */
+ * A file that includes this has set DP_LANES: 1 is plain C, 4 any processor (SSE2, NEON), 8 AVX2,
+ * 16 AVX-512. Every operation is one IEEE operation per lane, the same at any width, so that all
+ * widths give equal bits (contraction is off, cmake/). A mask comes from a comparison and goes into
+ * `l_select` and `lm_bits`; how it is kept is this file's business. `l_min`, `l_max` give their
+ * second argument where either is NaN, as dp_minf and dp_maxf do. */
 #ifndef DP_KERNEL_LANES_H
 #define DP_KERNEL_LANES_H
 
@@ -97,7 +98,9 @@ DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
 DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return ~a; }
 DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return (m & a) | (~m & b); }
-DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) { return (dp_lf)li_select(m, (dp_li)a, (dp_li)b); }
+DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) {
+    return (dp_lf)li_select(m, (dp_li)a, (dp_li)b);
+}
 DP_LANES_INLINE dp_lf l_abs(dp_lf v) { return (dp_lf)((dp_li)v & li_splat(INT32_MAX)); }
 #ifdef __SSE2__
 DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return (uint32_t)_mm_movemask_ps((__m128)m); }
@@ -107,9 +110,12 @@ DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm_max_ps((__m128
 DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm_cvttps_epi32((__m128)v); }
 #else
 DP_LANES_INLINE uint32_t lm_bits(dp_lm m) {
-    return ((uint32_t)m[0] & 1) | ((uint32_t)m[1] & 2) | ((uint32_t)m[2] & 4) | ((uint32_t)m[3] & 8);
+    return ((uint32_t)m[0] & 1) | ((uint32_t)m[1] & 2) | ((uint32_t)m[2] & 4) |
+           ((uint32_t)m[3] & 8);
 }
-DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) {
+    return (dp_lf){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])};
+}
 DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return l_select(a < b, a, b); }
 DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return l_select(a > b, a, b); }
 DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return __builtin_convertvector(v, dp_li); }
@@ -133,7 +139,9 @@ DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return (uint32_t)_mm256_movemask_ps(
 DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) {
     return (dp_lf)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)m);
 }
-DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return (dp_li)l_select(m, (dp_lf)a, (dp_lf)b); }
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) {
+    return (dp_li)l_select(m, (dp_lf)a, (dp_lf)b);
+}
 DP_LANES_INLINE dp_lf l_abs(dp_lf v) { return (dp_lf)((dp_li)v & li_splat(INT32_MAX)); }
 DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf)_mm256_sqrt_ps((__m256)v); }
 DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return (dp_lf)_mm256_min_ps((__m256)a, (__m256)b); }
@@ -145,11 +153,21 @@ DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm256_cvttps_epi32((_
 #else
 DP_LANES_INLINE dp_lf l_splat(float v) { return (dp_lf)_mm512_set1_ps(v); }
 DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li)_mm512_set1_epi32(v); }
-DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
-DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
-DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ); }
-DP_LANES_INLINE dp_lm li_lt(dp_li a, dp_li b) { return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b); }
-DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
+DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+}
+DP_LANES_INLINE dp_lm l_le(dp_lf a, dp_lf b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
+}
+DP_LANES_INLINE dp_lm l_eq(dp_lf a, dp_lf b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ);
+}
+DP_LANES_INLINE dp_lm li_lt(dp_li a, dp_li b) {
+    return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
+}
+DP_LANES_INLINE dp_lm li_eq(dp_li a, dp_li b) {
+    return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
+}
 DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return (dp_lm)(a & b); }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return (dp_lm)(a | b); }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return (dp_lm)(a ^ b); }
@@ -192,8 +210,9 @@ DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
 #endif
 }
 
-/* At the end of a kernel that calls functions with vectors as arguments: compilers then leave the registers' upper halves
- * set, and all code of 16-byte vectors that runs afterwards, anywhere, is up to half as fast. */
+/* At the end of a kernel that calls functions with vectors as arguments: compilers then leave the
+ * registers' upper halves set, and all code of 16-byte vectors that runs afterwards, anywhere, is
+ * up to half as fast. */
 DP_LANES_INLINE void l_done(void) {
 #if DP_LANES >= 8
     _mm256_zeroupper();
@@ -229,7 +248,9 @@ DP_LANES_INLINE void ld_store(float *p, dp_ld v) {
     const dp_half h = __builtin_convertvector(v, dp_half);
     memcpy(p, &h, sizeof h);
 }
-DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) { return (dp_ld)((m & (dp_lb)a) | (~m & (dp_lb)b)); }
+DP_LANES_INLINE dp_ld ld_select(dp_lb m, dp_ld a, dp_ld b) {
+    return (dp_ld)((m & (dp_lb)a) | (~m & (dp_lb)b));
+}
 DP_LANES_INLINE dp_ld ld_sqrt(dp_ld v) {
 #if DP_LANES == 16
     return (dp_ld)_mm512_sqrt_pd((__m512d)v);
@@ -246,8 +267,8 @@ DP_LANES_INLINE void ld_put(double *p, dp_ld v) { memcpy(p, &v, sizeof v); }
 
 /* ------- records of four words, one per lane -------
  *
- * Lane l's record lies at base + at[l] (in records). As rows, row i holds the whole records of lanes 4 g + i, group
- * g after group g; as columns, column i holds word i of every lane. */
+ * Lane l's record lies at base + at[l] (in records). As rows, row i holds the whole records of
+ * lanes 4 g + i, group g after group g; as columns, column i holds word i of every lane. */
 
 #if DP_LANES > 1
 typedef float dp_record __attribute__((vector_size(16)));
@@ -280,7 +301,8 @@ DP_LANES_INLINE dp_lf l_row_of_bytes(const uint8_t *base, size_t step) {
     (void)step;
     return (dp_lf)l_record(base, 0);
 #elif DP_LANES == 8
-    return (dp_lf)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)l_record(base, 0)), (__m128)l_record(base + step, 0), 1);
+    return (dp_lf)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)l_record(base, 0)),
+                                       (__m128)l_record(base + step, 0), 1);
 #else
     const __m512 a = _mm512_castps128_ps512((__m128)l_record(base, 0));
     const __m512 b = _mm512_insertf32x4(a, (__m128)l_record(base + step, 0), 1);
@@ -319,8 +341,10 @@ DP_LANES_INLINE dp_lm lm_first_pair(void) {
 /* Rows to columns, and back. */
 DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 #if DP_LANES == 4 && defined __SSE2__
-    const __m128 a = _mm_unpacklo_ps((__m128)r[0], (__m128)r[1]), b = _mm_unpackhi_ps((__m128)r[0], (__m128)r[1]);
-    const __m128 c = _mm_unpacklo_ps((__m128)r[2], (__m128)r[3]), d = _mm_unpackhi_ps((__m128)r[2], (__m128)r[3]);
+    const __m128 a = _mm_unpacklo_ps((__m128)r[0], (__m128)r[1]),
+                 b = _mm_unpackhi_ps((__m128)r[0], (__m128)r[1]);
+    const __m128 c = _mm_unpacklo_ps((__m128)r[2], (__m128)r[3]),
+                 d = _mm_unpackhi_ps((__m128)r[2], (__m128)r[3]);
     r[0] = (dp_lf)_mm_movelh_ps(a, c), r[1] = (dp_lf)_mm_movehl_ps(c, a);
     r[2] = (dp_lf)_mm_movelh_ps(b, d), r[3] = (dp_lf)_mm_movehl_ps(d, b);
 #elif DP_LANES == 4
@@ -328,13 +352,17 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
     r[0] = (dp_lf){a[0], b[0], c[0], d[0]}, r[1] = (dp_lf){a[1], b[1], c[1], d[1]};
     r[2] = (dp_lf){a[2], b[2], c[2], d[2]}, r[3] = (dp_lf){a[3], b[3], c[3], d[3]};
 #elif DP_LANES == 8
-    const __m256 a = _mm256_unpacklo_ps((__m256)r[0], (__m256)r[1]), b = _mm256_unpackhi_ps((__m256)r[0], (__m256)r[1]);
-    const __m256 c = _mm256_unpacklo_ps((__m256)r[2], (__m256)r[3]), d = _mm256_unpackhi_ps((__m256)r[2], (__m256)r[3]);
+    const __m256 a = _mm256_unpacklo_ps((__m256)r[0], (__m256)r[1]),
+                 b = _mm256_unpackhi_ps((__m256)r[0], (__m256)r[1]);
+    const __m256 c = _mm256_unpacklo_ps((__m256)r[2], (__m256)r[3]),
+                 d = _mm256_unpackhi_ps((__m256)r[2], (__m256)r[3]);
     r[0] = (dp_lf)_mm256_shuffle_ps(a, c, 0x44), r[1] = (dp_lf)_mm256_shuffle_ps(a, c, 0xee);
     r[2] = (dp_lf)_mm256_shuffle_ps(b, d, 0x44), r[3] = (dp_lf)_mm256_shuffle_ps(b, d, 0xee);
 #else
-    const __m512 a = _mm512_unpacklo_ps((__m512)r[0], (__m512)r[1]), b = _mm512_unpackhi_ps((__m512)r[0], (__m512)r[1]);
-    const __m512 c = _mm512_unpacklo_ps((__m512)r[2], (__m512)r[3]), d = _mm512_unpackhi_ps((__m512)r[2], (__m512)r[3]);
+    const __m512 a = _mm512_unpacklo_ps((__m512)r[0], (__m512)r[1]),
+                 b = _mm512_unpackhi_ps((__m512)r[0], (__m512)r[1]);
+    const __m512 c = _mm512_unpacklo_ps((__m512)r[2], (__m512)r[3]),
+                 d = _mm512_unpackhi_ps((__m512)r[2], (__m512)r[3]);
     r[0] = (dp_lf)_mm512_shuffle_ps(a, c, 0x44), r[1] = (dp_lf)_mm512_shuffle_ps(a, c, 0xee);
     r[2] = (dp_lf)_mm512_shuffle_ps(b, d, 0x44), r[3] = (dp_lf)_mm512_shuffle_ps(b, d, 0xee);
 #endif
@@ -352,7 +380,9 @@ DP_LANES_INLINE void l_records(const void *base, const uint32_t at[DP_LANES], dp
 }
 
 /* The bits of the first n lanes. */
-DP_LANES_INLINE uint32_t lm_first(uint32_t n) { return n < DP_LANES ? (1u << n) - 1 : (uint32_t)((1ull << DP_LANES) - 1); }
+DP_LANES_INLINE uint32_t lm_first(uint32_t n) {
+    return n < DP_LANES ? (1u << n) - 1 : (uint32_t)((1ull << DP_LANES) - 1);
+}
 
 /* 0, 1, 2, … by lane. */
 static const float dp_lane_steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -431,7 +461,8 @@ DP_LANES_INLINE dp_li li_order(uint32_t bits) {
     (void)bits;
     return 0;
 #elif DP_LANES == 16
-    return (dp_li)_mm512_maskz_compress_epi32((__mmask16)bits, _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+    return (dp_li)_mm512_maskz_compress_epi32(
+        (__mmask16)bits, _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
 #else
     uint32_t order[DP_LANES + 1] = {0}, n = 0;
     for (uint32_t l = 0; l < DP_LANES; l++) order[n] = l, n += bits >> l & 1;

@@ -1,14 +1,15 @@
 /* Adjacency: for every edge of every polygon, the edge of the other polygon that it is.
  *
- * Vertices are named by position (the first vertex there stands for all), so that index buffers, split vertices
- * and bare soups give the same adjacency. Edges are then sorted by the lower of their two vertices, with one
- * counting sort, and matched within each vertex's bucket: linear in the number of edges, and in parallel, since
- * both sides of an edge lie in one bucket.
+ * Vertices are named by position (the first vertex there stands for all), so that index buffers,
+ * split vertices and bare soups give the same adjacency. Edges are then sorted by the lower of
+ * their two vertices, with one counting sort, and matched within each vertex's bucket: linear in
+ * the number of edges, and in parallel, since both sides of an edge lie in one bucket.
  *
- * Invariant: across[across[c]] == c, flipped or not. Two polygons at an edge are each other's neighbours,
- * however wound. Of more than two, those are neighbours that bound one wedge of the outside, found by going
- * round the edge: fronts that look at each other. What is left over is paired as it comes, or stays open.
- * Not handled: neighbours that share no corner (T-junctions); their edges are open. */
+ * Invariant: across[across[c]] == c, flipped or not. Two polygons at an edge are each other's
+ * neighbours, however wound. Of more than two, those are neighbours that bound one wedge of the
+ * outside, found by going round the edge: fronts that look at each other. What is left over is
+ * paired as it comes, or stays open. Not handled: neighbours that share no corner (T-junctions);
+ * their edges are open. */
 #include "mesh/adjacency.h"
 
 #include "base/hostile.h"
@@ -44,19 +45,26 @@ void dp_adjacency_free(dp_adjacency *a, const dp_allocator *memory) {
 }
 
 uint64_t dp_adjacency_bytes(const dp_adjacency *a) {
-    return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of + a->twins_cap * sizeof *a->twins +
-           a->odd_cap + a->fans_cap * sizeof *a->fans + a->fan_corners_cap * sizeof *a->fan_corners;
+    return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of +
+           a->twins_cap * sizeof *a->twins + a->odd_cap + a->fans_cap * sizeof *a->fans +
+           a->fan_corners_cap * sizeof *a->fan_corners;
 }
 
 /* ------- what was built from ------- */
 
-static uint32_t corner_total(const dp_polygons *p) { return p->firsts ? p->firsts[p->count] : 3 * p->count; }
+static uint32_t corner_total(const dp_polygons *p) {
+    return p->firsts ? p->firsts[p->count] : 3 * p->count;
+}
 
-static bool same_place(const float *p, const float *q) { return p[0] == q[0] && p[1] == q[1] && p[2] == q[2]; }
+static bool same_place(const float *p, const float *q) {
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
 
 static bool twins_hold(const dp_adjacency *a, const dp_polygons *p) {
     for (size_t i = 0; i < a->twin_count; i++)
-        if (!same_place(dp_vertex_position(p, a->twins[i][0]), dp_vertex_position(p, a->twins[i][1]))) return false;
+        if (!same_place(dp_vertex_position(p, a->twins[i][0]),
+                        dp_vertex_position(p, a->twins[i][1])))
+            return false;
     return true;
 }
 
@@ -64,7 +72,8 @@ static bool twins_hold(const dp_adjacency *a, const dp_polygons *p) {
 
 static bool add_twin(builder *b, const dp_allocator *memory, uint32_t vertex, uint32_t first) {
     dp_adjacency *const a = b->out;
-    if (!dp_reserve(memory, &a->twins, &a->twins_cap, a->twin_count + 1, sizeof *a->twins)) return false;
+    if (!dp_reserve(memory, &a->twins, &a->twins_cap, a->twin_count + 1, sizeof *a->twins))
+        return false;
     a->twins[a->twin_count][0] = vertex, a->twins[a->twin_count++][1] = first;
     return true;
 }
@@ -90,7 +99,8 @@ static uint32_t vertex_at(const builder *b, uint32_t corner) {
 
 static uint32_t next_corner(const builder *b, uint32_t corner) {
     const uint32_t polygon = dp_polygon_of_corner(b->out, corner);
-    const uint32_t first = dp_first_corner(b->polygons, polygon), n = dp_corner_count(b->polygons, polygon);
+    const uint32_t first = dp_first_corner(b->polygons, polygon),
+                   n = dp_corner_count(b->polygons, polygon);
     return corner + 1 - first == n ? first : corner + 1;
 }
 
@@ -106,7 +116,8 @@ static bool is_useful(const builder *b, uint32_t first, uint32_t n) {
     for (uint32_t i = 0; i < n; i++)
         if (vertex_at(b, first + i) == UINT32_MAX) return false;
     if (n != 3) return n > 3;
-    const uint32_t p = vertex_at(b, first), q = vertex_at(b, first + 1), r = vertex_at(b, first + 2);
+    const uint32_t p = vertex_at(b, first), q = vertex_at(b, first + 1),
+                   r = vertex_at(b, first + 2);
     return p != q && q != r && r != p;
 }
 
@@ -116,7 +127,8 @@ static void name_polygons(builder *b) {
         for (uint32_t c = p->firsts[i]; c < p->firsts[i + 1]; c++) b->out->polygon_of[c] = i;
 }
 
-/* Counts per lower vertex, then places: a counting sort. Corners without an edge are set to DP_ACROSS_NONE. */
+/* Counts per lower vertex, then places: a counting sort. Corners without an edge are set to
+ * DP_ACROSS_NONE. */
 static void fill_buckets(builder *b) {
     const dp_polygons *const p = b->polygons;
     memset(b->first, 0, ((size_t)p->vertex_count + 1) * sizeof *b->first);
@@ -126,15 +138,20 @@ static void fill_buckets(builder *b) {
             const bool useful = is_useful(b, first, n);
             for (uint32_t c = first; c < first + n; c++) {
                 const edge e = useful ? edge_at(b, c) : (edge){0, 0};
-                if (e.from == e.to) b->out->across[c] = DP_ACROSS_NONE;
-                else if (placing) b->bucket[b->first[lower(e)]++] = c;
-                else b->first[lower(e)]++, b->out->across[c] = DP_ACROSS_OPEN;
+                if (e.from == e.to)
+                    b->out->across[c] = DP_ACROSS_NONE;
+                else if (placing)
+                    b->bucket[b->first[lower(e)]++] = c;
+                else
+                    b->first[lower(e)]++, b->out->across[c] = DP_ACROSS_OPEN;
             }
         }
         uint32_t sum = 0, last = 0;
         for (uint32_t v = 0; v <= p->vertex_count; v++) {
             const uint32_t count = b->first[v];
-            b->first[v] = placing ? last : sum; /* placing moved each start to its end, the next one's start */
+            b->first[v] = placing
+                              ? last
+                              : sum; /* placing moved each start to its end, the next one's start */
             sum += count, last = count;
         }
     }
@@ -150,30 +167,36 @@ static void pair(const builder *b, uint32_t c, uint32_t d) {
 
 /* A polygon at an edge with more than two. */
 typedef struct flap {
-    double angle;   /* about the edge, from lower to higher vertex */
+    double angle; /* about the edge, from lower to higher vertex */
     uint32_t corner;
-    bool forward;   /* it runs the edge from lower to higher: its front looks towards growing angles */
+    bool
+        forward; /* it runs the edge from lower to higher: its front looks towards growing angles */
 } flap;
 
 static int by_angle(const void *left, const void *right) {
     const flap *const l = left, *const r = right;
     if (l->angle != r->angle) return l->angle < r->angle ? -1 : 1;
-    if (l->forward != r->forward) return l->forward ? 1 : -1; /* two sides of a sheet: the inside lies between them */
+    if (l->forward != r->forward)
+        return l->forward ? 1 : -1; /* two sides of a sheet: the inside lies between them */
     return (l->corner > r->corner) - (l->corner < r->corner);
 }
 
-static dp_vec3 position(const builder *b, uint32_t vertex) { return dp_v3f(dp_vertex_position(b->polygons, vertex)); }
+static dp_vec3 position(const builder *b, uint32_t vertex) {
+    return dp_v3f(dp_vertex_position(b->polygons, vertex));
+}
 
 static flap make_flap(const builder *b, uint32_t corner, dp_vec3 from, dp_vec3 x, dp_vec3 y) {
     const uint32_t polygon = dp_polygon_of_corner(b->out, corner);
-    const uint32_t first = dp_first_corner(b->polygons, polygon), n = dp_corner_count(b->polygons, polygon);
+    const uint32_t first = dp_first_corner(b->polygons, polygon),
+                   n = dp_corner_count(b->polygons, polygon);
     const uint32_t far = first + (corner - first + 1 + n / 2) % n;
     const dp_vec3 w = dp_sub(position(b, vertex_at(b, far)), from);
     const edge e = edge_at(b, corner);
     return (flap){atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
 }
 
-/* Takes pairs of neighbours in the circle that look at each other out of it, until there are none. */
+/* Takes pairs of neighbours in the circle that look at each other out of it, until there are none.
+ */
 static uint32_t pair_wedges(const builder *b, flap *flaps, uint32_t n) {
     for (bool found = true; found && n > 1;) {
         found = false;
@@ -216,8 +239,10 @@ static int by_higher(const void *left, const void *right) {
 }
 
 static void match_run(const builder *b, const uint32_t *corners, uint32_t n) {
-    if (n == 2) pair(b, corners[0], corners[1]);
-    else if (n > 2) match_fan(b, corners, n);
+    if (n == 2)
+        pair(b, corners[0], corners[1]);
+    else if (n > 2)
+        match_fan(b, corners, n);
 }
 
 /* Sorts a bucket in place: by insertion, which suits a vertex's few edges. */
@@ -232,7 +257,8 @@ static void sort_small(const builder *b, uint32_t *corners, uint32_t n) {
 
 /* The same for a vertex of very many edges; `entries` is as large as the bucket. */
 static void sort_large(const builder *b, uint32_t *corners, uint32_t n, entry *entries) {
-    for (uint32_t i = 0; i < n; i++) entries[i] = (entry){higher(edge_at(b, corners[i])), corners[i]};
+    for (uint32_t i = 0; i < n; i++)
+        entries[i] = (entry){higher(edge_at(b, corners[i])), corners[i]};
     qsort(entries, n, sizeof *entries, by_higher);
     for (uint32_t i = 0; i < n; i++) corners[i] = entries[i].corner;
 }
@@ -249,7 +275,8 @@ static bool match_vertex(const matching *m, uint32_t v) {
     const builder *const b = m->builder;
     uint32_t *const corners = b->bucket + b->first[v];
     const uint32_t n = b->first[v + 1] - b->first[v];
-    if (n <= SMALL) sort_small(b, corners, n);
+    if (n <= SMALL)
+        sort_small(b, corners, n);
     else {
         entry *const entries = dp_alloc_array(m->memory, n, sizeof *entries);
         if (!entries) return false;
@@ -290,10 +317,12 @@ static int by_corner(const void *left, const void *right) {
     return (l->corner > r->corner) - (l->corner < r->corner);
 }
 
-static bool note_fan(const builder *b, const uint32_t *corners, uint32_t n, const dp_allocator *memory) {
+static bool note_fan(const builder *b, const uint32_t *corners, uint32_t n,
+                     const dp_allocator *memory) {
     dp_adjacency *const a = b->out;
     if (!dp_reserve(memory, &a->fans, &a->fans_cap, a->fan_count + n, sizeof *a->fans) ||
-        !dp_reserve(memory, &a->fan_corners, &a->fan_corners_cap, a->fan_count + n, sizeof *a->fan_corners))
+        !dp_reserve(memory, &a->fan_corners, &a->fan_corners_cap, a->fan_count + n,
+                    sizeof *a->fan_corners))
         return false;
     const uint32_t first = (uint32_t)a->fan_count;
     for (uint32_t i = 0; i < n; i++) {
@@ -316,7 +345,8 @@ static bool note_fans(const builder *b, const dp_allocator *memory) {
             if (i - start > 2 && !note_fan(b, b->bucket + start, i - start, memory)) return false;
         }
     }
-    if (b->out->fan_count) qsort(b->out->fan_corners, b->out->fan_count, sizeof *b->out->fan_corners, by_corner);
+    if (b->out->fan_count)
+        qsort(b->out->fan_corners, b->out->fan_count, sizeof *b->out->fan_corners, by_corner);
     return true;
 }
 
@@ -331,7 +361,8 @@ static void note_odd(const builder *b) {
         const uint32_t first = dp_first_corner(b->polygons, i), n = dp_corner_count(b->polygons, i);
         b->out->odd[i] = false;
         for (uint32_t c = first; c < first + n; c++)
-            if (b->out->across[c] == DP_ACROSS_OPEN || (dp_is_across(b->out->across[c]) && b->out->across[c] & DP_ACROSS_FLIPPED))
+            if (b->out->across[c] == DP_ACROSS_OPEN ||
+                (dp_is_across(b->out->across[c]) && b->out->across[c] & DP_ACROSS_FLIPPED))
                 b->out->odd[i] = true;
     }
 }
@@ -345,9 +376,11 @@ static bool build(builder *b, dp_threads *threads, const dp_allocator *memory) {
     if (!p->firsts) {
         dp_free(memory, a->polygon_of);
         a->polygon_of = NULL, a->polygon_cap = 0;
-    } else if (!dp_reserve(memory, &a->polygon_of, &a->polygon_cap, (size_t)a->corners + 1, sizeof *a->polygon_of))
+    } else if (!dp_reserve(memory, &a->polygon_of, &a->polygon_cap, (size_t)a->corners + 1,
+                           sizeof *a->polygon_of))
         return false;
-    if (!dp_reserve(memory, &a->across, &a->across_cap, (size_t)a->corners + 1, sizeof *a->across) ||
+    if (!dp_reserve(memory, &a->across, &a->across_cap, (size_t)a->corners + 1,
+                    sizeof *a->across) ||
         !dp_reserve(memory, &a->odd, &a->odd_cap, (size_t)p->count + 1, 1))
         return false;
     name_polygons(b);
@@ -364,8 +397,8 @@ static double now_ms(void) {
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-bool dp_adjacency_update(dp_adjacency *a, const dp_polygons *p, dp_threads *threads, const dp_allocator *memory,
-                         bool *built) {
+bool dp_adjacency_update(dp_adjacency *a, const dp_polygons *p, dp_threads *threads,
+                         const dp_allocator *memory, bool *built) {
     uint64_t key;
     const double start = now_ms();
     if (built) *built = false;
@@ -386,7 +419,8 @@ bool dp_adjacency_update(dp_adjacency *a, const dp_polygons *p, dp_threads *thre
     return sound;
 }
 
-void dp_adjacency_six(const dp_adjacency *a, const dp_polygons *p, uint32_t triangle, uint32_t six[6]) {
+void dp_adjacency_six(const dp_adjacency *a, const dp_polygons *p, uint32_t triangle,
+                      uint32_t six[6]) {
     for (uint32_t i = 0; i < 3; i++) {
         const uint32_t corner = 3 * triangle + i, across = a->across[corner];
         six[2 * i] = dp_corner_vertex(p, corner);
@@ -395,22 +429,27 @@ void dp_adjacency_six(const dp_adjacency *a, const dp_polygons *p, uint32_t tria
     }
 }
 
-dp_result dp_adjacency_indices(const dp_batch *triangles, const dp_allocator *allocator, uint32_t *six,
-                               dp_diag *diag) {
+dp_result dp_adjacency_indices(const dp_batch *triangles, const dp_allocator *allocator,
+                               uint32_t *six, dp_diag *diag) {
     if (!triangles || !six || !triangles->positions || triangles->firsts)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_adjacency_indices: it takes triangles with positions, and a place for six indices each");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "dp_adjacency_indices: it takes triangles with positions, and a place for "
+                       "six indices each");
     if (triangles->polygon_count > UINT32_MAX / 4 || triangles->vertex_count >= UINT32_MAX)
         return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles or vertices", UINT32_MAX / 4);
     const dp_allocator memory = dp_allocator_resolve(allocator);
     const dp_polygons polygons = {.positions = triangles->positions,
-                                  .stride = triangles->position_stride ? triangles->position_stride : 12,
+                                  .stride =
+                                      triangles->position_stride ? triangles->position_stride : 12,
                                   .vertex_count = (uint32_t)triangles->vertex_count,
                                   .corners = triangles->indices,
                                   .count = (uint32_t)triangles->polygon_count};
     dp_adjacency adjacency = {0};
     dp_threads *const threads = dp_threads_create(1, NULL, NULL, &memory);
-    const bool sound = threads && dp_adjacency_update(&adjacency, &polygons, threads, &memory, NULL);
-    for (uint32_t t = 0; sound && t < polygons.count; t++) dp_adjacency_six(&adjacency, &polygons, t, six + 6 * (size_t)t);
+    const bool sound =
+        threads && dp_adjacency_update(&adjacency, &polygons, threads, &memory, NULL);
+    for (uint32_t t = 0; sound && t < polygons.count; t++)
+        dp_adjacency_six(&adjacency, &polygons, t, six + 6 * (size_t)t);
     dp_adjacency_free(&adjacency, &memory);
     dp_threads_destroy(threads);
     return sound ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for adjacency");

@@ -9,13 +9,14 @@ void dp_attribute_store_free(dp_attribute_store *store, const dp_allocator *memo
     *store = (dp_attribute_store){0};
 }
 
-bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners, const dp_allocator *memory) {
-    return !store->used ||
-           dp_reserve(memory, &store->indices, &store->indices_cap, corners, sizeof *store->indices);
+bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners,
+                                  const dp_allocator *memory) {
+    return !store->used || dp_reserve(memory, &store->indices, &store->indices_cap, corners,
+                                      sizeof *store->indices);
 }
 
-bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from, size_t width, size_t corners,
-                             const dp_allocator *memory) {
+bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from, size_t width,
+                             size_t corners, const dp_allocator *memory) {
     if (!from->values || !from->count) return true;
     const size_t count = store->count + from->count;
     if (count >= UINT32_MAX ||
@@ -35,6 +36,8 @@ bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from
 
 dp_attribute dp_attribute_of_store(const dp_attribute_store *store, size_t width) {
     if (!store->used) return (dp_attribute){0};
-    return (dp_attribute){.values = store->values, .stride = width * sizeof(float), .count = store->count,
+    return (dp_attribute){.values = store->values,
+                          .stride = width * sizeof(float),
+                          .count = store->count,
                           .indices = store->indices};
 }

@@ -1,12 +1,13 @@
-/* Normals and texture coordinates of corners, while the polygons of several batches are put together. */
+/* Normals and texture coordinates of corners, while the polygons of several batches are put
+ * together. */
 #ifndef DP_MESH_ATTRIBUTES_H
 #define DP_MESH_ATTRIBUTES_H
 
 #include "base/memory.h"
 #include <drypoint/source.h>
 
-/* One attribute of all batches so far. Zero is empty. Invariant: while `used`, every corner that was added
- * has an index, UINT32_MAX where its batch had no value for it. */
+/* One attribute of all batches so far. Zero is empty. Invariant: while `used`, every corner that
+ * was added has an index, UINT32_MAX where its batch had no value for it. */
 typedef struct dp_attribute_store {
     float *values;
     uint32_t *indices; /* per corner */
@@ -16,12 +17,14 @@ typedef struct dp_attribute_store {
 
 void dp_attribute_store_free(dp_attribute_store *store, const dp_allocator *memory);
 
-/* Takes a batch's values, `width` floats each; `corners` were added before. False when memory is out. */
-bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from, size_t width, size_t corners,
-                             const dp_allocator *memory);
+/* Takes a batch's values, `width` floats each; `corners` were added before. False when memory is
+ * out. */
+bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from, size_t width,
+                             size_t corners, const dp_allocator *memory);
 
 /* Room for `corners` in all. */
-bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners, const dp_allocator *memory);
+bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners,
+                                  const dp_allocator *memory);
 
 /* The store as an attribute of the corners added. */
 dp_attribute dp_attribute_of_store(const dp_attribute_store *store, size_t width);
@@ -38,11 +41,12 @@ static inline const float *dp_attribute_value(const dp_attribute *a, uint32_t nu
 }
 
 /* Adds corner number `to`: corner `corner` of the batch whose values were added last. */
-static inline void dp_attribute_add_corner(dp_attribute_store *store, const dp_attribute *from, size_t corner,
-                                           uint32_t vertex, size_t to) {
+static inline void dp_attribute_add_corner(dp_attribute_store *store, const dp_attribute *from,
+                                           size_t corner, uint32_t vertex, size_t to) {
     if (!store->used) return;
     const uint32_t number = dp_attribute_number(from, corner, vertex);
-    store->indices[to] = number == UINT32_MAX ? UINT32_MAX : (uint32_t)(store->count - from->count) + number;
+    store->indices[to] =
+        number == UINT32_MAX ? UINT32_MAX : (uint32_t)(store->count - from->count) + number;
 }
 
 #endif

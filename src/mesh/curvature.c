@@ -1,17 +1,20 @@
-/* Curvature: S. Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes", 3DPVT 2004.
+/* Curvature: S. Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes",
+ * 3DPVT 2004.
  *
- * On each triangle the second fundamental form is what explains best, by least squares, how the corners' normals differ
- * along its three edges. A vertex's form is the mean of those of its triangles, each turned into the vertex's tangent
- * plane and weighed by the part of its area that is nearest to the vertex (Voronoi areas; Meyer et al. 2003). Its
- * eigenvectors are the principal directions. Corner normals are weighed as of a sphere (Max 1999): on a sphere they are exact.
+ * On each triangle the second fundamental form is what explains best, by least squares, how the
+ * corners' normals differ along its three edges. A vertex's form is the mean of those of its
+ * triangles, each turned into the vertex's tangent plane and weighed by the part of its area that
+ * is nearest to the vertex (Voronoi areas; Meyer et al. 2003). Its eigenvectors are the principal
+ * directions. Corner normals are weighed as of a sphere (Max 1999): on a sphere they are exact.
  *
- * Directions for drawing. "Least" is by absolute value: a pencil goes along a cylinder, seen from inside or outside.
- * Where both curvatures are equal or opposite, or nearly zero, the direction is noise. So each vertex has a tensor
- *     Q = confidence (d d' - e e')         d: least direction, e: across it, in the tangent plane
- * which is blind to the sign of d, and the confidence vanishes there. Tensors are averaged with their neighbours' again
- * and again, so that what is certain spreads into what is not; a tiny tensor along a fixed direction (level lines,
- * or what is nearest to them) decides where nothing is certain at all. All of it lies on the mesh, not on the screen: as
- * the camera moves, nothing flickers. */
+ * Directions for drawing. "Least" is by absolute value: a pencil goes along a cylinder, seen from
+ * inside or outside. Where both curvatures are equal or opposite, or nearly zero, the direction is
+ * noise. So each vertex has a tensor Q = confidence (d d' - e e')         d: least direction, e:
+ * across it, in the tangent plane which is blind to the sign of d, and the confidence vanishes
+ * there. Tensors are averaged with their neighbours' again and again, so that what is certain
+ * spreads into what is not; a tiny tensor along a fixed direction (level lines, or what is nearest
+ * to them) decides where nothing is certain at all. All of it lies on the mesh, not on the screen:
+ * as the camera moves, nothing flickers. */
 #include "mesh/curvature.h"
 
 #include "base/hostile.h"
@@ -23,21 +26,26 @@
 #include <time.h>
 
 enum { LEAST_SPREADS = 8, MOST_SPREADS = 48 };
-static const double UNBENT = 0.15;   /* curvature times the model's size below which a direction is uncertain */
-static const double STEADY = 0.02;   /* weight of the fixed direction */
+static const double UNBENT =
+    0.15; /* curvature times the model's size below which a direction is uncertain */
+static const double STEADY = 0.02; /* weight of the fixed direction */
 
 typedef struct bending {
     const dp_polygons *polygons;
-    const uint32_t *first;   /* [vertices] who stands for a vertex */
-    float (*normal)[3];      /* [vertices] unit */
-    float *area;             /* [vertices] */
-    float (*form)[3];        /* [vertices] a, b, c in the vertex's frame */
+    const uint32_t *first; /* [vertices] who stands for a vertex */
+    float (*normal)[3];    /* [vertices] unit */
+    float *area;           /* [vertices] */
+    float (*form)[3];      /* [vertices] a, b, c in the vertex's frame */
 } bending;
 
-static dp_vec3 at(const bending *b, uint32_t vertex) { return dp_v3f(dp_vertex_position(b->polygons, vertex)); }
+static dp_vec3 at(const bending *b, uint32_t vertex) {
+    return dp_v3f(dp_vertex_position(b->polygons, vertex));
+}
 static dp_vec3 normal_at(const bending *b, uint32_t vertex) { return dp_v3f(b->normal[vertex]); }
 
-static void add_to(float out[3], dp_vec3 v) { out[0] += (float)v.x, out[1] += (float)v.y, out[2] += (float)v.z; }
+static void add_to(float out[3], dp_vec3 v) {
+    out[0] += (float)v.x, out[1] += (float)v.y, out[2] += (float)v.z;
+}
 
 /* The tangent frame of a normal: any, but always the same. */
 static void frame_of(dp_vec3 n, dp_vec3 *u, dp_vec3 *v) {
@@ -46,7 +54,8 @@ static void frame_of(dp_vec3 n, dp_vec3 *u, dp_vec3 *v) {
     *v = dp_cross(n, *u);
 }
 
-/* A triangle of a polygon's fan, by who stands for its vertices; false where it has no area or is broken. */
+/* A triangle of a polygon's fan, by who stands for its vertices; false where it has no area or is
+ * broken. */
 typedef struct triangle {
     uint32_t v[3];
     dp_vec3 p[3], e[3]; /* e[i] is opposite to corner i, from i + 1 to i + 2 */
@@ -88,12 +97,14 @@ static void add_normals(bending *b, const triangle *t) {
     }
 }
 
-/* The part of the triangle that is nearest to each corner; of an obtuse one as the midpoints of the edges say. */
+/* The part of the triangle that is nearest to each corner; of an obtuse one as the midpoints of the
+ * edges say. */
 static void corner_areas(const triangle *t, double out[3]) {
     const double area = dp_length(t->normal) / 2;
     for (int k = 0; k < 3; k++) {
-        const dp_vec3 p = t->e[(k + 1) % 3], q = t->e[(k + 2) % 3]; /* q: k to k + 1; p: k + 2 to k */
-        if (dp_dot(p, q) < 0) continue;                             /* the angle at k is at most a right one */
+        const dp_vec3 p = t->e[(k + 1) % 3],
+                      q = t->e[(k + 2) % 3]; /* q: k to k + 1; p: k + 2 to k */
+        if (dp_dot(p, q) < 0) continue;      /* the angle at k is at most a right one */
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         out[l] = -0.25 * dp_dot(q, q) * area / dp_dot(t->e[k], q);
         out[m] = -0.25 * dp_dot(p, p) * area / dp_dot(t->e[k], p);
@@ -107,15 +118,18 @@ static void corner_areas(const triangle *t, double out[3]) {
         weight[k] = a * (c + d - a); /* barycentric, of the circumcentre */
         sum += weight[k];
     }
-    for (int k = 0; k < 3; k++) out[k] = area * 0.5 * (weight[(k + 1) % 3] + weight[(k + 2) % 3]) / sum;
+    for (int k = 0; k < 3; k++)
+        out[k] = area * 0.5 * (weight[(k + 1) % 3] + weight[(k + 2) % 3]) / sum;
 }
 
 /* The form a, b, c in the triangle's plane: least squares over three edges. */
-static bool triangle_form(const bending *b, const triangle *t, dp_vec3 u, dp_vec3 v, double out[3]) {
+static bool triangle_form(const bending *b, const triangle *t, dp_vec3 u, dp_vec3 v,
+                          double out[3]) {
     double uu = 0, uv = 0, vv = 0, r[3] = {0, 0, 0};
     for (int k = 0; k < 3; k++) {
         const dp_vec3 dn = dp_sub(normal_at(b, t->v[(k + 2) % 3]), normal_at(b, t->v[(k + 1) % 3]));
-        const double x = dp_dot(t->e[k], u), y = dp_dot(t->e[k], v), nx = dp_dot(dn, u), ny = dp_dot(dn, v);
+        const double x = dp_dot(t->e[k], u), y = dp_dot(t->e[k], v), nx = dp_dot(dn, u),
+                     ny = dp_dot(dn, v);
         uu += x * x, uv += x * y, vv += y * y;
         r[0] += nx * x, r[1] += nx * y + ny * x, r[2] += ny * y;
     }
@@ -150,9 +164,12 @@ static void add_forms(bending *b, const triangle *t) {
         const double ux = dp_dot(x, tu), uy = dp_dot(x, tv), vx = dp_dot(y, tu), vy = dp_dot(y, tv);
         const double w = areas[k];
         b->area[vertex] += (float)w;
-        b->form[vertex][0] += (float)(w * (form[0] * ux * ux + 2 * form[1] * ux * uy + form[2] * uy * uy));
-        b->form[vertex][1] += (float)(w * (form[0] * ux * vx + form[1] * (ux * vy + uy * vx) + form[2] * uy * vy));
-        b->form[vertex][2] += (float)(w * (form[0] * vx * vx + 2 * form[1] * vx * vy + form[2] * vy * vy));
+        b->form[vertex][0] +=
+            (float)(w * (form[0] * ux * ux + 2 * form[1] * ux * uy + form[2] * uy * uy));
+        b->form[vertex][1] +=
+            (float)(w * (form[0] * ux * vx + form[1] * (ux * vy + uy * vx) + form[2] * uy * vy));
+        b->form[vertex][2] +=
+            (float)(w * (form[0] * vx * vx + 2 * form[1] * vx * vy + form[2] * vy * vy));
     }
 }
 
@@ -187,7 +204,8 @@ static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
     dp_curvature out = {0, 0, {0, 0, 0}};
     if (!(b->area[vertex] > 0)) return out;
     const double inverse = 1 / (double)b->area[vertex];
-    const double a = (double)b->form[vertex][0] * inverse, m = (double)b->form[vertex][1] * inverse, c = (double)b->form[vertex][2] * inverse;
+    const double a = (double)b->form[vertex][0] * inverse, m = (double)b->form[vertex][1] * inverse,
+                 c = (double)b->form[vertex][2] * inverse;
     const double mean = (a + c) / 2, half = hypot((a - c) / 2, m);
     const double angle = 0.5 * atan2(2 * m, a - c); /* of the algebraically greatest */
     const bool greatest = fabs(mean + half) <= fabs(mean - half);
@@ -195,7 +213,8 @@ static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
     dp_vec3 u, v;
     frame_of(normal_at(b, vertex), &u, &v);
     const dp_vec3 d = dp_add(dp_scale(u, cos(turned)), dp_scale(v, sin(turned)));
-    out.least = (float)(greatest ? mean + half : mean - half), out.most = (float)(greatest ? mean - half : mean + half);
+    out.least = (float)(greatest ? mean + half : mean - half),
+    out.most = (float)(greatest ? mean - half : mean + half);
     out.along[0] = (float)d.x, out.along[1] = (float)d.y, out.along[2] = (float)d.z;
     return out;
 }
@@ -218,8 +237,10 @@ bool dp_curvatures(const dp_polygons *polygons, const dp_allocator *memory, dp_c
 typedef float tensor[8];
 
 static void add_tensor(tensor out, dp_vec3 d, double weight) {
-    out[0] += (float)(weight * d.x * d.x), out[1] += (float)(weight * d.x * d.y), out[2] += (float)(weight * d.x * d.z);
-    out[3] += (float)(weight * d.y * d.y), out[4] += (float)(weight * d.y * d.z), out[5] += (float)(weight * d.z * d.z);
+    out[0] += (float)(weight * d.x * d.x), out[1] += (float)(weight * d.x * d.y),
+        out[2] += (float)(weight * d.x * d.z);
+    out[3] += (float)(weight * d.y * d.y), out[4] += (float)(weight * d.y * d.z),
+        out[5] += (float)(weight * d.z * d.z);
 }
 
 static void add_cross(tensor out, dp_vec3 d, dp_vec3 e, double weight) {
@@ -229,9 +250,11 @@ static void add_cross(tensor out, dp_vec3 d, dp_vec3 e, double weight) {
 
 /* The tensor seen in a tangent plane: (uu - vv) / 2 and uv, twice the direction's angle. */
 static void in_plane(const tensor q, const float u[3], const float v[3], float *c, float *s) {
-    const float ux = q[0] * u[0] + q[1] * u[1] + q[2] * u[2], uy = q[1] * u[0] + q[3] * u[1] + q[4] * u[2];
+    const float ux = q[0] * u[0] + q[1] * u[1] + q[2] * u[2],
+                uy = q[1] * u[0] + q[3] * u[1] + q[4] * u[2];
     const float uz = q[2] * u[0] + q[4] * u[1] + q[5] * u[2];
-    const float vx = q[0] * v[0] + q[1] * v[1] + q[2] * v[2], vy = q[1] * v[0] + q[3] * v[1] + q[4] * v[2];
+    const float vx = q[0] * v[0] + q[1] * v[1] + q[2] * v[2],
+                vy = q[1] * v[0] + q[3] * v[1] + q[4] * v[2];
     const float vz = q[2] * v[0] + q[4] * v[1] + q[5] * v[2];
     *c = 0.5f * (u[0] * ux + u[1] * uy + u[2] * uz - (v[0] * vx + v[1] * vy + v[2] * vz));
     *s = v[0] * ux + v[1] * uy + v[2] * uz;
@@ -239,7 +262,8 @@ static void in_plane(const tensor q, const float u[3], const float v[3], float *
 
 /* Level lines: across the model's height; where the surface lies level itself, along x. */
 static dp_vec3 steady_direction(dp_vec3 n) {
-    const dp_vec3 level = dp_cross(dp_v3(0, 1, 0), n), other = dp_sub(dp_v3(1, 0, 0), dp_scale(n, n.x));
+    const dp_vec3 level = dp_cross(dp_v3(0, 1, 0), n),
+                  other = dp_sub(dp_v3(1, 0, 0), dp_scale(n, n.x));
     return dp_unit(dp_add(level, dp_scale(other, 0.05)));
 }
 
@@ -251,25 +275,29 @@ static void make_tensor(const bending *b, uint32_t v, double size, tensor q) {
     memset(q, 0, sizeof(tensor));
     if (!(dp_length(n) > 0)) return;
     /* 0 where both are equal or opposite; and where there is hardly any */
-    const double contrast = most > 0 ? (most - least) / most : 0, bent = most * size / (most * size + UNBENT);
+    const double contrast = most > 0 ? (most - least) / most : 0,
+                 bent = most * size / (most * size + UNBENT);
     add_cross(q, d, e, contrast * bent);
     add_cross(q, f, dp_cross(n, f), STEADY);
 }
 
-/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns. Frames do not change: they are
- * made once. */
+/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns.
+ * Frames do not change: they are made once. */
 typedef struct spreading {
     bending *b;
-    uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as often as they share triangles */
+    uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as
+                                 often as they share triangles */
     tensor *from, *to;
-    float (*across)[3];      /* [vertices] the frame's first axis, frame_of; the second is square to it and the normal */
-    const uint32_t *first;   /* who stands for a vertex */
+    float (*across)[3]; /* [vertices] the frame's first axis, frame_of; the second is square to it
+                           and the normal */
+    const uint32_t *first; /* who stands for a vertex */
     double size;
     float (*out)[3];
 } spreading;
 
 static uint64_t triangle_count(const dp_polygons *p) {
-    const uint64_t corners = p->firsts ? p->firsts[p->count] - p->firsts[0] : 3 * (uint64_t)p->count;
+    const uint64_t corners =
+        p->firsts ? p->firsts[p->count] - p->firsts[0] : 3 * (uint64_t)p->count;
     return corners > 2 * (uint64_t)p->count ? corners - 2 * (uint64_t)p->count : 0;
 }
 
@@ -285,8 +313,11 @@ static void find_neighbours(const spreading *s) {
             for (uint32_t k = 2; k < n; k++) {
                 if (!fetch(s->b, first, k, &t)) continue;
                 for (int c = 0; c < 3; c++) {
-                    if (placing) s->beside[at[t.v[c]]++] = t.v[(c + 1) % 3], s->beside[at[t.v[c]]++] = t.v[(c + 2) % 3];
-                    else at[t.v[c]] += 2;
+                    if (placing)
+                        s->beside[at[t.v[c]]++] = t.v[(c + 1) % 3],
+                        s->beside[at[t.v[c]]++] = t.v[(c + 2) % 3];
+                    else
+                        at[t.v[c]] += 2;
                 }
             }
         }
@@ -311,7 +342,8 @@ static void put_in_plane(tensor q, const float u[3], const float v[3], float c, 
 
 static void second_axis(const spreading *s, uint32_t v, float out[3]) {
     const float *const n = s->b->normal[v], *const u = s->across[v];
-    out[0] = n[1] * u[2] - n[2] * u[1], out[1] = n[2] * u[0] - n[0] * u[2], out[2] = n[0] * u[1] - n[1] * u[0];
+    out[0] = n[1] * u[2] - n[2] * u[1], out[1] = n[2] * u[0] - n[0] * u[2],
+    out[2] = n[0] * u[1] - n[1] * u[0];
 }
 
 /* The mean of a vertex's own tensor and its neighbours', back in its tangent plane. */
@@ -393,16 +425,23 @@ static double size_of(const dp_polygons *p) {
     return isfinite(size) ? size : 1;
 }
 
-static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory, float (*out)[3]) {
+static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory,
+                 float (*out)[3]) {
     bending b = {.polygons = p};
     uint32_t *first;
     const size_t n = (size_t)p->vertex_count + 2;
-    if (6 * triangle_count(p) > UINT32_MAX) return false; /* 700 million triangles: as good as no memory */
-    spreading s = {.b = &b, .start = dp_alloc_array(memory, n, sizeof *s.start),
+    if (6 * triangle_count(p) > UINT32_MAX)
+        return false; /* 700 million triangles: as good as no memory */
+    spreading s = {.b = &b,
+                   .start = dp_alloc_array(memory, n, sizeof *s.start),
                    .beside = dp_alloc_array(memory, 6 * triangle_count(p) + 1, sizeof *s.beside),
-                   .from = dp_alloc_array(memory, n, sizeof *s.from), .to = dp_alloc_array(memory, n, sizeof *s.to),
-                   .across = dp_alloc_array(memory, n, sizeof *s.across), .size = size_of(p), .out = out};
-    const bool enough = begin(&b, memory, &first) && s.start && s.beside && s.from && s.to && s.across;
+                   .from = dp_alloc_array(memory, n, sizeof *s.from),
+                   .to = dp_alloc_array(memory, n, sizeof *s.to),
+                   .across = dp_alloc_array(memory, n, sizeof *s.across),
+                   .size = size_of(p),
+                   .out = out};
+    const bool enough =
+        begin(&b, memory, &first) && s.start && s.beside && s.from && s.to && s.across;
     if (enough) {
         s.first = first;
         const int spreads = spreads_for(p->vertex_count);
@@ -434,14 +473,16 @@ static double now_ms(void) {
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads, const dp_allocator *memory) {
+bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads,
+                   const dp_allocator *memory) {
     uint64_t key;
     const double start = now_ms();
     if (!dp_shape_fingerprint(polygons, threads, memory, &key)) return false;
     store->ms = 0;
     if (store->key == key) return true;
     store->key = 0;
-    if (!dp_reserve(memory, &store->along, &store->along_cap, (size_t)polygons->vertex_count + 1, sizeof *store->along) ||
+    if (!dp_reserve(memory, &store->along, &store->along_cap, (size_t)polygons->vertex_count + 1,
+                    sizeof *store->along) ||
         !make(polygons, threads, memory, store->along))
         return false;
     store->key = key;

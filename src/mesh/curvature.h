@@ -1,4 +1,5 @@
-/* Curvature at vertices, and the direction in which the surface bends least: what a pencil follows. */
+/* Curvature at vertices, and the direction in which the surface bends least: what a pencil follows.
+ */
 #ifndef DP_MESH_CURVATURE_H
 #define DP_MESH_CURVATURE_H
 
@@ -15,17 +16,20 @@ typedef struct dp_curvature {
 typedef struct dp_bend_store {
     float (*along)[3]; /* [vertices] smoothed directions */
     size_t along_cap;
-    uint64_t key;      /* of polygons and positions; 0: none */
-    double ms;         /* making took, the last time; 0 when they were kept */
+    uint64_t key; /* of polygons and positions; 0: none */
+    double ms;    /* making took, the last time; 0 when they were kept */
 } dp_bend_store;
 
 void dp_bend_store_free(dp_bend_store *store, const dp_allocator *memory);
 
-/* Curvatures as estimated, out[vertex_count]; vertices of no use get zero curvature. False: memory is out. */
+/* Curvatures as estimated, out[vertex_count]; vertices of no use get zero curvature. False: memory
+ * is out. */
 bool dp_curvatures(const dp_polygons *polygons, const dp_allocator *memory, dp_curvature *out);
 
-/* Directions of least curvature, smoothed over neighbours as far as they are uncertain, with a steady direction
- * where all around is as flat or as round. Made again only when polygons or positions have changed. */
-bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads, const dp_allocator *memory);
+/* Directions of least curvature, smoothed over neighbours as far as they are uncertain, with a
+ * steady direction where all around is as flat or as round. Made again only when polygons or
+ * positions have changed. */
+bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads,
+                   const dp_allocator *memory);
 
 #endif

@@ -1,8 +1,8 @@
 /* The extent of a source whose triangles lie as records: every corner read once, in threads.
  *
- * Records are cut into blocks, a block is one task, and a worker keeps the box of what it has seen. Which
- * worker saw what does not matter to the sum. A triangle with a coordinate that is not finite is counted
- * and left out. */
+ * Records are cut into blocks, a block is one task, and a worker keeps the box of what it has seen.
+ * Which worker saw what does not matter to the sum. A triangle with a coordinate that is not finite
+ * is counted and left out. */
 #include "mesh/source.h"
 
 #include "base/diag.h"
@@ -12,7 +12,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK = DP_TUNED(4096, 3), PART = DP_TUNED(1024, 5) /* blocks between reports of progress */ };
+enum {
+    BLOCK = DP_TUNED(4096, 3),
+    PART = DP_TUNED(1024, 5) /* blocks between reports of progress */
+};
 
 /* One worker's sum; larger than two cache lines, so that workers do not share them. */
 typedef struct seen {
@@ -53,7 +56,8 @@ static f4 choose(i4 mask, f4 a, f4 b) { return (f4)((mask & (i4)a) | (~mask & (i
 /* All of a block at once, as long as all are finite; false: s is as it was. */
 static bool look_at_finite(seen *s, const uint8_t *records, uint32_t count, size_t stride) {
     enum { WORD = sizeof(float), STARTS = 3 };
-    static const size_t from[STARTS] = {0, 4, 5}; /* four words from each: together the nine of a record */
+    static const size_t from[STARTS] = {
+        0, 4, 5}; /* four words from each: together the nine of a record */
     f4 lo[STARTS], hi[STARTS], sum = {0};
     for (int k = 0; k < STARTS; k++) {
         lo[k] = (f4){INFINITY, INFINITY, INFINITY, INFINITY};
@@ -97,7 +101,8 @@ static dp_result look_at_all(dp_source *source, dp_threads *threads, seen *worke
     const uint64_t blocks = r->count / BLOCK + (r->count % BLOCK != 0);
     for (uint64_t first = 0; first < blocks; first += PART) {
         job j = {source, workers, first};
-        dp_parallel(threads, (uint32_t)(blocks - first < PART ? blocks - first : PART), look_at_block, &j);
+        dp_parallel(threads, (uint32_t)(blocks - first < PART ? blocks - first : PART),
+                    look_at_block, &j);
         for (uint32_t i = 0; i < dp_threads_count(threads); i++)
             if (workers[i].result) {
                 *diag = workers[i].diag;
@@ -112,7 +117,8 @@ static dp_result look_at_all(dp_source *source, dp_threads *threads, seen *worke
 static void add_up(const seen *workers, uint32_t count, dp_extent *extent) {
     for (int k = 0; k < 3; k++) {
         float lo = INFINITY, hi = -INFINITY;
-        for (uint32_t i = 0; i < count; i++) lo = fminf(lo, workers[i].min[k]), hi = fmaxf(hi, workers[i].max[k]);
+        for (uint32_t i = 0; i < count; i++)
+            lo = fminf(lo, workers[i].min[k]), hi = fmaxf(hi, workers[i].max[k]);
         extent->min[k] = lo <= hi ? lo : 0;
         extent->max[k] = lo <= hi ? hi : 0;
     }
@@ -126,14 +132,18 @@ dp_result dp_records_extent(dp_source *source, dp_extent *extent, dp_diag *diag)
     if (!diag) diag = &unused;
     *extent = (dp_extent){.polygons = r->count, .corners = 3 * r->count, .vertices = 3 * r->count};
     /* small files are read faster than threads start */
-    dp_threads *const threads = dp_threads_create(r->count > 64 * BLOCK ? 0 : 1, NULL, NULL, memory);
+    dp_threads *const threads =
+        dp_threads_create(r->count > 64 * BLOCK ? 0 : 1, NULL, NULL, memory);
     const uint32_t workers = threads ? dp_threads_count(threads) : 0;
     seen *const seen_by = threads ? dp_alloc_array(memory, workers, sizeof *seen_by) : NULL;
-    dp_result result = seen_by ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
+    dp_result result =
+        seen_by ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
     for (uint32_t i = 0; seen_by && i < workers; i++) {
-        seen_by[i] = (seen){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
+        seen_by[i] =
+            (seen){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
         seen_by[i].buffer = dp_alloc_array(memory, BLOCK, r->size);
-        if (!seen_by[i].buffer) result = dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
+        if (!seen_by[i].buffer)
+            result = dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
     }
     if (!result) result = look_at_all(source, threads, seen_by, diag);
     if (!result) add_up(seen_by, workers, extent);

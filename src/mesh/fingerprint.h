@@ -5,13 +5,17 @@
 #include "base/threads.h"
 #include "mesh/polygons.h"
 
-/* Mixes a run of words into *key, in parallel; the same for any number of threads. False when memory is out. */
-bool dp_fingerprint(const uint32_t *words, size_t count, dp_threads *threads, const dp_allocator *memory, uint64_t *key);
+/* Mixes a run of words into *key, in parallel; the same for any number of threads. False when
+ * memory is out. */
+bool dp_fingerprint(const uint32_t *words, size_t count, dp_threads *threads,
+                    const dp_allocator *memory, uint64_t *key);
 
 /* Of corners and, where there are any, polygons' firsts. Never 0. */
-bool dp_topology_fingerprint(const dp_polygons *polygons, dp_threads *threads, const dp_allocator *memory, uint64_t *key);
+bool dp_topology_fingerprint(const dp_polygons *polygons, dp_threads *threads,
+                             const dp_allocator *memory, uint64_t *key);
 
 /* The same with positions. */
-bool dp_shape_fingerprint(const dp_polygons *polygons, dp_threads *threads, const dp_allocator *memory, uint64_t *key);
+bool dp_shape_fingerprint(const dp_polygons *polygons, dp_threads *threads,
+                          const dp_allocator *memory, uint64_t *key);
 
 #endif

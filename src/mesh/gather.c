@@ -1,8 +1,8 @@
 /* Reading a source into one set of convex polygons.
  *
  * One stable batch of sound polygons is used where it lies: nothing is copied. Everything else is
- * appended to a store that the context keeps from frame to frame. A diagonal that splitting adds has
- * edge flag 0, so that it never draws. */
+ * appended to a store that the context keeps from frame to frame. A diagonal that splitting adds
+ * has edge flag 0, so that it never draws. */
 #include "mesh/polygons.h"
 
 #include "base/diag.h"
@@ -47,8 +47,8 @@ static const float *batch_position(const dp_batch *batch, uint32_t vertex) {
                                          (size_t)vertex * batch->position_stride);
 }
 
-/* The corners' positions; false where an index is out of range or a coordinate is not finite (binning
- * will drop the polygon). */
+/* The corners' positions; false where an index is out of range or a coordinate is not finite
+ * (binning will drop the polygon). */
 static bool locate(const dp_batch *batch, size_t first, size_t n, const float **at) {
     for (size_t i = 0; i < n; i++) {
         const uint32_t vertex = batch_vertex(batch, first + i);
@@ -69,7 +69,8 @@ static bool reserve_scratch(gatherer *g, size_t n) {
 /* True when the pipe can take the polygons of a batch as they are. */
 static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
     *result = DP_OK;
-    if (batch->polygon_count > UINT32_MAX / 4 || !batch->firsts) return batch->polygon_count <= UINT32_MAX / 4;
+    if (batch->polygon_count > UINT32_MAX / 4 || !batch->firsts)
+        return batch->polygon_count <= UINT32_MAX / 4;
     if (batch->corner_count > UINT32_MAX) return false;
     for (size_t i = 0; i < batch->polygon_count; i++) {
         const size_t n = batch->firsts[i + 1] - batch->firsts[i];
@@ -111,7 +112,8 @@ static bool reserve_polygon(gatherer *g, size_t corners) {
     return dp_reserve(g->memory, &s->corners, &s->corners_cap, c, sizeof *s->corners) &&
            dp_reserve(g->memory, &s->edge_flags, &s->flags_cap, c, 1) &&
            dp_reserve(g->memory, &s->firsts, &s->firsts_cap, n + 1, sizeof *s->firsts) &&
-           dp_reserve(g->memory, &s->source_polygon, &s->source_cap, n, sizeof *s->source_polygon) &&
+           dp_reserve(g->memory, &s->source_polygon, &s->source_cap, n,
+                      sizeof *s->source_polygon) &&
            dp_reserve(g->memory, &s->groups, &s->groups_cap, n, sizeof *s->groups) &&
            dp_attribute_reserve_corners(&s->normals, c, g->memory) &&
            dp_attribute_reserve_corners(&s->texcoords, c, g->memory);
@@ -126,7 +128,8 @@ static void begin_polygon(gatherer *g, const dp_batch *batch, size_t i) {
     s->polygons++;
 }
 
-static void add_corner(gatherer *g, uint32_t base, const dp_batch *batch, size_t corner, bool flag) {
+static void add_corner(gatherer *g, uint32_t base, const dp_batch *batch, size_t corner,
+                       bool flag) {
     dp_polygon_store *const s = g->store;
     const uint32_t vertex = batch_vertex(batch, corner);
     s->corners[s->corner_count] = vertex < batch->vertex_count ? base + vertex : UINT32_MAX;
@@ -152,14 +155,15 @@ static dp_result append_whole(gatherer *g, const dp_batch *batch, size_t i, size
 
 static dp_result append_split(gatherer *g, const dp_batch *batch, size_t i, size_t first, size_t n,
                               uint32_t base) {
-    const uint32_t count =
-        dp_split_polygon(g->store->scratch.at, (uint32_t)n, g->store->scratch.links, g->store->scratch.triangles);
+    const uint32_t count = dp_split_polygon(g->store->scratch.at, (uint32_t)n,
+                                            g->store->scratch.links, g->store->scratch.triangles);
     g->stats->split++;
     for (uint32_t t = 0; t < count; t++) {
         if (!reserve_polygon(g, 3)) return out_of_memory(g);
         begin_polygon(g, batch, i);
         for (int k = 0; k < 3; k++) {
-            const uint32_t from = g->store->scratch.triangles[t][k], to = g->store->scratch.triangles[t][(k + 1) % 3];
+            const uint32_t from = g->store->scratch.triangles[t][k],
+                           to = g->store->scratch.triangles[t][(k + 1) % 3];
             const bool outline = to == (from + 1) % n;
             add_corner(g, base, batch, first + from, outline && flag_of(batch, first + from));
         }
@@ -197,7 +201,8 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
         !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory))
         return out_of_memory(g);
     for (size_t v = 0; v < batch->vertex_count; v++)
-        memcpy(s->positions + 3 * (base + v), batch_position(batch, (uint32_t)v), 3 * sizeof(float));
+        memcpy(s->positions + 3 * (base + v), batch_position(batch, (uint32_t)v),
+               3 * sizeof(float));
     s->vertices += batch->vertex_count;
     if (batch->groups) g->has_groups = true;
     for (size_t i = 0; i < batch->polygon_count; i++) {
@@ -209,10 +214,12 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     return DP_OK;
 }
 
-/* Per vertex: position and place on the screen; per polygon: its number, group and place in bins. */
+/* Per vertex: position and place on the screen; per polygon: its number, group and place in bins.
+ */
 static bool is_beyond_limit(const dp_polygon_store *s) {
     enum { VERTEX = 28, CORNER = 5, POLYGON = 34 };
-    return s->limit && VERTEX * s->vertices + CORNER * s->corner_count + POLYGON * s->polygons > s->limit;
+    return s->limit &&
+           VERTEX * s->vertices + CORNER * s->corner_count + POLYGON * s->polygons > s->limit;
 }
 
 static void use_store(const gatherer *g, dp_polygons *out) {
@@ -249,7 +256,8 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
     while (batch.polygon_count) {
         if ((result = append_batch(g, &batch))) return result;
         if ((g->store->is_beyond = is_beyond_limit(g->store)))
-            return dp_fail(g->diag, DP_ERR_LIMIT, "the model takes more than %zu MB of memory", g->store->limit >> 20);
+            return dp_fail(g->diag, DP_ERR_LIMIT, "the model takes more than %zu MB of memory",
+                           g->store->limit >> 20);
         if ((result = dp_source_next(source, &batch, g->diag))) return result;
     }
     use_store(g, out);

@@ -1,12 +1,13 @@
 /* Angle-weighted vertex normals with a crease angle, for any polygons.
  *
- * Vertices are joined by position (`place`), corners are listed by place (`around`), and then each place
- * stands alone: where all its polygons lie within the crease angle of each other its corners share one normal,
- * stored under the place's number; elsewhere every corner gets one of its own, stored behind the places'.
- * Everything but the hash table runs in parallel, over blocks, and nothing depends on their order.
+ * Vertices are joined by position (`place`), corners are listed by place (`around`), and then each
+ * place stands alone: where all its polygons lie within the crease angle of each other its corners
+ * share one normal, stored under the place's number; elsewhere every corner gets one of its own,
+ * stored behind the places'. Everything but the hash table runs in parallel, over blocks, and
+ * nothing depends on their order.
  *
- * A key of positions, corners and angle tells whether the normals of the last call still hold, so that a
- * still model pays for them once. */
+ * A key of positions, corners and angle tells whether the normals of the last call still hold, so
+ * that a still model pays for them once. */
 #include "mesh/normals.h"
 
 #include "base/hostile.h"
@@ -84,7 +85,8 @@ static void hash_positions(void *arg, uint32_t index, uint32_t worker) {
     uint64_t h = index;
     (void)worker;
     if (p->stride == 3 * sizeof(float)) {
-        h = hash_words(h, (const uint32_t *)(const void *)(p->positions + 3 * first), 3 * (last - first));
+        h = hash_words(h, (const uint32_t *)(const void *)(p->positions + 3 * first),
+                       3 * (last - first));
     } else {
         for (size_t v = first; v < last; v++) {
             uint32_t bits[3];
@@ -117,7 +119,9 @@ static uint64_t make_key(const job *j, dp_threads *threads) {
 
 /* ------- polygons: their normals, and the angles of their corners ------- */
 
-static dp_vec3 position(const dp_polygons *p, uint32_t vertex) { return dp_v3f(dp_vertex_position(p, vertex)); }
+static dp_vec3 position(const dp_polygons *p, uint32_t vertex) {
+    return dp_v3f(dp_vertex_position(p, vertex));
+}
 
 /* Unit, by Newell's sum; zero where there is none. */
 static dp_vec3 facet_normal(const dp_polygons *p, uint32_t first, uint32_t n) {
@@ -155,7 +159,8 @@ static void measure_polygons(void *arg, uint32_t index, uint32_t worker) {
             const uint32_t after = dp_corner_vertex(p, first + (c + 1) % n);
             j->store->owner[first + c] = (uint32_t)i;
             j->store->angle[first + c] =
-                sound ? (float)corner_angle(position(p, before), position(p, v), position(p, after)) : 0;
+                sound ? (float)corner_angle(position(p, before), position(p, v), position(p, after))
+                      : 0;
         }
     }
 }
@@ -199,7 +204,8 @@ static void list_corners(const job *j) {
         if (s->angle[c] > 0) s->starts[s->place[dp_corner_vertex(p, (uint32_t)c)] + 1]++;
     for (uint32_t v = 0; v < p->vertex_count; v++) s->starts[v + 1] += s->starts[v];
     for (size_t c = 0; c < j->corners; c++)
-        if (s->angle[c] > 0) s->around[s->starts[s->place[dp_corner_vertex(p, (uint32_t)c)]]++] = (uint32_t)c;
+        if (s->angle[c] > 0)
+            s->around[s->starts[s->place[dp_corner_vertex(p, (uint32_t)c)]]++] = (uint32_t)c;
     for (uint32_t v = p->vertex_count; v > 0; v--) s->starts[v] = s->starts[v - 1];
     s->starts[0] = 0;
 }
@@ -212,25 +218,27 @@ static dp_vec3 weighted(const dp_normal_store *s, uint32_t corner) {
 
 static dp_vec3 mean_around(const dp_normal_store *s, uint32_t place) {
     dp_vec3 sum = {0, 0, 0};
-    for (uint32_t i = s->starts[place]; i < s->starts[place + 1]; i++) sum = dp_add(sum, weighted(s, s->around[i]));
+    for (uint32_t i = s->starts[place]; i < s->starts[place + 1]; i++)
+        sum = dp_add(sum, weighted(s, s->around[i]));
     return dp_unit(sum);
 }
 
-/* Do all polygons around the place lie within the crease angle of each other? A cone of half of it around their
- * mean proves it quickly; pairs decide where it does not. */
+/* Do all polygons around the place lie within the crease angle of each other? A cone of half of it
+ * around their mean proves it quickly; pairs decide where it does not. */
 static bool is_smooth(const job *j, uint32_t place) {
     const dp_normal_store *const s = j->store;
     const uint32_t first = s->starts[place], last = s->starts[place + 1];
     const dp_vec3 mean = mean_around(s, place);
     const double half = sqrt(dp_max(0.5 + 0.5 * (double)j->crease_cosine, 0));
     bool within = true;
-    for (uint32_t i = first; i < last && within; i++) within = dp_dot(mean, dp_v3f(s->facet[s->owner[s->around[i]]])) >= half;
+    for (uint32_t i = first; i < last && within; i++)
+        within = dp_dot(mean, dp_v3f(s->facet[s->owner[s->around[i]]])) >= half;
     if (within) return true;
     if (last - first > CROWD) return false;
     for (uint32_t i = first; i < last; i++)
         for (uint32_t k = first; k < i; k++)
-            if (dp_dot(dp_v3f(s->facet[s->owner[s->around[i]]]), dp_v3f(s->facet[s->owner[s->around[k]]])) <
-                (double)j->crease_cosine)
+            if (dp_dot(dp_v3f(s->facet[s->owner[s->around[i]]]),
+                       dp_v3f(s->facet[s->owner[s->around[k]]])) < (double)j->crease_cosine)
                 return false;
     return dp_dot(mean, mean) > 0;
 }
@@ -244,7 +252,9 @@ static void count_extra(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
-static void put(float to[3], dp_vec3 n) { to[0] = (float)n.x, to[1] = (float)n.y, to[2] = (float)n.z; }
+static void put(float to[3], dp_vec3 n) {
+    to[0] = (float)n.x, to[1] = (float)n.y, to[2] = (float)n.z;
+}
 
 /* The mean of those around that lie within the crease angle of the corner's own polygon. */
 static dp_vec3 creased(const job *j, uint32_t place, uint32_t corner) {
@@ -287,7 +297,8 @@ static size_t number_extra(const job *j) {
     return next;
 }
 
-static bool reserve(dp_normal_store *s, const dp_polygons *p, size_t corners, size_t slots, const dp_allocator *m) {
+static bool reserve(dp_normal_store *s, const dp_polygons *p, size_t corners, size_t slots,
+                    const dp_allocator *m) {
     const size_t vertices = p->vertex_count;
     return dp_reserve(m, &s->facet, &s->facet_cap, p->count, sizeof *s->facet) &&
            dp_reserve(m, &s->angle, &s->angle_cap, corners, sizeof *s->angle) &&
@@ -311,18 +322,22 @@ static bool compute(job *j, dp_threads *threads, const dp_allocator *memory) {
     list_corners(j);
     dp_parallel(threads, blocks(p->vertex_count), count_extra, j);
     j->store->count = number_extra(j);
-    if (!dp_reserve(memory, &j->store->values, &j->store->values_cap, j->store->count, sizeof *j->store->values))
+    if (!dp_reserve(memory, &j->store->values, &j->store->values_cap, j->store->count,
+                    sizeof *j->store->values))
         return false;
     dp_parallel(threads, blocks(p->vertex_count), fill_places, j);
     return true;
 }
 
-bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease, uint64_t *known,
-                     dp_threads *threads, const dp_allocator *memory, dp_attribute *out) {
+bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float crease,
+                     uint64_t *known, dp_threads *threads, const dp_allocator *memory,
+                     dp_attribute *out) {
     *out = (dp_attribute){0};
     if (!polygons->count || !polygons->vertex_count) return true;
-    job j = {.store = store, .polygons = polygons,
-             .corners = polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count,
+    job j = {.store = store,
+             .polygons = polygons,
+             .corners =
+                 polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count,
              .crease_cosine = (float)cos((double)crease * (3.14159265358979323846 / 180))};
     uint64_t unknown = 0, *const shape = known ? known : &unknown; /* key without the angle */
     if (!*shape) {
@@ -332,7 +347,8 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
         *shape = make_key(&j, threads);
         dp_free(memory, j.hashes);
     }
-    const uint64_t mixed = mix(*shape, (uint64_t)((double)j.crease_cosine * 1e15)), key = mixed ? mixed : 1;
+    const uint64_t mixed = mix(*shape, (uint64_t)((double)j.crease_cosine * 1e15)),
+                   key = mixed ? mixed : 1;
     if (key != store->key) {
         store->key = 0;
         const bool made = compute(&j, threads, memory);
@@ -340,7 +356,9 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
         if (!made) return false;
         store->key = key;
     }
-    *out = (dp_attribute){.values = store->values[0], .stride = sizeof *store->values, .count = store->count,
+    *out = (dp_attribute){.values = store->values[0],
+                          .stride = sizeof *store->values,
+                          .count = store->count,
                           .indices = store->indices};
     return true;
 }
@@ -373,8 +391,10 @@ static void pack_vertices(const job *j) {
         const uint32_t v = dp_corner_vertex(p, (uint32_t)c);
         const int16_t *const n = j->store->packed.corner[c];
         if (v >= p->vertex_count || vertex[v][3] == DIFFER) continue;
-        if (vertex[v][3] == UNKNOWN) memcpy(vertex[v], n, 3 * sizeof *n), vertex[v][3] = SHARED;
-        else if (memcmp(vertex[v], n, 3 * sizeof *n)) vertex[v][3] = DIFFER;
+        if (vertex[v][3] == UNKNOWN)
+            memcpy(vertex[v], n, 3 * sizeof *n), vertex[v][3] = SHARED;
+        else if (memcmp(vertex[v], n, 3 * sizeof *n))
+            vertex[v][3] = DIFFER;
     }
 }
 
@@ -397,7 +417,8 @@ static void hash_indices(void *arg, uint32_t index, uint32_t worker) {
     const dp_attribute *const a = &j->polygons->normals;
     const size_t first = (size_t)index * BLOCK, last = block_end(index, j->corners);
     (void)worker;
-    j->hashes[index] = hash_words(index, (a->indices ? a->indices : j->polygons->corners) + first, last - first);
+    j->hashes[index] =
+        hash_words(index, (a->indices ? a->indices : j->polygons->corners) + first, last - first);
 }
 
 /* Of normals that a model brought. */
@@ -417,20 +438,24 @@ bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_thr
                      const dp_allocator *memory) {
     const dp_attribute *const a = &polygons->normals;
     if (!polygons->count) return true;
-    job j = {.store = store, .polygons = polygons,
-             .corners = polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count};
+    job j = {.store = store,
+             .polygons = polygons,
+             .corners = polygons->firsts ? polygons->firsts[polygons->count]
+                                         : 3 * (size_t)polygons->count};
     uint64_t key = store->key; /* of those that were made */
     if (store->count == 0 || a->values != store->values[0]) {
-        j.hashes = dp_alloc_array(memory, blocks(j.corners > a->count ? j.corners : a->count), sizeof *j.hashes);
+        j.hashes = dp_alloc_array(memory, blocks(j.corners > a->count ? j.corners : a->count),
+                                  sizeof *j.hashes);
         if (!j.hashes) return false;
         key = make_value_key(&j, threads);
         dp_free(memory, j.hashes);
     }
     if (key == store->packed_key) return true;
     store->packed_key = 0;
-    if (!dp_reserve(memory, &store->packed.corner, &store->packed_corner_cap, j.corners, sizeof *store->packed.corner) ||
-        !dp_reserve(memory, &store->packed.vertex, &store->packed_vertex_cap, polygons->vertex_count,
-                    sizeof *store->packed.vertex))
+    if (!dp_reserve(memory, &store->packed.corner, &store->packed_corner_cap, j.corners,
+                    sizeof *store->packed.corner) ||
+        !dp_reserve(memory, &store->packed.vertex, &store->packed_vertex_cap,
+                    polygons->vertex_count, sizeof *store->packed.vertex))
         return false;
     dp_parallel(threads, blocks(j.corners), pack_corners, &j);
     pack_vertices(&j);

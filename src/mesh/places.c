@@ -1,9 +1,12 @@
-/* Vertices by position: open addressing, at most half full; slots hold 1 + vertex. -0 and 0 are one place. */
+/* Vertices by position: open addressing, at most half full; slots hold 1 + vertex. -0 and 0 are one
+ * place. */
 #include "mesh/places.h"
 
 #include <string.h>
 
-static bool same_place(const float *p, const float *q) { return p[0] == q[0] && p[1] == q[1] && p[2] == q[2]; }
+static bool same_place(const float *p, const float *q) {
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
 
 static uint32_t place_hash(const float *p) {
     const float q[3] = {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f};
@@ -25,7 +28,8 @@ bool dp_find_places(const dp_polygons *polygons, uint32_t *first, const dp_alloc
         first[v] = v;
         if (!(p[0] == p[0] && p[1] == p[1] && p[2] == p[2])) continue; /* a NaN equals nothing */
         size_t s = place_hash(p) & (slots - 1);
-        while (table[s] && !same_place(p, dp_vertex_position(polygons, table[s] - 1))) s = (s + 1) & (slots - 1);
+        while (table[s] && !same_place(p, dp_vertex_position(polygons, table[s] - 1)))
+            s = (s + 1) & (slots - 1);
         if (!table[s]) table[s] = v + 1;
         first[v] = table[s] - 1;
     }

@@ -4,7 +4,8 @@
 
 #include "mesh/polygons.h"
 
-/* Fills first[vertex_count]. A vertex with a coordinate that is NaN stands for itself. False when memory is out. */
+/* Fills first[vertex_count]. A vertex with a coordinate that is NaN stands for itself. False when
+ * memory is out. */
 bool dp_find_places(const dp_polygons *polygons, uint32_t *first, const dp_allocator *memory);
 
 #endif

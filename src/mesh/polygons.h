@@ -6,9 +6,9 @@
 #include <drypoint/draw.h>
 #include <drypoint/source.h>
 
-/* Convex, planar polygons over shared vertices. Everything is borrowed from the source where it can be
- * (one stable batch that needs no splitting), from the `store` below otherwise. Indices may still be
- * out of range, coordinates not finite and areas zero: binning drops such polygons. */
+/* Convex, planar polygons over shared vertices. Everything is borrowed from the source where it can
+ * be (one stable batch that needs no splitting), from the `store` below otherwise. Indices may
+ * still be out of range, coordinates not finite and areas zero: binning drops such polygons. */
 typedef struct dp_polygons {
     const float *positions;
     size_t stride; /* bytes */
@@ -39,16 +39,18 @@ typedef struct dp_polygon_store {
     uint16_t *groups;
     size_t positions_cap, corners_cap, firsts_cap, source_cap, flags_cap, groups_cap;
     size_t vertices, corner_count, polygons;
-    size_t limit;   /* bytes that these arrays and what the stages make of them may take; 0: any number */
+    size_t limit;   /* bytes that these arrays and what the stages make of them may take; 0: any
+                       number */
     bool is_beyond; /* they would have taken more */
     dp_attribute_store normals, texcoords;
 } dp_polygon_store;
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator);
 
-/* Reads the source to its end (from its start when it can be rewound), splits what is not convex and
- * planar, and fills `out`. Counts polygons, triangles, split and dropped_corners in `stats`. DP_ERR_LIMIT
- * beyond 2^30 polygons or, with store->is_beyond, beyond store->limit bytes; what can be borrowed costs none. */
+/* Reads the source to its end (from its start when it can be rewound), splits what is not convex
+ * and planar, and fills `out`. Counts polygons, triangles, split and dropped_corners in `stats`.
+ * DP_ERR_LIMIT beyond 2^30 polygons or, with store->is_beyond, beyond store->limit bytes; what can
+ * be borrowed costs none. */
 dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocator *allocator,
                     dp_polygons *out, dp_stats *stats, dp_diag *diag);
 
@@ -66,14 +68,16 @@ static inline uint32_t dp_corner_vertex(const dp_polygons *polygons, uint32_t co
     return polygons->corners ? polygons->corners[corner] : corner;
 }
 
-/* Polygons are looked at in no order of memory: these ask for the vertex numbers of a polygon's first three corners,
- * and for their positions, ahead of the time when they are read. */
+/* Polygons are looked at in no order of memory: these ask for the vertex numbers of a polygon's
+ * first three corners, and for their positions, ahead of the time when they are read. */
 static inline void dp_ask_for_corners(const dp_polygons *polygons, uint32_t polygon) {
-    if (polygons->corners) __builtin_prefetch(&polygons->corners[dp_first_corner(polygons, polygon)]);
+    if (polygons->corners)
+        __builtin_prefetch(&polygons->corners[dp_first_corner(polygons, polygon)]);
 }
 static inline void dp_ask_for_positions(const dp_polygons *polygons, uint32_t polygon) {
     const uint32_t first = dp_first_corner(polygons, polygon);
-    for (uint32_t i = 0; i < 3; i++) __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
+    for (uint32_t i = 0; i < 3; i++)
+        __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
 }
 
 /* Splitting (split.c). `at(i)` is corner i of n in space. */

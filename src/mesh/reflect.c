@@ -1,9 +1,10 @@
 /* A source's mirror image, batch by batch, and a source with a quadrilateral behind it.
  *
- * A reflected batch has all of the batch's vertices, reflected, and behind them those where polygons were cut; its
- * corners name them, each polygon's in the opposite order. Polygons are taken to be convex where they are cut.
- * Invariant: arrays grow and stay for the next batch; every corner has a vertex, a flag and, where the batch has
- * them, numbers of its normal and texture coordinate. A cut corner takes those of the corner that was kept. */
+ * A reflected batch has all of the batch's vertices, reflected, and behind them those where
+ * polygons were cut; its corners name them, each polygon's in the opposite order. Polygons are
+ * taken to be convex where they are cut. Invariant: arrays grow and stay for the next batch; every
+ * corner has a vertex, a flag and, where the batch has them, numbers of its normal and texture
+ * coordinate. A cut corner takes those of the corner that was kept. */
 #include "mesh/reflect.h"
 
 #include "base/diag.h"
@@ -26,12 +27,15 @@ typedef struct reflection {
     uint8_t *flags;
     uint16_t *groups;
     corner *corners, *kept; /* of one polygon */
-    size_t positions_cap, normals_cap, indices_cap, firsts_cap, normal_cap, texcoord_cap, flags_cap, groups_cap;
+    size_t positions_cap, normals_cap, indices_cap, firsts_cap, normal_cap, texcoord_cap, flags_cap,
+        groups_cap;
     size_t corners_cap, kept_cap;
     size_t vertices, corner_count, polygons; /* of the batch that is made */
 } reflection;
 
-static const float *position(const reflection *r, uint32_t vertex) { return r->positions + 3 * (size_t)vertex; }
+static const float *position(const reflection *r, uint32_t vertex) {
+    return r->positions + 3 * (size_t)vertex;
+}
 
 static double side_of(const dp_plane_equation *plane, const float *p) {
     return plane->n[0] * p[0] + plane->n[1] * p[1] + plane->n[2] * p[2] - plane->offset;
@@ -47,24 +51,31 @@ static void reflect_direction(const dp_plane_equation *plane, const float *v, fl
     for (int k = 0; k < 3; k++) to[k] = (float)(v[k] - twice * plane->n[k]);
 }
 
-#define RESERVE(r, array, cap, need) dp_reserve(&(r)->memory, &(r)->array, &(r)->cap, (need), sizeof *(r)->array)
+#define RESERVE(r, array, cap, need)                                                               \
+    dp_reserve(&(r)->memory, &(r)->array, &(r)->cap, (need), sizeof *(r)->array)
 
 static bool reserve_batch(reflection *r, const dp_batch *b) {
-    return dp_reserve(&r->memory, &r->positions, &r->positions_cap, 3 * (b->vertex_count + 8), sizeof(float)) &&
-           dp_reserve(&r->memory, &r->normals, &r->normals_cap, 3 * b->normals.count + 3, sizeof(float)) &&
-           RESERVE(r, firsts, firsts_cap, b->polygon_count + 1) && RESERVE(r, groups, groups_cap, b->polygon_count + 1);
+    return dp_reserve(&r->memory, &r->positions, &r->positions_cap, 3 * (b->vertex_count + 8),
+                      sizeof(float)) &&
+           dp_reserve(&r->memory, &r->normals, &r->normals_cap, 3 * b->normals.count + 3,
+                      sizeof(float)) &&
+           RESERVE(r, firsts, firsts_cap, b->polygon_count + 1) &&
+           RESERVE(r, groups, groups_cap, b->polygon_count + 1);
 }
 
 /* Room for one more polygon of up to n + 1 corners, two of them at new vertices. */
 static bool reserve_polygon(reflection *r, size_t n) {
     const size_t corners = r->corner_count + n + 2;
-    return dp_reserve(&r->memory, &r->positions, &r->positions_cap, 3 * (r->vertices + 2 * n + 2), sizeof(float)) &&
+    return dp_reserve(&r->memory, &r->positions, &r->positions_cap, 3 * (r->vertices + 2 * n + 2),
+                      sizeof(float)) &&
            RESERVE(r, indices, indices_cap, corners) && RESERVE(r, flags, flags_cap, corners) &&
-           RESERVE(r, normal_indices, normal_cap, corners) && RESERVE(r, texcoord_indices, texcoord_cap, corners) &&
+           RESERVE(r, normal_indices, normal_cap, corners) &&
+           RESERVE(r, texcoord_indices, texcoord_cap, corners) &&
            RESERVE(r, corners, corners_cap, n) && RESERVE(r, kept, kept_cap, 2 * n + 2);
 }
 
-/* A vertex where the edge from a to b meets the plane; positions are reflected already, which changes nothing there. */
+/* A vertex where the edge from a to b meets the plane; positions are reflected already, which
+ * changes nothing there. */
 static uint32_t cut(reflection *r, const corner *a, const corner *b) {
     const float *const p = position(r, a->vertex), *const q = position(r, b->vertex);
     const double t = a->side / (a->side - b->side);
@@ -104,23 +115,29 @@ static void close_polygon(reflection *r, size_t n, uint16_t group) {
 }
 
 static bool add_polygon(reflection *r, const dp_batch *b, size_t i) {
-    const size_t first = b->firsts ? b->firsts[i] : 3 * i, last = b->firsts ? b->firsts[i + 1] : 3 * i + 3, n = last - first;
+    const size_t first = b->firsts ? b->firsts[i] : 3 * i,
+                 last = b->firsts ? b->firsts[i + 1] : 3 * i + 3, n = last - first;
     size_t inside = 0, before = 0, wrong = 0; /* before: not only in the plane */
     if (!reserve_polygon(r, n)) return false;
     for (size_t c = first; c < last; c++) {
         const uint32_t v = b->indices ? b->indices[c] : (uint32_t)c;
         corner *const to = &r->corners[c - first];
-        *to = (corner){.vertex = v < b->vertex_count ? v : UINT32_MAX, .flag = !b->edge_flags || b->edge_flags[c],
-                       .normal = dp_attribute_number(&b->normals, c, v), .texcoord = dp_attribute_number(&b->texcoords, c, v)};
+        *to = (corner){.vertex = v < b->vertex_count ? v : UINT32_MAX,
+                       .flag = !b->edge_flags || b->edge_flags[c],
+                       .normal = dp_attribute_number(&b->normals, c, v),
+                       .texcoord = dp_attribute_number(&b->texcoords, c, v)};
         wrong += to->vertex == UINT32_MAX;
-        if (to->vertex != UINT32_MAX) to->side = -side_of(&r->plane, position(r, v)); /* its image lies beyond */
+        if (to->vertex != UINT32_MAX)
+            to->side = -side_of(&r->plane, position(r, v)); /* its image lies beyond */
         inside += to->side >= 0;
         before += to->side > 0;
     }
     if (!before && !wrong) return true;
     size_t count = n;
-    if (inside < n && !wrong) count = clip(r, n);
-    else if (n) memcpy(r->kept, r->corners, n * sizeof *r->kept);
+    if (inside < n && !wrong)
+        count = clip(r, n);
+    else if (n)
+        memcpy(r->kept, r->corners, n * sizeof *r->kept);
     close_polygon(r, count, b->groups ? b->groups[i] : 0);
     return true;
 }
@@ -128,10 +145,13 @@ static bool add_polygon(reflection *r, const dp_batch *b, size_t i) {
 static bool reflect_batch(reflection *r, const dp_batch *b) {
     if (!reserve_batch(r, b)) return false;
     for (size_t v = 0; v < b->vertex_count; v++)
-        reflect_point(&r->plane, (const float *)(const void *)((const char *)b->positions + v * b->position_stride),
-                      r->positions + 3 * v);
+        reflect_point(
+            &r->plane,
+            (const float *)(const void *)((const char *)b->positions + v * b->position_stride),
+            r->positions + 3 * v);
     for (size_t i = 0; b->normals.values && i < b->normals.count; i++)
-        reflect_direction(&r->plane, dp_attribute_value(&b->normals, (uint32_t)i), r->normals + 3 * i);
+        reflect_direction(&r->plane, dp_attribute_value(&b->normals, (uint32_t)i),
+                          r->normals + 3 * i);
     r->vertices = b->vertex_count;
     r->corner_count = r->polygons = 0;
     r->firsts[0] = 0;
@@ -146,20 +166,32 @@ static dp_result reflection_next(void *user, dp_batch *out, dp_diag *diag) {
     do { /* a batch that lies wholly behind has no image, and an empty batch would be the end */
         const dp_result result = dp_source_next(r->source, &b, diag);
         if (result || !b.polygon_count) return result;
-        if (!reflect_batch(r, &b)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror image");
+        if (!reflect_batch(r, &b))
+            return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror image");
     } while (!r->polygons);
-    *out = (dp_batch){.positions = r->positions, .vertex_count = r->vertices, .indices = r->indices,
-                      .corner_count = r->corner_count, .firsts = r->firsts, .polygon_count = r->polygons,
-                      .edge_flags = r->flags, .groups = b.groups ? r->groups : NULL};
-    if (b.normals.values) out->normals = (dp_attribute){.values = r->normals, .count = b.normals.count, .indices = r->normal_indices};
+    *out = (dp_batch){.positions = r->positions,
+                      .vertex_count = r->vertices,
+                      .indices = r->indices,
+                      .corner_count = r->corner_count,
+                      .firsts = r->firsts,
+                      .polygon_count = r->polygons,
+                      .edge_flags = r->flags,
+                      .groups = b.groups ? r->groups : NULL};
+    if (b.normals.values)
+        out->normals = (dp_attribute){
+            .values = r->normals, .count = b.normals.count, .indices = r->normal_indices};
     out->texcoords = b.texcoords;
     if (b.texcoords.values) out->texcoords.indices = r->texcoord_indices;
     return DP_OK;
 }
 
-static dp_result reflection_rewind(void *user, dp_diag *diag) { return dp_source_rewind(((reflection *)user)->source, diag); }
+static dp_result reflection_rewind(void *user, dp_diag *diag) {
+    return dp_source_rewind(((reflection *)user)->source, diag);
+}
 
-static uint32_t reflection_color(void *user, uint32_t group) { return dp_source_group_color(((reflection *)user)->source, group); }
+static uint32_t reflection_color(void *user, uint32_t group) {
+    return dp_source_group_color(((reflection *)user)->source, group);
+}
 
 static void reflection_destroy(void *user) {
     reflection *const r = user;
@@ -177,16 +209,19 @@ static void reflection_destroy(void *user) {
     dp_free(&memory, r);
 }
 
-dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane, const dp_allocator *memory,
-                            dp_source **out, dp_diag *diag) {
+dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane,
+                            const dp_allocator *memory, dp_source **out, dp_diag *diag) {
     reflection *const r = dp_alloc_zeroed(memory, sizeof *r);
     if (!r) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror image");
     r->source = source;
     r->plane = *plane;
     r->memory = *memory;
-    const dp_source_callbacks callbacks = {.user = r, .next = reflection_next, .destroy = reflection_destroy,
-                                           .group_color = reflection_color,
-                                           .rewind = dp_source_rewindable(source) ? reflection_rewind : NULL};
+    const dp_source_callbacks callbacks = {
+        .user = r,
+        .next = reflection_next,
+        .destroy = reflection_destroy,
+        .group_color = reflection_color,
+        .rewind = dp_source_rewindable(source) ? reflection_rewind : NULL};
     const dp_result result = dp_source_from_callbacks(&callbacks, memory, out, diag);
     if (result) dp_free(memory, r);
     return result;
@@ -212,8 +247,12 @@ static dp_result with_quad_next(void *user, dp_batch *out, dp_diag *diag) {
     }
     *out = (dp_batch){0};
     if (!q->done)
-        *out = (dp_batch){.positions = q->corners[0], .vertex_count = 4, .corner_count = 4, .firsts = firsts,
-                          .polygon_count = 1, .groups = q->group};
+        *out = (dp_batch){.positions = q->corners[0],
+                          .vertex_count = 4,
+                          .corner_count = 4,
+                          .firsts = firsts,
+                          .polygon_count = 1,
+                          .groups = q->group};
     q->done = true;
     return DP_OK;
 }
@@ -224,7 +263,9 @@ static dp_result with_quad_rewind(void *user, dp_diag *diag) {
     return dp_source_rewind(q->source, diag);
 }
 
-static uint32_t with_quad_color(void *user, uint32_t group) { return dp_source_group_color(((with_quad *)user)->source, group); }
+static uint32_t with_quad_color(void *user, uint32_t group) {
+    return dp_source_group_color(((with_quad *)user)->source, group);
+}
 
 static void with_quad_destroy(void *user) {
     with_quad *const q = user;
@@ -232,17 +273,20 @@ static void with_quad_destroy(void *user) {
     dp_free(&memory, q);
 }
 
-dp_result dp_add_quad_source(dp_source *source, const float corners[4][3], uint16_t group, const dp_allocator *memory,
-                             dp_source **out, dp_diag *diag) {
+dp_result dp_add_quad_source(dp_source *source, const float corners[4][3], uint16_t group,
+                             const dp_allocator *memory, dp_source **out, dp_diag *diag) {
     with_quad *const q = dp_alloc_zeroed(memory, sizeof *q);
     if (!q) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
     q->source = source;
     q->memory = *memory;
     q->group[0] = group;
     memcpy(q->corners, corners, sizeof q->corners);
-    const dp_source_callbacks callbacks = {.user = q, .next = with_quad_next, .destroy = with_quad_destroy,
+    const dp_source_callbacks callbacks = {.user = q,
+                                           .next = with_quad_next,
+                                           .destroy = with_quad_destroy,
                                            .group_color = with_quad_color,
-                                           .rewind = dp_source_rewindable(source) ? with_quad_rewind : NULL};
+                                           .rewind = dp_source_rewindable(source) ? with_quad_rewind
+                                                                                  : NULL};
     const dp_result result = dp_source_from_callbacks(&callbacks, memory, out, diag);
     if (result) dp_free(memory, q);
     return result;

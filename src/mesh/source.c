@@ -54,7 +54,8 @@ static void arrays_destroy(void *user) {
 dp_result dp_source_from_arrays(const dp_batch *batch, const dp_allocator *allocator,
                                 dp_source **out, dp_diag *diag) {
     if (!out || !batch || (batch->polygon_count && !batch->positions))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_from_arrays: arrays, positions or out is NULL");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "dp_source_from_arrays: arrays, positions or out is NULL");
     *out = NULL;
     const dp_allocator memory = dp_allocator_resolve(allocator);
     arrays *const self = dp_alloc(&memory, sizeof *self);
@@ -79,7 +80,8 @@ static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
     if (!batch->firsts) return DP_OK;
     for (size_t i = 0; i < batch->polygon_count; i++)
         if (batch->firsts[i] > batch->firsts[i + 1] || batch->firsts[i + 1] > batch->corner_count)
-            return dp_fail(diag, DP_ERR_ARGUMENT, "a batch's firsts do not ascend at polygon %zu", i);
+            return dp_fail(diag, DP_ERR_ARGUMENT, "a batch's firsts do not ascend at polygon %zu",
+                           i);
     return DP_OK;
 }
 
@@ -136,7 +138,8 @@ void dp_source_destroy(dp_source *source) {
 static const float *corner(const dp_batch *batch, size_t c) {
     const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
     if (v >= batch->vertex_count) return NULL;
-    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         v * batch->position_stride);
 }
 
 static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *extent) {
@@ -146,7 +149,8 @@ static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *
             extent->bad_index++;
             return;
         }
-        if (p[0] - p[0] + (p[1] - p[1]) + (p[2] - p[2]) != 0) { /* 0, or NaN when any is not finite */
+        if (p[0] - p[0] + (p[1] - p[1]) + (p[2] - p[2]) !=
+            0) { /* 0, or NaN when any is not finite */
             extent->not_finite++;
             return;
         }
@@ -161,9 +165,11 @@ static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *
 }
 
 dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
-    if (!source || !extent) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
+    if (!source || !extent)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
     if (source->records.read) return dp_records_extent(source, extent, diag);
-    dp_extent sum = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0, 0, 0, 0};
+    dp_extent sum = {
+        {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0, 0, 0, 0};
     for (;;) {
         dp_batch batch;
         const dp_result result = dp_source_next(source, &batch, diag);
@@ -178,7 +184,8 @@ dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) 
         sum.polygons += batch.polygon_count;
         sum.vertices += batch.vertex_count;
     }
-    if (sum.min[0] > sum.max[0]) memset(sum.min, 0, sizeof sum.min), memset(sum.max, 0, sizeof sum.max);
+    if (sum.min[0] > sum.max[0])
+        memset(sum.min, 0, sizeof sum.min), memset(sum.max, 0, sizeof sum.max);
     *extent = sum;
     return dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
 }

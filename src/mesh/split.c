@@ -9,8 +9,8 @@
 
 enum { MANY_CORNERS = 4096 };
 
-/* Beyond this share of its size out of the mean plane a polygon is not planar. Far below what shows in
- * depth, far above float32 rounding of coordinates. */
+/* Beyond this share of its size out of the mean plane a polygon is not planar. Far below what shows
+ * in depth, far above float32 rounding of coordinates. */
 static const double PLANAR = 1e-4;
 
 static dp_vec3 newell(const float *const *at, uint32_t n, double *size) {
@@ -37,7 +37,8 @@ bool dp_is_convex_planar(const float *const *at, uint32_t n) {
         if (fabs(dp_dot(dp_sub(b, dp_v3f(at[0])), normal)) > PLANAR * size) return false;
         turned += atan2(turn, dp_dot(in, out));
     }
-    return turned < 7; /* once around is 2 pi: a pentagram turns left everywhere, but twice around */
+    return turned <
+           7; /* once around is 2 pi: a pentagram turns left everywhere, but twice around */
 }
 
 typedef struct flat {
@@ -60,7 +61,9 @@ static bool coincide(const flat *f, uint32_t a, uint32_t b) {
 static bool is_ear(const flat *f, const uint32_t *next, uint32_t a, uint32_t b, uint32_t c) {
     if (!(side(f, a, b, c) > 0)) return false;
     for (uint32_t p = next[c]; p != a; p = next[p])
-        if (!coincide(f, p, a) && !coincide(f, p, b) && !coincide(f, p, c) && side(f, a, b, p) >= 0 && side(f, b, c, p) >= 0 && side(f, c, a, p) >= 0) return false;
+        if (!coincide(f, p, a) && !coincide(f, p, b) && !coincide(f, p, c) &&
+            side(f, a, b, p) >= 0 && side(f, b, c, p) >= 0 && side(f, c, a, p) >= 0)
+            return false;
     return true;
 }
 

@@ -1,9 +1,10 @@
 /* A tile's candidates by adjacency, instead of by the tile's own table of edges (edges.c).
  *
- * Each polygon of the tile asks what its edges are. Outlines come from the front-facing side, as in Listing 2.1 of
- * Hermosilla and Vázquez 2010; creases from the polygon that comes first in the source. The edge's owner is
- * that one for every class, as in the table, so that segments are the same from both. Edges whose neighbours share no corner
- * with them are open here: a border, where the table would look for what lies across. */
+ * Each polygon of the tile asks what its edges are. Outlines come from the front-facing side, as in
+ * Listing 2.1 of Hermosilla and Vázquez 2010; creases from the polygon that comes first in the
+ * source. The edge's owner is that one for every class, as in the table, so that segments are the
+ * same from both. Edges whose neighbours share no corner with them are open here: a border, where
+ * the table would look for what lies across. */
 #include "pipe/adjacent.h"
 
 #include "mesh/adjacency.h"
@@ -11,7 +12,7 @@
 #include "pipe/fringe.h"
 
 typedef struct shared_edge {
-    uint32_t a, b;          /* owner; partner or UINT32_MAX */
+    uint32_t a, b;           /* owner; partner or UINT32_MAX */
     uint32_t edge_a, edge_b; /* corner number within the polygon */
     bool flipped;
 } shared_edge;
@@ -19,7 +20,9 @@ typedef struct shared_edge {
 static shared_edge owned(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
     const dp_adjacency *const adjacency = frame->adjacency;
     const uint32_t across = adjacency->across[corner];
-    shared_edge e = {.a = polygon, .b = UINT32_MAX, .edge_a = corner - dp_first_corner(&frame->polygons, polygon)};
+    shared_edge e = {.a = polygon,
+                     .b = UINT32_MAX,
+                     .edge_a = corner - dp_first_corner(&frame->polygons, polygon)};
     if (!dp_is_across(across)) return e;
     e.b = dp_polygon_of_corner(adjacency, dp_across_corner(across));
     e.edge_b = dp_across_corner(across) - dp_first_corner(&frame->polygons, e.b);
@@ -39,11 +42,15 @@ static void add_line(dp_tile_worker *w, const shared_edge *e, dp_line line, dp_v
     if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, va)),
                        dp_v3f(dp_vertex_position(polygons, vb)), normal, &spine))
         return;
-    dp_tile_add_candidate(w, (dp_candidate){.a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
-                          &spine);
+    dp_tile_add_candidate(
+        w,
+        (dp_candidate){
+            .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
+        &spine);
 }
 
-/* The normals as the eye sees them: of two polygons that are wound differently one is turned round. */
+/* The normals as the eye sees them: of two polygons that are wound differently one is turned round.
+ */
 static dp_fold fold_of(const dp_frame *frame, const shared_edge *e, bool turned) {
     return dp_fold_seen(frame, e->a, !turned, e->b, turned == e->flipped, e->edge_b);
 }

@@ -1,6 +1,6 @@
-/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box; faces are drawn
- * on the way: front faces first, then of back faces those that the front faces do not hide. Triangles go through
- * the kernel; what is here takes any polygon. */
+/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box;
+ * faces are drawn on the way: front faces first, then of back faces those that the front faces do
+ * not hide. Triangles go through the kernel; what is here takes any polygon. */
 #include "kernel/kernels.h"
 #include "pipe/fringe.h"
 #include "pipe/tile.h"
@@ -22,9 +22,12 @@ static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     out->d0 = (float)(p[0].d - dx * p[0].x - dy * p[0].y);
 }
 
-static uint8_t clamp_px(float v) { return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : v); }
+static uint8_t clamp_px(float v) {
+    return (uint8_t)(v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : v);
+}
 
-static inline __attribute__((always_inline)) void set_box(dp_tile_polygon *out, float x0, float y0, float x1, float y1) {
+static inline __attribute__((always_inline)) void set_box(dp_tile_polygon *out, float x0, float y0,
+                                                          float x1, float y1) {
     out->x0 = clamp_px(x0), out->x1 = clamp_px(x1);
     out->y0 = clamp_px(y0), out->y1 = clamp_px(y1);
     if (x1 >= 0 && y1 >= 0 && x0 < DP_TILE && y0 < DP_TILE) out->flags |= DP_POLYGON_TOUCHES;
@@ -44,22 +47,27 @@ static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
 static void draw(dp_tile_worker *w, uint32_t index, bool backs) {
     const dp_tile_polygon *const p = &w->polygons[index];
     if (!dp_is_surface(w, p)) return;
-    if (p->flags & DP_POLYGON_FRONT || (backs && !dp_tile_is_hidden(w, p))) w->frame->kernels->raster(w, p, index);
+    if (p->flags & DP_POLYGON_FRONT || (backs && !dp_tile_is_hidden(w, p)))
+        w->frame->kernels->raster(w, p, index);
 }
 
 /* The points of a polygon, in tile space, at `points`. */
-static void put_points(const dp_tile_worker *w, uint32_t id, const dp_outline *outline, dp_vertex *points) {
+static void put_points(const dp_tile_worker *w, uint32_t id, const dp_outline *outline,
+                       dp_vertex *points) {
     const uint32_t first = dp_first_corner(&w->frame->polygons, id);
     for (uint32_t i = 0; i < outline->count; i++) {
         const dp_point p = outline->points[i];
         const uint32_t key =
-            outline->clipped ? 0 : w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
+            outline->clipped
+                ? 0
+                : w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
         points[i] = (dp_vertex){p.x - (float)w->tile_x, p.y - (float)w->tile_y, p.d, key};
     }
 }
 
 /* Fills polygon `index`, whose points are to lie at `point`; the worker has room for both. */
-static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t point, const dp_outline *outline, bool backs) {
+static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t point,
+                        const dp_outline *outline, bool backs) {
     const dp_facing facing = dp_outline_facing(w->frame, id, outline);
     dp_tile_polygon *const out = &w->polygons[index];
     dp_vertex *const points = w->points + point;
@@ -70,7 +78,8 @@ static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t
     plane_setup(points, outline->count, out);
     box_setup(points, outline->count, out);
     for (uint32_t i = 0; i < 3 && outline->count == 3; i++)
-        if (dp_tile_edge_reaches(w, out, i, DP_BESIDE)) out->flags |= (uint32_t)DP_POLYGON_NEAR << i & 255;
+        if (dp_tile_edge_reaches(w, out, i, DP_BESIDE))
+            out->flags |= (uint32_t)DP_POLYGON_NEAR << i & 255;
     draw(w, index, backs);
 }
 
@@ -98,7 +107,8 @@ void dp_tile_reassemble(dp_tile_worker *w, uint32_t index, bool backs) {
     dp_outline outline;
     if (!make_outline(w, id, &outline)) return;
     if (outline.count > 3) {
-        if (!DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + outline.count)) return;
+        if (!DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + outline.count))
+            return;
         point = w->point_count;
         w->point_count += outline.count;
     }
@@ -110,7 +120,8 @@ static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count
     const dp_bins *const bins = &w->frame->polygon_bins;
     const size_t all = dp_bins_tile_count(bins, w->tile);
     const size_t room = all + DP_BIN_ROOM;
-    if (!DP_WORKER_RESERVE(w, ids, ids_cap, room) || !DP_WORKER_RESERVE(w, backs, backs_cap, room)) return false;
+    if (!DP_WORKER_RESERVE(w, ids, ids_cap, room) || !DP_WORKER_RESERVE(w, backs, backs_cap, room))
+        return false;
     *count = *back_count = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
@@ -130,7 +141,8 @@ void dp_tile_assemble(dp_tile_worker *w) {
     const dp_kernels *const kernels = w->frame->kernels;
     uint32_t count, back_count;
     w->polygon_count = w->point_count = 0;
-    for (uint32_t i = 0; i < DP_STRIP_SIDES * DP_STRIP; i++) w->strip[i / DP_STRIP][i % DP_STRIP] = DP_DEPTH_EMPTY;
+    for (uint32_t i = 0; i < DP_STRIP_SIDES * DP_STRIP; i++)
+        w->strip[i / DP_STRIP][i % DP_STRIP] = DP_DEPTH_EMPTY;
     if (!collect_ids(w, &count, &back_count)) return;
     if (w->frame->polygons.firsts) {
         for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);

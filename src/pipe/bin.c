@@ -1,8 +1,9 @@
 /* Binning: items to screen tiles.
  *
- * Items are cut into chunks of consecutive numbers. A chunk is one task: its worker makes (tile, item) pairs
- * in its own scratch and sorts them by tile with one counting sort that stays in cache. A tile later walks the chunks in
- * order, so it meets its items in submission order, whatever thread did which chunk. */
+ * Items are cut into chunks of consecutive numbers. A chunk is one task: its worker makes (tile,
+ * item) pairs in its own scratch and sorts them by tile with one counting sort that stays in cache.
+ * A tile later walks the chunks in order, so it meets its items in submission order, whatever
+ * thread did which chunk. */
 #include "pipe/bin.h"
 
 #include "base/hostile.h"
@@ -26,13 +27,17 @@ static bool reserve_pairs(const job *j, dp_bin_scratch *s, size_t need) {
 }
 
 static dp_tile_rect clip(const job *j, dp_tile_rect r) {
-    return (dp_tile_rect){r.x0 > 0 ? r.x0 : 0, r.y0 > 0 ? r.y0 : 0,
+    return (dp_tile_rect){r.x0 > 0 ? r.x0 : 0,
+                          r.y0 > 0 ? r.y0 : 0,
                           r.x1 < (int32_t)j->tiles_x ? r.x1 : (int16_t)j->tiles_x,
-                          r.y1 < (int32_t)j->tiles_y ? r.y1 : (int16_t)j->tiles_y, r.tag, 0};
+                          r.y1 < (int32_t)j->tiles_y ? r.y1 : (int16_t)j->tiles_y,
+                          r.tag,
+                          0};
 }
 
 /* Adds the pairs of an item that spans several tiles; false when memory is out. */
-static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_rect r, size_t *count, uint32_t worker) {
+static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_rect r, size_t *count,
+                      uint32_t worker) {
     if (r.x0 >= r.x1 || r.y0 >= r.y1) return true;
     const size_t most = (size_t)(r.x1 - r.x0) * (size_t)(r.y1 - r.y0);
     if (!reserve_pairs(j, s, *count + most + CHUNK)) return false;
@@ -47,8 +52,10 @@ static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_re
 }
 
 /* Invariant: there is room for one more pair for every item that is left. */
-static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t n, size_t *count, uint32_t worker) {
-    if (!dp_reserve(j->memory, &s->rects, &s->rects_cap, n, sizeof *s->rects) || !reserve_pairs(j, s, CHUNK))
+static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t n, size_t *count,
+                       uint32_t worker) {
+    if (!dp_reserve(j->memory, &s->rects, &s->rects_cap, n, sizeof *s->rects) ||
+        !reserve_pairs(j, s, CHUNK))
         return false;
     j->place(j->arg, first, n, s->rects, worker);
     const dp_tile_rect *const rects = s->rects;
@@ -68,16 +75,20 @@ static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t
     return true;
 }
 
-/* Counting sort by tile. Items that follow each other are often one tile's, and its count must come back from memory
- * before it can grow again: so two halves are counted, and put in place, side by side. */
+/* Counting sort by tile. Items that follow each other are often one tile's, and its count must come
+ * back from memory before it can grow again: so two halves are counted, and put in place, side by
+ * side. */
 static bool sort_chunk(const job *j, dp_bin_scratch *s, size_t count, dp_bin_chunk *chunk) {
     const uint32_t tile_count = j->bins->tile_count;
     const size_t half = count / 2;
-    if (!dp_reserve(j->memory, &chunk->offsets, &chunk->offsets_cap, tile_count + 1, sizeof *chunk->offsets) ||
+    if (!dp_reserve(j->memory, &chunk->offsets, &chunk->offsets_cap, tile_count + 1,
+                    sizeof *chunk->offsets) ||
         !dp_reserve(j->memory, &s->offsets, &s->offsets_cap, tile_count, sizeof *s->offsets) ||
-        !dp_reserve(j->memory, &chunk->entries, &chunk->entries_cap, count + 1, sizeof *chunk->entries)) /* even of none */
+        !dp_reserve(j->memory, &chunk->entries, &chunk->entries_cap, count + 1,
+                    sizeof *chunk->entries)) /* even of none */
         return false;
-    uint32_t *const left = chunk->offsets, *const right = s->offsets, *const entries = chunk->entries;
+    uint32_t *const left = chunk->offsets, *const right = s->offsets,
+                    *const entries = chunk->entries;
     memset(left, 0, (tile_count + 1) * sizeof *left);
     memset(right, 0, tile_count * sizeof *right);
     for (size_t i = 0; i < half; i++) left[s->tiles[i]]++, right[s->tiles[half + i]]++;
@@ -105,12 +116,15 @@ static void bin_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_bin_scratch *const scratch = &j->bins->scratch[worker];
     const uint32_t first = index * CHUNK;
     size_t count = 0;
-    chunk->failed = !make_pairs(j, scratch, first, j->count - first < CHUNK ? j->count - first : CHUNK, &count, worker) ||
-                    !sort_chunk(j, scratch, count, chunk);
+    chunk->failed =
+        !make_pairs(j, scratch, first, j->count - first < CHUNK ? j->count - first : CHUNK, &count,
+                    worker) ||
+        !sort_chunk(j, scratch, count, chunk);
 }
 
 /* Grows an array of structs that must start as zeros. */
-static bool reserve_zeroed(const dp_allocator *memory, void *array, size_t *cap, size_t need, size_t size) {
+static bool reserve_zeroed(const dp_allocator *memory, void *array, size_t *cap, size_t need,
+                           size_t size) {
     const size_t had = *cap;
     if (!dp_reserve(memory, array, cap, need, size)) return false;
     char *start;
@@ -126,7 +140,8 @@ bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tile
     bins->chunk_count = 0;
     bins->tile_count = tiles_x * tiles_y;
     if (!reserve_zeroed(memory, &bins->chunks, &bins->chunks_cap, chunks, sizeof *bins->chunks) ||
-        !reserve_zeroed(memory, &bins->scratch, &bins->scratch_cap, dp_threads_count(threads), sizeof *bins->scratch))
+        !reserve_zeroed(memory, &bins->scratch, &bins->scratch_cap, dp_threads_count(threads),
+                        sizeof *bins->scratch))
         return false;
     job j = {bins, count, tiles_x, tiles_y, place, touches, arg, memory};
     dp_parallel(threads, chunks, bin_chunk, &j);
@@ -162,11 +177,13 @@ size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile) {
 }
 
 uint64_t dp_bins_bytes(const dp_bins *bins) {
-    uint64_t sum = bins->chunks_cap * sizeof *bins->chunks + bins->scratch_cap * sizeof *bins->scratch;
+    uint64_t sum =
+        bins->chunks_cap * sizeof *bins->chunks + bins->scratch_cap * sizeof *bins->scratch;
     for (size_t i = 0; i < bins->chunks_cap; i++)
         sum += sizeof(uint32_t) * (bins->chunks[i].entries_cap + bins->chunks[i].offsets_cap);
     for (size_t i = 0; i < bins->scratch_cap; i++)
-        sum += sizeof(uint32_t) * (bins->scratch[i].items_cap + bins->scratch[i].tiles_cap + bins->scratch[i].offsets_cap) +
+        sum += sizeof(uint32_t) * (bins->scratch[i].items_cap + bins->scratch[i].tiles_cap +
+                                   bins->scratch[i].offsets_cap) +
                bins->scratch[i].rects_cap * sizeof *bins->scratch[i].rects;
     return sum;
 }

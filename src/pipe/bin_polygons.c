@@ -14,12 +14,17 @@ static int16_t tile_of(float px) { return (int16_t)floorf(px / DP_TILE); }
 
 /* Silhouettes as printed lie beyond the polygons that they belong to (fringe.c). */
 static float margin_of(const job *j, uint32_t polygon) {
-    return j->frame->fringe > j->margin && j->frame->outlined[polygon] ? j->frame->fringe : j->margin;
+    return j->frame->fringe > j->margin && j->frame->outlined[polygon] ? j->frame->fringe
+                                                                       : j->margin;
 }
 
 static dp_tile_rect rect_around(float margin, float x0, float y0, float x1, float y1) {
-    return (dp_tile_rect){tile_of(x0 - margin), tile_of(y0 - margin), (int16_t)(tile_of(x1 + margin) + 1),
-                          (int16_t)(tile_of(y1 + margin) + 1), 0, 0};
+    return (dp_tile_rect){tile_of(x0 - margin),
+                          tile_of(y0 - margin),
+                          (int16_t)(tile_of(x1 + margin) + 1),
+                          (int16_t)(tile_of(y1 + margin) + 1),
+                          0,
+                          0};
 }
 
 static dp_tile_rect rect_of(float margin, const dp_outline *outline) {
@@ -35,11 +40,19 @@ static dp_tile_rect rect_of(float margin, const dp_outline *outline) {
 static dp_tile_rect place_polygon(const job *j, uint32_t polygon, dp_bin_worker *self) {
     dp_outline outline;
     switch (dp_outline_make(j->frame, polygon, &self->scratch, &outline)) {
-    case DP_OUTLINE_OUTSIDE: return NOWHERE;
-    case DP_OUTLINE_INDEX: self->stats.dropped_index++; return NOWHERE;
-    case DP_OUTLINE_FINITE: self->stats.dropped_finite++; return NOWHERE;
-    case DP_OUTLINE_MEMORY: self->failed = true; return NOWHERE;
-    case DP_OUTLINE_OK: break;
+    case DP_OUTLINE_OUTSIDE:
+        return NOWHERE;
+    case DP_OUTLINE_INDEX:
+        self->stats.dropped_index++;
+        return NOWHERE;
+    case DP_OUTLINE_FINITE:
+        self->stats.dropped_finite++;
+        return NOWHERE;
+    case DP_OUTLINE_MEMORY:
+        self->failed = true;
+        return NOWHERE;
+    case DP_OUTLINE_OK:
+        break;
     }
     if (dp_outline_is_edge_on(&outline) && dp_polygon_has_no_area(j->frame, polygon)) {
         self->stats.dropped_area++;
@@ -58,11 +71,12 @@ static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects
     }
     j->frame->kernels->place(j->frame, j->margin, first, count, rects);
     for (uint32_t i = 0; i < count; i++)
-        if (rects[i].x0 == DP_UNPLACED || margin_of(j, first + i) > j->margin) rects[i] = place_polygon(j, first + i, self);
+        if (rects[i].x0 == DP_UNPLACED || margin_of(j, first + i) > j->margin)
+            rects[i] = place_polygon(j, first + i, self);
 }
 
-/* False when one edge has the whole widened tile on its outside. The outline is convex; which side is
- * its inside comes from its facing. */
+/* False when one edge has the whole widened tile on its outside. The outline is convex; which side
+ * is its inside comes from its facing. */
 static bool touches(void *arg, uint32_t polygon, int32_t tile_x, int32_t tile_y, uint32_t worker) {
     const job *const j = arg;
     dp_outline outline;
@@ -86,6 +100,7 @@ bool dp_bin_polygons(dp_frame *frame, float margin, dp_bin_worker *workers) {
     job j = {frame, margin, workers};
     bool sound = dp_bins_fill(&frame->polygon_bins, frame->polygons.count, frame->tiles_x,
                               frame->tiles_y, place, touches, &j, frame->threads, frame->memory);
-    for (uint32_t i = 0; i < dp_threads_count(frame->threads); i++) sound = sound && !workers[i].failed;
+    for (uint32_t i = 0; i < dp_threads_count(frame->threads); i++)
+        sound = sound && !workers[i].failed;
     return sound;
 }

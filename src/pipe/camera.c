@@ -7,7 +7,9 @@
 
 static const double PI = 3.14159265358979323846;
 
-static bool finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
+static bool finite3(const double v[3]) {
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
 
 /* Any axis that is not nearly parallel to `forward`; y first, since models mostly stand on y. */
 static dp_vec3 usable_up(dp_vec3 forward, dp_vec3 up) {
@@ -27,8 +29,22 @@ dp_result dp_camera_look_at(dp_camera *camera, const double eye[3], const double
     const dp_vec3 f = dp_unit(line);
     const dp_vec3 r = dp_unit(dp_cross(f, usable_up(f, dp_v3(up[0], up[1], up[2]))));
     const dp_vec3 u = dp_cross(r, f);
-    const double view[16] = {r.x, u.x, -f.x, 0, r.y, u.y, -f.y, 0, r.z, u.z, -f.z, 0,
-                             -dp_dot(r, from), -dp_dot(u, from), dp_dot(f, from), 1};
+    const double view[16] = {r.x,
+                             u.x,
+                             -f.x,
+                             0,
+                             r.y,
+                             u.y,
+                             -f.y,
+                             0,
+                             r.z,
+                             u.z,
+                             -f.z,
+                             0,
+                             -dp_dot(r, from),
+                             -dp_dot(u, from),
+                             dp_dot(f, from),
+                             1};
     memcpy(camera->view, view, sizeof view);
     return DP_OK;
 }
@@ -39,8 +55,22 @@ dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect, 
         !(far_z > near_z) || !isfinite(far_z) || !isfinite(aspect))
         return DP_ERR_ARGUMENT;
     const double f = 1 / tan(fov_y * PI / 360);
-    const double m[16] = {f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, -(far_z + near_z) / (far_z - near_z), -1,
-                          0, 0, -2 * far_z * near_z / (far_z - near_z), 0};
+    const double m[16] = {f / aspect,
+                          0,
+                          0,
+                          0,
+                          0,
+                          f,
+                          0,
+                          0,
+                          0,
+                          0,
+                          -(far_z + near_z) / (far_z - near_z),
+                          -1,
+                          0,
+                          0,
+                          -2 * far_z * near_z / (far_z - near_z),
+                          0};
     memcpy(camera->projection, m, sizeof m);
     return DP_OK;
 }
@@ -51,8 +81,9 @@ dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect
         !(far_z > near_z) || !isfinite(far_z - near_z))
         return DP_ERR_ARGUMENT;
     const double depth = far_z - near_z;
-    const double m[16] = {2 / (height * aspect), 0, 0, 0, 0, 2 / height, 0, 0, 0, 0, -2 / depth, 0,
-                          0, 0, -(far_z + near_z) / depth, 1};
+    const double m[16] = {
+        2 / (height * aspect),     0, 0, 0, 0, 2 / height, 0, 0, 0, 0, -2 / depth, 0, 0, 0,
+        -(far_z + near_z) / depth, 1};
     memcpy(camera->projection, m, sizeof m);
     return DP_OK;
 }
@@ -83,7 +114,8 @@ static dp_vec3 or_default(const double v[3], dp_vec3 other) {
     return dp_length(given) > 0 ? given : other;
 }
 
-/* The box's eight corners about its centre along the camera's axes, and the tangents of half the picture. */
+/* The box's eight corners about its centre along the camera's axes, and the tangents of half the
+ * picture. */
 typedef struct framing {
     dp_vec3 corner[8]; /* right, up, away from the eye */
     double tan_x, tan_y;
@@ -92,7 +124,8 @@ typedef struct framing {
 /* Share of the picture's half width or height that stays free. */
 static const double MARGIN = 0.04;
 
-/* Along one axis: all corners are seen where shift + tan * distance >= *a and -shift + tan * distance >= *b. */
+/* Along one axis: all corners are seen where shift + tan * distance >= *a and -shift + tan *
+ * distance >= *b. */
 static void constrain(const framing *f, bool vertical, double tangent, double *a, double *b) {
     *a = *b = -INFINITY;
     for (int i = 0; i < 8; i++) {
@@ -109,7 +142,8 @@ static double frame_perspective(const framing *f, double shift[2]) {
     constrain(f, true, f->tan_y * (1 - MARGIN), &ay, &by);
     for (int i = 0; i < 8; i++) nearest = dp_max(nearest, -f->corner[i].z);
     shift[0] = (ax - bx) / 2, shift[1] = (ay - by) / 2;
-    const double distance = dp_max((ax + bx) / 2 / f->tan_x, (ay + by) / 2 / f->tan_y) / (1 - MARGIN);
+    const double distance =
+        dp_max((ax + bx) / 2 / f->tan_x, (ay + by) / 2 / f->tan_y) / (1 - MARGIN);
     return dp_max(distance, nearest * 1.001);
 }
 
@@ -124,10 +158,12 @@ static double frame_orthographic(const framing *f, double aspect, double shift[2
 
 static framing framing_of(dp_vec3 min, dp_vec3 max, dp_vec3 forward, dp_vec3 up) {
     framing f;
-    const dp_vec3 right = dp_unit(dp_cross(forward, usable_up(forward, up))), upward = dp_cross(right, forward);
+    const dp_vec3 right = dp_unit(dp_cross(forward, usable_up(forward, up))),
+                  upward = dp_cross(right, forward);
     const dp_vec3 half = dp_scale(dp_sub(max, min), 0.5);
     for (int i = 0; i < 8; i++) {
-        const dp_vec3 c = dp_v3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
+        const dp_vec3 c =
+            dp_v3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
         f.corner[i] = dp_v3(dp_dot(c, right), dp_dot(c, upward), dp_dot(c, forward));
     }
     return f;
@@ -143,7 +179,8 @@ static dp_result look(dp_camera *camera, const fitted *f) {
     const dp_vec3 upward = dp_cross(right, f->forward);
     const dp_vec3 at = dp_mad(dp_mad(f->centre, right, f->shift[0]), upward, f->shift[1]);
     const dp_vec3 eye = dp_mad(at, f->forward, -f->distance);
-    return dp_camera_look_at(camera, (const double[3]){eye.x, eye.y, eye.z}, (const double[3]){at.x, at.y, at.z},
+    return dp_camera_look_at(camera, (const double[3]){eye.x, eye.y, eye.z},
+                             (const double[3]){at.x, at.y, at.z},
                              (const double[3]){f->up.x, f->up.y, f->up.z});
 }
 
@@ -166,15 +203,19 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
                 .height = 2 * radius / dp_min(1, aspect)};
     framing frame = framing_of(min, max, f.forward, f.up);
     frame.tan_x = tan(half_y) * aspect, frame.tan_y = tan(half_y);
-    const bool flat = !(dp_length(dp_sub(max, min)) > 0); /* a point has nothing to fill the picture with */
-    if (!fit->steady && !flat && fit->orthographic) f.height = frame_orthographic(&frame, aspect, f.shift);
-    else if (!fit->steady && !flat) f.distance = frame_perspective(&frame, f.shift);
+    const bool flat =
+        !(dp_length(dp_sub(max, min)) > 0); /* a point has nothing to fill the picture with */
+    if (!fit->steady && !flat && fit->orthographic)
+        f.height = frame_orthographic(&frame, aspect, f.shift);
+    else if (!fit->steady && !flat)
+        f.distance = frame_perspective(&frame, f.shift);
     if (fit->height > 0) f.height = fit->height;
     const dp_result result = look(camera, &f);
     if (result) return result;
 
     const double far_z = f.distance + 1.01 * radius, near_z = f.distance - 1.01 * radius;
-    if (fit->orthographic) return dp_camera_orthographic(camera, f.height / zoom, aspect, near_z, far_z);
+    if (fit->orthographic)
+        return dp_camera_orthographic(camera, f.height / zoom, aspect, near_z, far_z);
     /* Zoom narrows the field of view rather than moving the eye: the perspective stays. */
     const double zoomed = 2 * atan(tan(half_y) / zoom) * 180 / PI;
     return dp_camera_perspective(camera, zoomed, aspect, dp_max(near_z, 1e-4 * f.distance), far_z);

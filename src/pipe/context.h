@@ -44,7 +44,8 @@ struct dp_context {
     bool recording_lost;     /* there was no memory to make it; dp_finish says so */
 };
 
-/* dp_draw with one resolved style per group; what holds for the whole picture comes from styles[0]. */
+/* dp_draw with one resolved style per group; what holds for the whole picture comes from styles[0].
+ */
 dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag);
@@ -52,8 +53,8 @@ dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera
 enum { DP_PICTURE_MOST = 32768 /* px, either side */ };
 
 /* dp_draw with a mirror; the style is resolved (shade/mirror.c). */
-dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera, const dp_style *style,
-                           const dp_target *target, dp_diag *diag);
+dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,
+                           const dp_style *style, const dp_target *target, dp_diag *diag);
 
 void dp_recording_free(dp_context *context);
 

@@ -1,16 +1,17 @@
 /* Which samples of a tile a triangle covers, and its depth there.
  *
- * Coverage is the sign of three edge functions. Each is computed from its end points in one canonical
- * order and then negated where the triangle runs the other way, so that two triangles that share an
- * edge get exactly opposite values at every sample, in plain float arithmetic: no sample is missed
- * and none is covered twice. A zero belongs to the side that runs the canonical way.
- * This is the truth for any faster kernel: same operations, same order. */
+ * Coverage is the sign of three edge functions. Each is computed from its end points in one
+ * canonical order and then negated where the triangle runs the other way, so that two triangles
+ * that share an edge get exactly opposite values at every sample, in plain float arithmetic: no
+ * sample is missed and none is covered twice. A zero belongs to the side that runs the canonical
+ * way. This is the truth for any faster kernel: same operations, same order. */
 #ifndef DP_PIPE_COVERAGE_H
 #define DP_PIPE_COVERAGE_H
 
 #include "pipe/samples.h"
 
-/* Inlined into a loop that takes it as a constant argument, which compilers do only when they optimise. */
+/* Inlined into a loop that takes it as a constant argument, which compilers do only when they
+ * optimise. */
 #ifdef __OPTIMIZE__
 #define DP_INLINED static inline __attribute__((always_inline))
 #else
@@ -33,7 +34,8 @@ typedef struct dp_coverage {
     int box[4]; /* px, x0 y0 x1 y1, inclusive */
 } dp_coverage;
 
-/* Takes up to four samples, the first of which is `lane`; those that are covered have a mask of ones. */
+/* Takes up to four samples, the first of which is `lane`; those that are covered have a mask of
+ * ones. */
 typedef void dp_cover(void *arg, size_t lane, dp_i4 in, dp_f4 depth);
 
 static inline dp_edge_function dp_edge_function_make(dp_point p, dp_point q, bool flip) {
@@ -46,7 +48,9 @@ static inline dp_edge_function dp_edge_function_make(dp_point p, dp_point q, boo
                     : (dp_edge_function){a, b, c, 0};
 }
 
-static inline int dp_tile_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v; }
+static inline int dp_tile_px(float v) {
+    return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v;
+}
 
 /* False when it lies beside the tile. */
 static inline bool dp_coverage_make(dp_point a, dp_point b, dp_point c, dp_coverage *out) {
@@ -72,11 +76,10 @@ static inline void dp_trim_row(const dp_edge_function *e, float y, int *x0, int 
     }
 }
 
-/* Calls cover(arg, …) for every vector of samples in the box, covered or not. `vectors` is that of the
- * sampling, given apart so that it can be a constant; `cover` is one too, and is inlined. */
-DP_INLINED void
-dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p, const uint32_t vectors,
-                 dp_cover *const cover, void *arg) {
+/* Calls cover(arg, …) for every vector of samples in the box, covered or not. `vectors` is that of
+ * the sampling, given apart so that it can be a constant; `cover` is one too, and is inlined. */
+DP_INLINED void dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p,
+                                 const uint32_t vectors, dp_cover *const cover, void *arg) {
     const dp_edge_function *const e = c->e;
     const int width = (int)s->cell_width;
     dp_f4 le[3][4], ld[4]; /* what samples add below their pixels' upper edge */
@@ -85,7 +88,8 @@ dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p, 
         ld[v] = dp_splat(p->dy) * s->y[v];
     }
     const dp_f4 nearest = dp_splat(p->nearest);
-    const dp_f4 t0 = dp_splat(e[0].threshold), t1 = dp_splat(e[1].threshold), t2 = dp_splat(e[2].threshold);
+    const dp_f4 t0 = dp_splat(e[0].threshold), t1 = dp_splat(e[1].threshold),
+                t2 = dp_splat(e[2].threshold);
     for (int y = c->box[1]; y <= c->box[3]; y++) {
         int x0 = c->box[0], x1 = c->box[2];
         if (x1 - x0 > 3)

@@ -14,9 +14,10 @@ typedef struct cut {
     bool found;
 } cut;
 
-/* Cuts polygon p with the plane through `at` with unit normal n. Corners within `flat` of the plane count
- * as lying in it and make no cut: touching is not crossing. */
-static cut cut_polygon(const dp_polygons *polygons, uint32_t p, dp_vec3 at, dp_vec3 n, double flat) {
+/* Cuts polygon p with the plane through `at` with unit normal n. Corners within `flat` of the plane
+ * count as lying in it and make no cut: touching is not crossing. */
+static cut cut_polygon(const dp_polygons *polygons, uint32_t p, dp_vec3 at, dp_vec3 n,
+                       double flat) {
     const uint32_t count = dp_corner_count(polygons, p);
     cut out = {.found = false};
     int ends = 0;
@@ -27,8 +28,10 @@ static cut cut_polygon(const dp_polygons *polygons, uint32_t p, dp_vec3 at, dp_v
         least = dp_min(least, da), most = dp_max(most, da);
         if ((da < 0) == (db < 0)) continue;
         const dp_vec3 q = dp_mix(a, b, da / (da - db));
-        if (ends == 0) out.from = q;
-        else out.to = q;
+        if (ends == 0)
+            out.from = q;
+        else
+            out.to = q;
         ends++;
     }
     out.found = ends == 2 && least < -flat && most > flat;
@@ -69,6 +72,7 @@ bool dp_crossing_find(const dp_frame *frame, uint32_t a, uint32_t b, dp_vec3 *fr
     const double t0 = dp_max(a0, b0), t1 = dp_min(a1, b1);
     if (t1 - t0 <= flat) return false;
     *from = dp_mad(o, u, t0), *to = dp_mad(o, u, t1);
-    *normal = dp_unit(dp_add(towards_eye(&frame->view, na, *from), towards_eye(&frame->view, nb, *from)));
+    *normal =
+        dp_unit(dp_add(towards_eye(&frame->view, na, *from), towards_eye(&frame->view, nb, *from)));
     return true;
 }

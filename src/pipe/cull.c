@@ -1,13 +1,15 @@
 /* Which polygons of a tile lie hidden behind its front faces, and the back faces that do not.
  *
  * Front faces are drawn first. Then each block of pixels knows its furthest sample; a polygon whose
- * nearest point lies well behind that in all blocks around it can be seen nowhere, and neither can its
- * edges. In a closed model that is true of nearly all back faces: they are not rasterized at all, add no
- * edges of their own to the table and hide no lines that something nearer does not hide already.
+ * nearest point lies well behind that in all blocks around it can be seen nowhere, and neither can
+ * its edges. In a closed model that is true of nearly all back faces: they are not rasterized at
+ * all, add no edges of their own to the table and hide no lines that something nearer does not hide
+ * already.
  *
- * The depths compared are those of samples, so "well behind" must cover what the surface does between
- * two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond the polygon. Where that is
- * beyond the tile, a strip of samples half a pixel outside stands for it, within the margin of binning. */
+ * The depths compared are those of samples, so "well behind" must cover what the surface does
+ * between two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond
+ * the polygon. Where that is beyond the tile, a strip of samples half a pixel outside stands for
+ * it, within the margin of binning. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -59,12 +61,14 @@ void dp_tile_find_farthest(dp_tile_worker *w) {
     for (uint32_t sx = 1; sx < DP_SPANS; sx++)
         for (uint32_t by = 0; by < DP_RINGED; by++)
             for (uint32_t bx = 0; bx < DP_RINGED; bx++)
-                w->farthest[0][sx][by][bx] = dp_minf(w->farthest[0][0][by][bx], w->farthest[0][sx - 1][by][block_after(bx)]);
+                w->farthest[0][sx][by][bx] =
+                    dp_minf(w->farthest[0][0][by][bx], w->farthest[0][sx - 1][by][block_after(bx)]);
     for (uint32_t sy = 1; sy < DP_SPANS; sy++)
         for (uint32_t sx = 0; sx < DP_SPANS; sx++)
             for (uint32_t by = 0; by < DP_RINGED; by++)
                 for (uint32_t bx = 0; bx < DP_RINGED; bx++)
-                    w->farthest[sy][sx][by][bx] = dp_minf(w->farthest[0][sx][by][bx], w->farthest[sy - 1][sx][block_after(by)][bx]);
+                    w->farthest[sy][sx][by][bx] = dp_minf(
+                        w->farthest[0][sx][by][bx], w->farthest[sy - 1][sx][block_after(by)][bx]);
 }
 
 /* Pixel coordinates go from -1 to DP_TILE; the ring is block 0. */
@@ -74,7 +78,8 @@ static inline bool hides(const dp_tile_worker *w, int x0, int y0, int x1, int y1
     const float limit = nearest + dp_depth_steps(w->frame, nearest, DP_CULL_SLACK);
     const uint32_t bx0 = block_of(x0 - 1), bx1 = block_of(x1 + 1);
     const uint32_t by0 = block_of(y0 - 1), by1 = block_of(y1 + 1);
-    if (bx1 - bx0 < DP_SPANS && by1 - by0 < DP_SPANS) return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
+    if (bx1 - bx0 < DP_SPANS && by1 - by0 < DP_SPANS)
+        return limit < w->farthest[by1 - by0][bx1 - bx0][by0][bx0];
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++)
             if (!(limit < w->farthest[0][0][by][bx])) return false;
@@ -94,7 +99,9 @@ bool dp_tile_is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
 bool dp_tile_see(dp_tile_worker *w, bool culling) {
     const size_t room = (size_t)w->polygon_count + DP_SEEN_ROOM;
     w->seen_count = 0;
-    if (!DP_WORKER_RESERVE(w, seen, seen_cap, room) || !DP_WORKER_RESERVE(w, seen_words, seen_words_cap, DP_SEEN_MEMBERS * room)) return false;
+    if (!DP_WORKER_RESERVE(w, seen, seen_cap, room) ||
+        !DP_WORKER_RESERVE(w, seen_words, seen_words_cap, DP_SEEN_MEMBERS * room))
+        return false;
     w->seen_stride = (uint32_t)room;
     w->frame->kernels->see(w, culling);
     return true;
@@ -104,6 +111,7 @@ void dp_tile_faces(dp_tile_worker *w) {
     if (!dp_tile_see(w, true)) return;
     for (uint32_t i = 0; i < w->seen_count && w->seen[i] < w->undrawn; i++) {
         const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
-        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p)) w->frame->kernels->raster(w, p, w->seen[i]);
+        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
+            w->frame->kernels->raster(w, p, w->seen[i]);
     }
 }

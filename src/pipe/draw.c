@@ -1,9 +1,11 @@
 /* Drawing one picture: the stages in order, and the context that keeps their memory.
  *
- *   source -> gather -> vertices -> bin -> tiles (faces, edges, visibility) -> segments -> ink -> target
+ *   source -> gather -> vertices -> bin -> tiles (faces, edges, visibility) -> segments -> ink ->
+ * target
  *
- * Each stage runs in parallel over blocks, chunks or tiles and is over before the next begins; what a
- * stage hands on is in submission or tile order, so that the picture does not depend on threads. */
+ * Each stage runs in parallel over blocks, chunks or tiles and is over before the next begins; what
+ * a stage hands on is in submission or tile order, so that the picture does not depend on threads.
+ */
 #include "pipe/context.h"
 
 #include "base/diag.h"
@@ -32,7 +34,8 @@ static float margin_of(const dp_frame *f) {
 }
 
 const char *dp_stage_name(dp_stage stage) {
-    static const char *const names[DP_STAGE_COUNT] = {"gather", "vertices", "bin", "tiles", "segments", "shade", "ink"};
+    static const char *const names[DP_STAGE_COUNT] = {"gather",   "vertices", "bin", "tiles",
+                                                      "segments", "shade",    "ink"};
     return (unsigned)stage < DP_STAGE_COUNT ? names[stage] : "unknown";
 }
 
@@ -41,7 +44,9 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     *out = NULL;
     const dp_context_desc d = desc ? *desc : (dp_context_desc){0};
     if (d.memory && d.memory < DP_MEMORY_LEAST)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "%zu bytes of memory are too few; the least is %zu MB", d.memory, DP_MEMORY_LEAST >> 20);
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "%zu bytes of memory are too few; the least is %zu MB", d.memory,
+                       DP_MEMORY_LEAST >> 20);
     const dp_allocator memory = dp_allocator_resolve(d.allocator);
     dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
     if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
@@ -112,11 +117,14 @@ static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *
     *out = *target;
     if (!out->samples) out->samples = 4;
     if (!out->rgba_stride) out->rgba_stride = 4 * (size_t)out->width;
-    if (out->width < 1 || out->height < 1 || out->width > DP_PICTURE_MOST || out->height > DP_PICTURE_MOST)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the picture is %u x %u px; each side must be 1 to %d",
-                       out->width, out->height, DP_PICTURE_MOST);
+    if (out->width < 1 || out->height < 1 || out->width > DP_PICTURE_MOST ||
+        out->height > DP_PICTURE_MOST)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the picture is %u x %u px; each side must be 1 to %d", out->width,
+                       out->height, DP_PICTURE_MOST);
     if (out->samples != 1 && out->samples != 4 && out->samples != 8 && out->samples != 16)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "%u samples per pixel; it must be 1, 4, 8 or 16", out->samples);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u samples per pixel; it must be 1, 4, 8 or 16",
+                       out->samples);
     if (out->rgba_stride < 4 * (size_t)out->width)
         return dp_fail(diag, DP_ERR_ARGUMENT, "rgba_stride is less than a row of pixels");
     return DP_OK;
@@ -126,7 +134,8 @@ static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *
 static void begin_view(dp_frame *f) {
     const float size = (float)(1 / f->view.focal);
     f->kernels = dp_kernels_best();
-    f->culls_backs = f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
+    f->culls_backs =
+        f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
     f->nearly_edge_on = dp_nearly_edge_on(&f->view);
     f->step_scale = f->view.perspective ? size : 0;
     f->step_offset = f->view.perspective ? 0 : size;
@@ -148,24 +157,27 @@ static bool begin_frame(dp_context *c) {
     f->tiles_y = (f->target.height + DP_TILE - 1) / DP_TILE;
     f->tile_samples = (size_t)DP_TILE * DP_TILE * f->target.samples;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y;
-    return dp_reserve(&c->memory, &f->depth, &c->depth_cap, tiles * f->tile_samples, sizeof *f->depth) &&
+    return dp_reserve(&c->memory, &f->depth, &c->depth_cap, tiles * f->tile_samples,
+                      sizeof *f->depth) &&
            dp_reserve(&c->memory, &f->tile_pieces, &c->pieces_cap, tiles, sizeof *f->tile_pieces) &&
            begin_workers(c);
 }
 
-/* Half a degree short of the least fold that any group draws, a right angle at the most; above 1, but less than
- * DP_AWAY's square, where flat edges are lines too. */
+/* Half a degree short of the least fold that any group draws, a right angle at the most; above 1,
+ * but less than DP_AWAY's square, where flat edges are lines too. */
 static float flat_cosine(const dp_style *styles, uint32_t count) {
     float least = 180;
     for (uint32_t i = 0; i < count; i++)
         least = dp_minf(least, dp_minf(180 - styles[i].ridge_angle, styles[i].valley_angle - 180));
-    return least > 1 ? (float)cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180) : 2;
+    return least > 1 ? (float)cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180)
+                     : 2;
 }
 
 /* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
 static float calm_spread(float flat_cosine) {
     if (flat_cosine > 1) return 0;
-    const double angle = acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
+    const double angle =
+        acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
     const double chord = angle > 0 ? 2 * sin(angle / 2) * DP_UMBRELLA_ONE : 0;
     return (float)(chord * chord);
 }
@@ -187,7 +199,8 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
 
 static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
-    (dp_is_by_hand(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker], index);
+    (dp_is_by_hand(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker],
+                                                             index);
 }
 
 /* A part of a long loop, so that progress can be told between the parts. */
@@ -231,12 +244,13 @@ static void add_counts(dp_stats *sum, const dp_stats *s) {
 static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
     s->dropped = s->dropped_index + s->dropped_finite + s->dropped_area + s->dropped_corners;
     if (!s->dropped || s->dropped < pieces + s->dropped_corners) return DP_OK;
-    return dp_fail(diag, DP_ERR_FORMAT,
-                   "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
-                   "coordinates that are not finite, %llu without area, %llu with fewer than 3 corners",
-                   (unsigned long long)s->polygons, (unsigned long long)s->dropped_index,
-                   (unsigned long long)s->dropped_finite, (unsigned long long)s->dropped_area,
-                   (unsigned long long)s->dropped_corners);
+    return dp_fail(
+        diag, DP_ERR_FORMAT,
+        "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
+        "coordinates that are not finite, %llu without area, %llu with fewer than 3 corners",
+        (unsigned long long)s->polygons, (unsigned long long)s->dropped_index,
+        (unsigned long long)s->dropped_finite, (unsigned long long)s->dropped_area,
+        (unsigned long long)s->dropped_corners);
 }
 
 /* All that stays from frame to frame, but for the small change. */
@@ -246,10 +260,12 @@ static uint64_t scratch_bytes(const dp_context *c) {
                    c->pieces_cap * sizeof(dp_tile_pieces) + c->facing_cap + c->outlined_cap +
                    dp_adjacency_bytes(&c->adjacency) + dp_bins_bytes(&c->frame.polygon_bins) +
                    dp_bins_bytes(&c->frame.stroke_bins);
-    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap + 2 * p->groups_cap;
+    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap +
+           2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
            c->strokes.strokes_cap * sizeof(dp_stroke) + c->marks.marks_cap * sizeof(dp_mark);
-    for (uint32_t i = 0; i < c->workers; i++) sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
+    for (uint32_t i = 0; i < c->workers; i++)
+        sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
     return sum;
 }
 
@@ -266,14 +282,16 @@ static bool is_polar(const dp_frame *f) {
     return dp_is_fringed(f);
 }
 
-/* Who paints: the tiles, or shading after them. Tiles that ink before surfaces are shaded (quads, fringes) do so on a
- * layer of its own then. False when memory is out. */
+/* Who paints: the tiles, or shading after them. Tiles that ink before surfaces are shaded (quads,
+ * fringes) do so on a layer of its own then. False when memory is out. */
 static bool begin_paint(dp_context *c) {
     dp_frame *const f = &c->frame;
     const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f));
     f->painted_later = c->shade.colored;
     if (!f->painted_later || !inks_early) return true;
-    if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap, 4 * (size_t)f->target.width * f->target.height, 1)) return false;
+    if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap,
+                    4 * (size_t)f->target.width * f->target.height, 1))
+        return false;
     f->ink_layer = c->shade.inked;
     return true;
 }
@@ -284,7 +302,8 @@ static bool find_adjacency(dp_context *c) {
     bool built;
     if (!dp_adjacency_update(&c->adjacency, &f->polygons, c->threads, &c->memory, &built) ||
         !dp_reserve(&c->memory, &f->facing, &c->facing_cap, f->polygons.count, sizeof *f->facing) ||
-        !dp_reserve(&c->memory, &f->outlined, &c->outlined_cap, f->polygons.count, sizeof *f->outlined))
+        !dp_reserve(&c->memory, &f->outlined, &c->outlined_cap, f->polygons.count,
+                    sizeof *f->outlined))
         return false;
     f->adjacency = &c->adjacency;
     c->stats.adjacency_ms = built ? c->adjacency.ms : 0;
@@ -297,8 +316,9 @@ static bool find_adjacency(dp_context *c) {
 /* Everything but plain lines over one colour looks at all polygons at once. */
 static bool may_stream(const dp_context *c) {
     const dp_style *const style = &c->frame.styles[0];
-    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && style->edges != DP_EDGES_ADJACENCY &&
-           !c->shade.active && !is_polar(&c->frame) && !(style->stroke.light > 0);
+    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 &&
+           style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !is_polar(&c->frame) &&
+           !(style->stroke.light > 0);
 }
 
 /* Whether to stream is decided by the source's size where it tells, else while it is gathered. */
@@ -308,18 +328,23 @@ static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag
     *streams = may && (dp_stream_is_large(source, c->limit) || (!rewindable && style->passes == 1));
     if (*streams) return DP_OK;
     c->polygons.limit = may ? c->limit : 0;
-    const dp_result result = dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
+    const dp_result result =
+        dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
     if (!result || !c->polygons.is_beyond) return result;
     if (!rewindable)
-        return dp_fail(diag, DP_ERR_LIMIT, "the model takes more than %zu MB and can be read only once: allow more memory, draw "
-                       "it with one pass, or from a file", c->limit >> 20);
+        return dp_fail(
+            diag, DP_ERR_LIMIT,
+            "the model takes more than %zu MB and can be read only once: allow more memory, draw "
+            "it with one pass, or from a file",
+            c->limit >> 20);
     dp_polygon_store_free(&c->polygons, &c->memory);
     c->stats = (dp_stats){0};
     *streams = true;
     return DP_OK;
 }
 
-static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
+static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
+                              double *since, dp_diag *diag) {
     dp_result result = dp_stream_read_model(c, source, stream, diag);
     if (result) return result;
     lap(&c->stats, DP_STAGE_GATHER, since);
@@ -329,7 +354,8 @@ static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw *
     return check_dropped(&c->stats, c->stats.polygons, diag);
 }
 
-static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **stream, double *since, dp_diag *diag) {
+static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
+                            double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
     dp_result result = gather(c, source, &streams, diag);
@@ -338,16 +364,18 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.bends.ms;
     if (dp_shade_needs_normals(&c->shade) &&
-        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle, source->constant ? &source->key : NULL,
-                         c->threads, &c->memory,
+        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle,
+                         source->constant ? &source->key : NULL, c->threads, &c->memory,
                          &f->polygons.normals))
         return out_of_memory(diag);
     if (c->shade.active && f->polygons.normals.values) {
-        if (!dp_normals_pack(&c->normals, &f->polygons, c->threads, &c->memory)) return out_of_memory(diag);
+        if (!dp_normals_pack(&c->normals, &f->polygons, c->threads, &c->memory))
+            return out_of_memory(diag);
         c->shade.gbuffer.normals = &c->normals.packed;
     }
     lap(&c->stats, DP_STAGE_GATHER, since);
-    if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices))
+    if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count,
+                    sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
     if (f->styles[0].edges == DP_EDGES_ADJACENCY && !find_adjacency(c)) return out_of_memory(diag);
@@ -389,15 +417,15 @@ static bool make_strokes(dp_context *c) {
     return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
 }
 
-static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
+static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream,
+                             dp_diag *diag) {
     double since = now_ms();
     const double start = since;
     c->shade.source = source;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, stream, &since, diag);
     if (result) return result;
-    if (!make_strokes(c))
-        return out_of_memory(diag);
+    if (!make_strokes(c)) return out_of_memory(diag);
     c->stats.segments = c->frame.segment_count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
     if ((result = shade(c, diag))) return result;
@@ -452,7 +480,8 @@ dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camer
     dp_style resolved;
     const dp_result result = dp_style_resolve(style, &resolved, diag);
     if (result) return result;
-    if (resolved.mirror.size > 0) return dp_draw_mirrored(context, source, camera, &resolved, target, diag);
+    if (resolved.mirror.size > 0)
+        return dp_draw_mirrored(context, source, camera, &resolved, target, diag);
     return dp_draw_groups(context, source, camera, &resolved, 1, target, diag);
 }
 

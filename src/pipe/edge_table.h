@@ -18,21 +18,24 @@ typedef struct dp_edge_entry {
     bool opposed;            /* b runs it from vb to va, as it should */
 } dp_edge_entry;
 
-/* Lists the edges of all seen polygons, but for many that are flat, and those of triangles whose normals are to be made,
- * then; enters what is listed. False when memory is out. */
+/* Lists the edges of all seen polygons, but for many that are flat, and those of triangles whose
+ * normals are to be made, then; enters what is listed. False when memory is out. */
 bool dp_edge_table_list(dp_tile_worker *worker);
 bool dp_edge_table_fill(dp_tile_worker *worker);
 
-/* The number of the first edge from `number` on that may be a line, as the polygon has it that came first;
- * UINT32_MAX: there is none. */
+/* The number of the first edge from `number` on that may be a line, as the polygon has it that came
+ * first; UINT32_MAX: there is none. */
 uint32_t dp_edge_table_next(const dp_tile_worker *worker, uint32_t number);
 
-/* What met at such an edge; va and vb are left to dp_edge_ends, which reads what may be asked for in between. */
+/* What met at such an edge; va and vb are left to dp_edge_ends, which reads what may be asked for
+ * in between. */
 dp_edge_entry dp_edge_table_entry(const dp_tile_worker *worker, uint32_t number);
 
-/* Whose edge a number is; its vertices, in that polygon's direction; and does it run between these vertices, one way or the other? */
+/* Whose edge a number is; its vertices, in that polygon's direction; and does it run between these
+ * vertices, one way or the other? */
 dp_edge_place dp_edge_place_of(const dp_tile_worker *worker, uint32_t number);
 void dp_edge_ends(const dp_tile_worker *worker, dp_edge_place edge, uint32_t *va, uint32_t *vb);
-bool dp_edge_runs_between(const dp_tile_worker *worker, dp_edge_place edge, uint32_t va, uint32_t vb);
+bool dp_edge_runs_between(const dp_tile_worker *worker, dp_edge_place edge, uint32_t va,
+                          uint32_t vb);
 
 #endif

@@ -1,8 +1,9 @@
-/* A tile's lines along edges: what the table of edges holds is resolved into folds, outlines and loose edges.
+/* A tile's lines along edges: what the table of edges holds is resolved into folds, outlines and
+ * loose edges.
  *
- * Nearly all edges are flat, which the table tells (edge_table.c); here come those that may be lines. Two
- * polygons make a ridge, a valley or a silhouette; more than two, or winding that disagrees, are looked at as the
- * eye sees them; one alone is left to emerge (emerge.c). */
+ * Nearly all edges are flat, which the table tells (edge_table.c); here come those that may be
+ * lines. Two polygons make a ridge, a valley or a silhouette; more than two, or winding that
+ * disagrees, are looked at as the eye sees them; one alone is left to emerge (emerge.c). */
 #include "kernel/kernels.h"
 #include "pipe/classify.h"
 #include "pipe/edge_table.h"
@@ -19,8 +20,14 @@ static void leave(dp_tile_worker *w, uint32_t polygon, uint32_t edge) {
 static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry *e) {
     if (w->polygons[e->a].id < w->polygons[e->b].id) return *e;
     const bool opposed = e->opposed;
-    return (dp_edge_entry){opposed ? e->vb : e->va, opposed ? e->va : e->vb, e->b, e->a, e->edge_b, e->edge_a,
-                           e->more, opposed};
+    return (dp_edge_entry){opposed ? e->vb : e->va,
+                           opposed ? e->va : e->vb,
+                           e->b,
+                           e->a,
+                           e->edge_b,
+                           e->edge_a,
+                           e->more,
+                           opposed};
 }
 
 static bool draws(const dp_tile_worker *w, const dp_edge_entry *e, dp_line line) {
@@ -28,18 +35,25 @@ static bool draws(const dp_tile_worker *w, const dp_edge_entry *e, dp_line line)
 }
 
 /* A line of class `line` along an edge of polygon a. */
-static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine) {
-    dp_tile_add_candidate(w, (dp_candidate){.a = w->polygons[e->a].id, .b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id,
-                                            .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
-                          spine);
+static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line,
+                      const dp_spine *spine) {
+    dp_tile_add_candidate(
+        w,
+        (dp_candidate){.a = w->polygons[e->a].id,
+                       .b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id,
+                       .edge = e->edge_a,
+                       .k1 = UINT32_MAX,
+                       .line = (uint8_t)line},
+        spine);
 }
 
 /* The same facing along `normal`. */
 static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->frame->polygons;
     dp_spine spine;
-    if (draws(w, e, line) && dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
-                                           dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
+    if (draws(w, e, line) &&
+        dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
+                      dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
         add_spine(w, e, line, &spine);
 }
 
@@ -61,8 +75,10 @@ static bool set_normals(dp_tile_worker *w) {
     if (!DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)w->polygon_count)) return false;
     for (uint32_t i = 0; i < w->seen_count; i++) {
         const uint32_t index = w->seen[i];
-        if (w->polygons[index].flags & DP_POLYGON_FRONT) dp_tile_exact_normal(w, index);
-        else memcpy(w->normals[index], dp_away, sizeof dp_away);
+        if (w->polygons[index].flags & DP_POLYGON_FRONT)
+            dp_tile_exact_normal(w, index);
+        else
+            memcpy(w->normals[index], dp_away, sizeof dp_away);
     }
     return true;
 }
@@ -81,7 +97,8 @@ static bool is_hidden_edge(const dp_tile_worker *w, const dp_edge_entry *e) {
     if (p->flags & DP_POLYGON_CLIPPED) return false;
     const dp_vertex a = w->points[p->point + e->edge_a];
     const dp_vertex b = w->points[p->point + (e->edge_a + 1u == p->points ? 0 : e->edge_a + 1u)];
-    return dp_tile_hides(w, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x), dp_maxf(a.y, b.y), dp_maxf(a.d, b.d));
+    return dp_tile_hides(w, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x),
+                         dp_maxf(a.y, b.y), dp_maxf(a.d, b.d));
 }
 
 static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
@@ -89,25 +106,31 @@ static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
     const uint32_t front_b = w->polygons[met->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
     const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
-    const dp_fold fold = dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
-    if (front_a && front_b) add_fold(w, e, &fold);
-    else add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
+    const dp_fold fold =
+        dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
+    if (front_a && front_b)
+        add_fold(w, e, &fold);
+    else
+        add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
 }
 
 /* Keys are hashes of positions (edge_table.c): is this the edge of all that met? */
 static bool is_shared(const dp_tile_worker *w, const dp_edge_entry *e) {
     bool shared = dp_edge_runs_between(w, (dp_edge_place){e->b, e->edge_b}, e->va, e->vb);
     for (uint32_t i = e->more; i && shared; i = w->meetings[i - 1].next)
-        shared = dp_edge_runs_between(w, dp_edge_place_of(w, w->meetings[i - 1].number), e->va, e->vb);
+        shared =
+            dp_edge_runs_between(w, dp_edge_place_of(w, w->meetings[i - 1].number), e->va, e->vb);
     return shared;
 }
 
 /* ------- pairs of triangles, many at once ------- */
 
-/* Puts edge i of a batch there if it is one of two triangles, and lets the first in the source own it. */
+/* Puts edge i of a batch there if it is one of two triangles, and lets the first in the source own
+ * it. */
 static bool put_pair(const dp_tile_worker *w, dp_edge_entry *e, dp_fold_batch *f, uint32_t i) {
     const dp_polygons *const polygons = &w->frame->polygons;
-    if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e)) return false;
+    if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e))
+        return false;
     if (!((w->polygons[e->a].flags | w->polygons[e->b].flags) & DP_POLYGON_FRONT)) return false;
     *e = owned_by_first(w, e);
     dp_fold_put(polygons, w->polygons[e->a].id, w->polygons[e->b].id, e->va, e->vb, f, i);
@@ -115,32 +138,37 @@ static bool put_pair(const dp_tile_worker *w, dp_edge_entry *e, dp_fold_batch *f
 }
 
 /* The class of line that edge i makes, or -1. */
-static int pair_line(const dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
-    if (!(w->polygons[e->a].flags & w->polygons[e->b].flags & DP_POLYGON_FRONT)) return DP_LINE_SILHOUETTE;
-    const dp_fold fold = dp_fold_between(w->frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i), dp_fold_vector(f->normal, i),
-                                         w->polygons[e->b].id, e->edge_b);
+static int pair_line(const dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f,
+                     uint32_t i) {
+    if (!(w->polygons[e->a].flags & w->polygons[e->b].flags & DP_POLYGON_FRONT))
+        return DP_LINE_SILHOUETTE;
+    const dp_fold fold =
+        dp_fold_between(w->frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i),
+                        dp_fold_vector(f->normal, i), w->polygons[e->b].id, e->edge_b);
     return dp_fold_line(&fold, dp_polygon_style(w->frame, w->polygons[e->a].id));
 }
 
-static void resolve_put(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
+static void resolve_put(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f,
+                        uint32_t i) {
     if (f->plain[i] == 0) {
         resolve_pair(w, e);
         return;
     }
     const int line = pair_line(w, e, f, i);
     dp_spine spine = dp_fold_spine(f, i);
-    if (line >= 0 && draws(w, e, (dp_line)line) && dp_spine_divide(&spine)) add_spine(w, e, (dp_line)line, &spine);
+    if (line >= 0 && draws(w, e, (dp_line)line) && dp_spine_divide(&spine))
+        add_spine(w, e, (dp_line)line, &spine);
 }
 
 /* ------- fans ------- */
 
-/* A polygon at an edge as the eye sees it: on which side of the edge it lies on the screen, and how fast
- * it comes nearer going away from the edge. */
+/* A polygon at an edge as the eye sees it: on which side of the edge it lies on the screen, and how
+ * fast it comes nearer going away from the edge. */
 typedef struct flap {
     uint32_t polygon, edge;
     bool front;
-    double side;  /* px; the sign tells left or right of va -> vb */
-    double rise;  /* change of depth per px away from the edge */
+    double side; /* px; the sign tells left or right of va -> vb */
+    double rise; /* change of depth per px away from the edge */
 } flap;
 
 static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polygon, uint32_t edge) {
@@ -150,7 +178,8 @@ static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polyg
     if (!(length > 0)) return f;
     const dp_vertex *const points = w->points + p->point;
     for (uint32_t i = 0; i < p->points; i++) {
-        const double x = points[i].x + (double)w->tile_x - s->a.x, y = points[i].y + (double)w->tile_y - s->a.y;
+        const double x = points[i].x + (double)w->tile_x - s->a.x,
+                     y = points[i].y + (double)w->tile_y - s->a.y;
         const double across = (ex * y - ey * x) / length;
         if (fabs(across) > fabs(f.side)) f.side = across;
     }
@@ -159,11 +188,13 @@ static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polyg
     return f;
 }
 
-/* Keeps the flap that is nearest to the eye on its side; of those in one place, the first in the source. */
+/* Keeps the flap that is nearest to the eye on its side; of those in one place, the first in the
+ * source. */
 static void offer_flap(const dp_tile_worker *w, flap best[2], uint32_t count[2], flap f) {
     const int side = f.side < 0;
     const flap had = best[side];
-    const bool is_earlier = count[side] && f.rise == had.rise && w->polygons[f.polygon].id < w->polygons[had.polygon].id;
+    const bool is_earlier = count[side] && f.rise == had.rise &&
+                            w->polygons[f.polygon].id < w->polygons[had.polygon].id;
     if (!count[side]++ || f.rise > had.rise || is_earlier) best[side] = f;
 }
 
@@ -171,7 +202,10 @@ static void offer_flap(const dp_tile_worker *w, flap best[2], uint32_t count[2],
 static dp_edge_entry owned_by_flaps(const dp_tile_worker *w, const flap *p, const flap *q) {
     const bool swap = q && w->polygons[q->polygon].id < w->polygons[p->polygon].id;
     const flap *const a = swap ? q : p, *const b = swap ? p : q;
-    dp_edge_entry e = {.a = a->polygon, .edge_a = a->edge, .b = b ? b->polygon : UINT32_MAX, .edge_b = b ? b->edge : 0};
+    dp_edge_entry e = {.a = a->polygon,
+                       .edge_a = a->edge,
+                       .b = b ? b->polygon : UINT32_MAX,
+                       .edge_b = b ? b->edge : 0};
     dp_edge_ends(w, (dp_edge_place){e.a, e.edge_a}, &e.va, &e.vb);
     return e;
 }
@@ -213,9 +247,11 @@ static void leave_all(dp_tile_worker *w) {
     const dp_polygons *const polygons = &w->frame->polygons;
     for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
-        const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+        const uint32_t first = dp_first_corner(polygons, p->id),
+                       n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
-            if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(w, p, e)) leave(w, i, e);
+            if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(w, p, e))
+                leave(w, i, e);
     }
 }
 
@@ -240,9 +276,10 @@ static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
     }
 }
 
-/* Takes up to DP_FOLDS edges from the table from `*number` on, but for those that lie hidden, and has their polygons
- * fetched meanwhile. */
-static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_entry entries[DP_FOLDS]) {
+/* Takes up to DP_FOLDS edges from the table from `*number` on, but for those that lie hidden, and
+ * has their polygons fetched meanwhile. */
+static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number,
+                             dp_edge_entry entries[DP_FOLDS]) {
     const dp_polygons *const polygons = &w->frame->polygons;
     uint32_t count = 0;
     while (count < DP_FOLDS && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX) {
@@ -261,13 +298,16 @@ static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number, dp_edge_
     return count;
 }
 
-static void resolve_entries(dp_tile_worker *w, dp_edge_entry entries[DP_FOLDS], uint32_t count, dp_fold_batch *folds) {
+static void resolve_entries(dp_tile_worker *w, dp_edge_entry entries[DP_FOLDS], uint32_t count,
+                            dp_fold_batch *folds) {
     bool put[DP_FOLDS];
     for (uint32_t i = 0; i < count; i++) put[i] = put_pair(w, &entries[i], folds, i);
     w->frame->kernels->folds(&w->frame->view, folds, count);
     for (uint32_t i = 0; i < count && !w->failed; i++) {
-        if (put[i]) resolve_put(w, &entries[i], folds, i);
-        else resolve(w, &entries[i]);
+        if (put[i])
+            resolve_put(w, &entries[i], folds, i);
+        else
+            resolve(w, &entries[i]);
     }
 }
 
@@ -281,5 +321,6 @@ void dp_tile_edges(dp_tile_worker *w) {
     dp_edge_entry entries[DP_FOLDS];
     dp_fold_batch folds = {0};
     uint32_t number = 0;
-    for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;) resolve_entries(w, entries, count, &folds);
+    for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;)
+        resolve_entries(w, entries, count, &folds);
 }

@@ -1,14 +1,14 @@
 /* Edges that the table cannot resolve: what lies across them is looked up on the screen.
  *
- * An edge that only one polygon has is a border; or its neighbours share no corner with it: T-junctions,
- * cracks, parts that touch. In the paper the added quads tell these apart, as a neighbour hides or traps
- * them right beside the edge (Raskar 2001, 2.2, 2.3). Here the neighbour is looked for where the quads
- * would lie, a little to either side of the edge, among the polygons whose plane passes through the
- * edge at that place; what is found is classified exactly. So a fold shows by the same thresholds as
- * anywhere else, and an edge with nothing across is a border.
+ * An edge that only one polygon has is a border; or its neighbours share no corner with it:
+ * T-junctions, cracks, parts that touch. In the paper the added quads tell these apart, as a
+ * neighbour hides or traps them right beside the edge (Raskar 2001, 2.2, 2.3). Here the neighbour
+ * is looked for where the quads would lie, a little to either side of the edge, among the polygons
+ * whose plane passes through the edge at that place; what is found is classified exactly. So a fold
+ * shows by the same thresholds as anywhere else, and an edge with nothing across is a border.
  *
- * Data structure: lookups in lists by pixel, three to a sample point of the spine. Not handled: a crack
- * wider than FAR px on the screen (it is drawn as two borders). */
+ * Data structure: lookups in lists by pixel, three to a sample point of the spine. Not handled: a
+ * crack wider than FAR px on the screen (it is drawn as two borders). */
 #include "pipe/classify.h"
 
 #include <string.h>
@@ -17,30 +17,31 @@
  * first, then far enough to look over a crack. */
 static const float NEAR = 0.001f, FAR = 0.05f;
 
-/* A plane passes through the edge when it misses it by less than this in depth, in pixel sizes, or on the
- * screen, in px: corners are placed to float32 precision, which a plane seen edge-on multiplies. */
+/* A plane passes through the edge when it misses it by less than this in depth, in pixel sizes, or
+ * on the screen, in px: corners are placed to float32 precision, which a plane seen edge-on
+ * multiplies. */
 static const double TOUCHING = 0.02;
 static const float PLACED = 0.002f;
 
 enum { LOOKUPS = 3 }; /* near across, far across, near on its own side */
 
 typedef struct dp_lookup {
-    float x, y;           /* where */
-    float ex, ey, ed;     /* the point of the edge */
-    float tolerance;      /* of depth there */
-    uint32_t own;         /* tile polygon that is not looked for */
-    uint32_t found;       /* tile polygon, nearest at (x, y); UINT32_MAX: none */
-    float depth;          /* its depth at (x, y) */
+    float x, y;       /* where */
+    float ex, ey, ed; /* the point of the edge */
+    float tolerance;  /* of depth there */
+    uint32_t own;     /* tile polygon that is not looked for */
+    uint32_t found;   /* tile polygon, nearest at (x, y); UINT32_MAX: none */
+    float depth;      /* its depth at (x, y) */
     uint32_t next;
 } dp_lookup;
 
 typedef struct emerging {
     dp_loose_edge loose;
-    uint32_t id;           /* frame polygon */
-    dp_vec3 a, b;          /* ends, world space */
+    uint32_t id;  /* frame polygon */
+    dp_vec3 a, b; /* ends, world space */
     dp_spine spine;
-    uint32_t k0, k1;       /* sample points in the tile or right beside it */
-    uint32_t first;        /* lookup */
+    uint32_t k0, k1; /* sample points in the tile or right beside it */
+    uint32_t first;  /* lookup */
 } emerging;
 
 static bool begin_edge(dp_tile_worker *w, dp_loose_edge loose, emerging *e) {
@@ -62,7 +63,8 @@ static dp_pointd edge_point(const dp_tile_worker *w, const dp_spine *s, uint32_t
 }
 
 static bool near_tile(dp_pointd p) {
-    return p.x >= -DP_BESIDE && p.y >= -DP_BESIDE && p.x <= DP_TILE + DP_BESIDE && p.y <= DP_TILE + DP_BESIDE;
+    return p.x >= -DP_BESIDE && p.y >= -DP_BESIDE && p.x <= DP_TILE + DP_BESIDE &&
+           p.y <= DP_TILE + DP_BESIDE;
 }
 
 /* Sample points in and around the tile are consecutive: the tile is convex. */
@@ -73,10 +75,11 @@ static bool find_range(const dp_tile_worker *w, emerging *e) {
     return e->k0 < e->k1;
 }
 
-/* Unit vector on the screen across the edge, away from the polygon: it is wound counter-clockwise seen
- * from its front, and the screen's y runs down. */
+/* Unit vector on the screen across the edge, away from the polygon: it is wound counter-clockwise
+ * seen from its front, and the screen's y runs down. */
 static void outward(const dp_tile_worker *w, const emerging *e, float out[2]) {
-    const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y, length = hypot(ex, ey);
+    const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
+                 length = hypot(ex, ey);
     const double sign = w->polygons[e->loose.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
     out[0] = length > 0 ? (float)(-ey / length * sign) : 1;
     out[1] = length > 0 ? (float)(ex / length * sign) : 0;
@@ -94,9 +97,15 @@ static bool place_lookups(dp_tile_worker *w, emerging *e, uint32_t *count) {
         const float x = (float)p.x, y = (float)p.y;
         for (int i = 0; i < LOOKUPS; i++) {
             dp_lookup *const l = &w->lookups[*count];
-            *l = (dp_lookup){.x = x + steps[i] * out[0], .y = y + steps[i] * out[1], .ex = x, .ey = y,
-                             .ed = (float)p.d, .own = e->loose.polygon, .found = UINT32_MAX,
-                             .tolerance = (float)fabs(dp_depth_step(&w->frame->view, p.d, TOUCHING))};
+            *l = (dp_lookup){.x = x + steps[i] * out[0],
+                             .y = y + steps[i] * out[1],
+                             .ex = x,
+                             .ey = y,
+                             .ed = (float)p.d,
+                             .own = e->loose.polygon,
+                             .found = UINT32_MAX,
+                             .tolerance =
+                                 (float)fabs(dp_depth_step(&w->frame->view, p.d, TOUCHING))};
             l->next = dp_pixel_push(&w->lookup_pixels, l->x, l->y, (*count)++);
         }
     }
@@ -108,7 +117,8 @@ static void look_in_pixel(dp_tile_worker *w, uint32_t index, uint32_t head) {
     const float slope = PLACED * (fabsf(p->dx) + fabsf(p->dy));
     for (uint32_t i = head; i != UINT32_MAX; i = w->lookups[i].next) {
         dp_lookup *const l = &w->lookups[i];
-        if (l->own == index || fabsf(dp_plane_at(p, l->ex, l->ey) - l->ed) > l->tolerance + slope) continue;
+        if (l->own == index || fabsf(dp_plane_at(p, l->ex, l->ey) - l->ed) > l->tolerance + slope)
+            continue;
         const float depth = dp_plane_at(p, l->x, l->y);
         if (l->found != UINT32_MAX && l->depth >= depth) continue;
         if (dp_tile_covers(w, p, l->x, l->y)) l->found = index, l->depth = depth;
@@ -122,7 +132,8 @@ static void look(dp_tile_worker *w) {
         const uint64_t span = dp_box_span(p);
         for (uint32_t y = p->y0; y <= p->y1; y++)
             for (uint64_t bits = w->lookup_pixels.row[y] & span; bits; bits &= bits - 1)
-                look_in_pixel(w, i, w->lookup_pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
+                look_in_pixel(w, i,
+                              w->lookup_pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
     }
 }
 
@@ -136,15 +147,18 @@ typedef struct finding {
 static finding outline_finding(const dp_tile_worker *w, const emerging *e, uint32_t behind) {
     const dp_vec3 n = dp_polygon_normal(w->frame, e->id);
     const bool front = w->polygons[e->loose.polygon].flags & DP_POLYGON_FRONT;
-    return (finding){behind == UINT32_MAX ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, behind, front ? n : dp_scale(n, -1)};
+    return (finding){behind == UINT32_MAX ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, behind,
+                     front ? n : dp_scale(n, -1)};
 }
 
 static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t across) {
-    const dp_tile_polygon *const p = &w->polygons[e->loose.polygon], *const q = &w->polygons[across];
+    const dp_tile_polygon *const p = &w->polygons[e->loose.polygon], *const q =
+                                                                         &w->polygons[across];
     finding f = {-1, across, {0, 0, 0}};
     if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
     const dp_vec3 at = dp_mix(e->a, e->b, 0.5);
-    const dp_fold fold = dp_fold_at(w->frame, p->id, p->flags & DP_POLYGON_FRONT, q->id, q->flags & DP_POLYGON_FRONT, at);
+    const dp_fold fold = dp_fold_at(w->frame, p->id, p->flags & DP_POLYGON_FRONT, q->id,
+                                    q->flags & DP_POLYGON_FRONT, at);
     f.line = dp_fold_line(&fold, dp_polygon_style(w->frame, p->id));
     f.normal = fold.normal;
     return f;
@@ -159,10 +173,13 @@ static finding judge(const dp_tile_worker *w, const emerging *e, uint32_t k) {
     const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : far;
     const dp_tile_polygon *const p = &w->polygons[e->loose.polygon];
     const dp_lookup *const own = &l[2];
-    const bool covered = behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
-    if (covered) return (finding){-1, behind, {0, 0, 0}}; /* another polygon at this edge is in front */
+    const bool covered =
+        behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
+    if (covered)
+        return (finding){-1, behind, {0, 0, 0}}; /* another polygon at this edge is in front */
     if (across == UINT32_MAX) {
-        const bool both_back = behind != UINT32_MAX && !((p->flags | w->polygons[behind].flags) & DP_POLYGON_FRONT);
+        const bool both_back =
+            behind != UINT32_MAX && !((p->flags | w->polygons[behind].flags) & DP_POLYGON_FRONT);
         return both_back ? (finding){-1, behind, {0, 0, 0}} : outline_finding(w, e, behind);
     }
     return fold_finding(w, e, across);
@@ -174,15 +191,21 @@ static void add_run(dp_tile_worker *w, const emerging *e, finding f, uint32_t k0
     dp_spine spine;
     if (!dp_spine_make(&w->frame->view, e->a, e->b, f.normal, &spine)) return;
     const uint32_t b = f.neighbour == UINT32_MAX ? UINT32_MAX : w->polygons[f.neighbour].id;
-    dp_tile_add_candidate(w, (dp_candidate){.a = e->id, .b = b, .edge = e->loose.edge, .k0 = k0, .k1 = k1,
-                                            .line = (uint8_t)f.line}, &spine);
+    dp_tile_add_candidate(
+        w,
+        (dp_candidate){
+            .a = e->id, .b = b, .edge = e->loose.edge, .k0 = k0, .k1 = k1, .line = (uint8_t)f.line},
+        &spine);
 }
 
-static bool is_same(const finding *a, const finding *b) { return a->line == b->line && a->neighbour == b->neighbour; }
+static bool is_same(const finding *a, const finding *b) {
+    return a->line == b->line && a->neighbour == b->neighbour;
+}
 
-/* One sample point alone, between two that agree or at the edge's end, is where something merely passes
- * through the edge or touches its corner: it goes with its neighbours. */
-static finding settle(const emerging *e, uint32_t k, const finding *before, const finding *here, const finding *after) {
+/* One sample point alone, between two that agree or at the edge's end, is where something merely
+ * passes through the edge or touches its corner: it goes with its neighbours. */
+static finding settle(const emerging *e, uint32_t k, const finding *before, const finding *here,
+                      const finding *after) {
     if (e->spine.n < 3) return *here;
     if (k == 0) return *after;
     if (k + 1 == e->spine.n) return *before;
@@ -212,7 +235,8 @@ void dp_tile_emerge(dp_tile_worker *w) {
     if (!w->loose_count) return;
     memset(w->lookup_pixels.row, 0, sizeof w->lookup_pixels.row);
     for (uint32_t i = 0; i < w->loose_count; i++)
-        if (begin_edge(w, w->loose[i], &e) && find_range(w, &e) && !place_lookups(w, &e, &count)) return;
+        if (begin_edge(w, w->loose[i], &e) && find_range(w, &e) && !place_lookups(w, &e, &count))
+            return;
     if (!count) return;
     look(w);
     count = 0;

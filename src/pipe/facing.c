@@ -1,12 +1,13 @@
-/* Which way every polygon faces, and which have an outline to draw: the first half of the geometry stage of
- * Hermosilla and Vázquez 2010 (2.3.2, Listing 2.1).
+/* Which way every polygon faces, and which have an outline to draw: the first half of the geometry
+ * stage of Hermosilla and Vázquez 2010 (2.3.2, Listing 2.1).
  *
- * Listing 2.1 computes the facing of a triangle and its three neighbours again for every triangle: four times
- * in all. Here each is computed once, and the silhouette test is three look-ups in a table of bytes. Facing is that of
- * the rest of the pipe (outline.c): the sign of the area on the screen, and in space where the area is too small to tell.
+ * Listing 2.1 computes the facing of a triangle and its three neighbours again for every triangle:
+ * four times in all. Here each is computed once, and the silhouette test is three look-ups in a
+ * table of bytes. Facing is that of the rest of the pipe (outline.c): the sign of the area on the
+ * screen, and in space where the area is too small to tell.
  *
- * Polygons without area have no facing. They go with a front-facing neighbour where they have one, so that
- * a sliver between two fronts makes no line. */
+ * Polygons without area have no facing. They go with a front-facing neighbour where they have one,
+ * so that a sliver between two fronts makes no line. */
 #include "pipe/adjacent.h"
 
 #include "mesh/adjacency.h"
@@ -26,8 +27,10 @@ static bool any_bad(const dp_frame *frame, uint32_t first, uint32_t n) {
 
 /* In space, whatever is clipped. */
 static uint8_t facing_in_space(const dp_frame *frame, uint32_t polygon) {
-    const uint32_t first = dp_first_corner(&frame->polygons, polygon), n = dp_corner_count(&frame->polygons, polygon);
-    if (n < 3 || any_bad(frame, first, n) || dp_polygon_has_no_area(frame, polygon)) return DP_FACING_NO_AREA;
+    const uint32_t first = dp_first_corner(&frame->polygons, polygon),
+                   n = dp_corner_count(&frame->polygons, polygon);
+    if (n < 3 || any_bad(frame, first, n) || dp_polygon_has_no_area(frame, polygon))
+        return DP_FACING_NO_AREA;
     return dp_polygon_faces_eye(frame, polygon) ? DP_FACING_FRONT : 0;
 }
 
@@ -40,7 +43,8 @@ static uint8_t facing_of_triangle(const dp_frame *frame, uint32_t polygon) {
         v[i] = frame->vertices[vertex];
     }
     if (dp_needs_clipping(v[0], v[1], v[2])) return 0xff;
-    const float bx = v[1].x - v[0].x, by = v[1].y - v[0].y, cx = v[2].x - v[0].x, cy = v[2].y - v[0].y;
+    const float bx = v[1].x - v[0].x, by = v[1].y - v[0].y, cx = v[2].x - v[0].x,
+                cy = v[2].y - v[0].y;
     const float area = bx * cy - by * cx;
     const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
     if (!(fabsf(area) > frame->nearly_edge_on * reach)) return 0xff;
@@ -68,11 +72,14 @@ static void face_block(void *arg, uint32_t index, uint32_t worker) {
 /* Only reads neighbours that have an area, which this does not change. */
 static void see_through(dp_frame *frame, uint32_t polygon) {
     const dp_adjacency *const a = frame->adjacency;
-    const uint32_t first = dp_first_corner(&frame->polygons, polygon), n = dp_corner_count(&frame->polygons, polygon);
+    const uint32_t first = dp_first_corner(&frame->polygons, polygon),
+                   n = dp_corner_count(&frame->polygons, polygon);
     for (uint32_t c = first; c < first + n; c++) {
         if (!dp_is_across(a->across[c])) continue;
-        const uint8_t other = frame->facing[dp_polygon_of_corner(a, dp_across_corner(a->across[c]))];
-        if ((other & (DP_FACING_NO_AREA | DP_FACING_FRONT)) == DP_FACING_FRONT) frame->facing[polygon] |= DP_FACING_FRONT;
+        const uint8_t other =
+            frame->facing[dp_polygon_of_corner(a, dp_across_corner(a->across[c]))];
+        if ((other & (DP_FACING_NO_AREA | DP_FACING_FRONT)) == DP_FACING_FRONT)
+            frame->facing[polygon] |= DP_FACING_FRONT;
     }
 }
 
@@ -81,8 +88,9 @@ static dp_clip_point corner_in_clip(const dp_frame *frame, uint32_t corner) {
     return dp_to_clip(&frame->view, dp_v3f(dp_vertex_position(p, dp_corner_vertex(p, corner))));
 }
 
-/* More than two polygons at an edge: it is an outline when all of them lie on one side of it on the screen. Where some lie
- * on either side, what the eye sees there is a crease. The first of them draws it. */
+/* More than two polygons at an edge: it is an outline when all of them lie on one side of it on the
+ * screen. Where some lie on either side, what the eye sees there is a crease. The first of them
+ * draws it. */
 static int outline_of_fan(const dp_frame *frame, const dp_fan_corner *fan, uint32_t corner) {
     const dp_adjacency *const a = frame->adjacency;
     const dp_polygons *const p = &frame->polygons;
@@ -91,9 +99,11 @@ static int outline_of_fan(const dp_frame *frame, const dp_fan_corner *fan, uint3
     bool any[2] = {false, false};
     dp_pointd s = {0, 0, 0}, t = s;
     for (uint32_t i = 0; i < fan->count; i++) {
-        const uint32_t polygon = dp_polygon_of_corner(a, corners[i]), first = dp_first_corner(p, polygon), n = dp_corner_count(p, polygon);
+        const uint32_t polygon = dp_polygon_of_corner(a, corners[i]),
+                       first = dp_first_corner(p, polygon), n = dp_corner_count(p, polygon);
         const uint32_t k = corners[i] - first;
-        const dp_clip_point from = corner_in_clip(frame, corners[i]), to = corner_in_clip(frame, first + (k + 1) % n);
+        const dp_clip_point from = corner_in_clip(frame, corners[i]),
+                            to = corner_in_clip(frame, first + (k + 1) % n);
         const dp_clip_point far = corner_in_clip(frame, first + (k + 1 + n / 2) % n);
         if (!(from.w > 0 && to.w > 0 && far.w > 0)) return -1;
         if (i == 0) s = dp_to_screen(&frame->view, from), t = dp_to_screen(&frame->view, to);
@@ -118,20 +128,25 @@ int dp_outline_of_edge(const dp_frame *frame, uint32_t polygon, uint32_t corner)
 }
 
 static bool is_outlined(const dp_frame *frame, uint32_t polygon) {
-    const uint32_t first = dp_first_corner(&frame->polygons, polygon), n = dp_corner_count(&frame->polygons, polygon);
+    const uint32_t first = dp_first_corner(&frame->polygons, polygon),
+                   n = dp_corner_count(&frame->polygons, polygon);
     for (uint32_t c = first; c < first + n; c++)
         if (dp_outline_of_edge(frame, polygon, c) >= 0) return true;
     return false;
 }
 
-/* A front with a neighbour that is none. A back draws nothing of its own, unless there is something odd about it. */
+/* A front with a neighbour that is none. A back draws nothing of its own, unless there is something
+ * odd about it. */
 static bool is_outlined_triangle(const dp_frame *frame, uint32_t t) {
     const dp_adjacency *const a = frame->adjacency;
     const uint8_t *const facing = frame->facing;
     if (a->odd[t] || facing[t] & DP_FACING_NO_AREA) return is_outlined(frame, t);
-    if (!facing[t]) return frame->seen_through && is_outlined(frame, t); /* it may draw for a front without area */
+    if (!facing[t])
+        return frame->seen_through &&
+               is_outlined(frame, t); /* it may draw for a front without area */
     const uint32_t *const across = a->across + 3 * (size_t)t;
-    return !(facing[across[0] / 3] & facing[across[1] / 3] & facing[across[2] / 3] & DP_FACING_FRONT);
+    return !(facing[across[0] / 3] & facing[across[1] / 3] & facing[across[2] / 3] &
+             DP_FACING_FRONT);
 }
 
 static void outline_block(void *arg, uint32_t index, uint32_t worker) {
@@ -140,7 +155,8 @@ static void outline_block(void *arg, uint32_t index, uint32_t worker) {
     (void)worker;
     block_range(frame, index, &first, &last);
     const bool triangles = !frame->polygons.firsts;
-    for (uint32_t i = first; i < last; i++) frame->outlined[i] = triangles ? is_outlined_triangle(frame, i) : is_outlined(frame, i);
+    for (uint32_t i = first; i < last; i++)
+        frame->outlined[i] = triangles ? is_outlined_triangle(frame, i) : is_outlined(frame, i);
 }
 
 void dp_find_facing(dp_frame *frame) {

@@ -12,7 +12,8 @@
 
 enum { DP_TILE = DP_TUNED(64, 16) /* px; a row of a tile is one 64-bit mask */ };
 
-/* A vertex after transformation; 16 bytes, so that a triangle's corners take three cache lines at most. */
+/* A vertex after transformation; 16 bytes, so that a triangle's corners take three cache lines at
+ * most. */
 typedef struct dp_vertex {
     float x, y, d; /* screen space; x is NaN where the vertex must be clipped or is not finite */
     uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
@@ -50,18 +51,23 @@ typedef struct dp_frame {
     dp_threads *threads;
     const struct dp_kernels *kernels;
     dp_view view;
-    float nearly_edge_on;            /* px: a polygon this thin on the screen needs a second look (outline.h) */
-    float step_scale, step_offset;   /* depth over one pixel size is d * step_scale + step_offset */
-    const dp_style *styles; /* by group, resolved; [style_count] */
+    float
+        nearly_edge_on; /* px: a polygon this thin on the screen needs a second look (outline.h) */
+    float step_scale, step_offset; /* depth over one pixel size is d * step_scale + step_offset */
+    const dp_style *styles;        /* by group, resolved; [style_count] */
     uint32_t style_count;
     dp_target target;
     uint32_t lines;     /* classes that any group draws */
     bool culls_backs;   /* back faces that are hidden make no lines */
-    bool painted_later; /* shading gives every pixel of a tile that holds polygons its colour, paper too … */
-    uint8_t *ink_layer; /* … and lays over it what tiles inked already: [height][width][4], not premultiplied; or NULL */
-    float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above 1: unknown */
-    float calm_spread;  /* squared, times DP_UMBRELLA_ONE squared: normals that lie together in a box with a diagonal less
-                           than this make no fold, although they are rough (tile.h); 0: none is so small */
+    bool painted_later; /* shading gives every pixel of a tile that holds polygons its colour, paper
+                           too … */
+    uint8_t *ink_layer; /* … and lays over it what tiles inked already: [height][width][4], not
+                           premultiplied; or NULL */
+    float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above
+                           1: unknown */
+    float calm_spread; /* squared, times DP_UMBRELLA_ONE squared: normals that lie together in a box
+                          with a diagonal less than this make no fold, although they are rough
+                          (tile.h); 0: none is so small */
 
     dp_polygons polygons;
     dp_vertex *vertices;
@@ -69,13 +75,13 @@ typedef struct dp_frame {
     dp_bins polygon_bins;
 
     const struct dp_adjacency *adjacency; /* mesh/adjacency.h; NULL: lines emerge without it */
-    float fringe;      /* px that textured silhouettes reach beyond outlined polygons; 0: none */
-    uint8_t *facing;   /* with adjacency, by polygon: pipe/adjacent.h */
+    float fringe;    /* px that textured silhouettes reach beyond outlined polygons; 0: none */
+    uint8_t *facing; /* with adjacency, by polygon: pipe/adjacent.h */
     double centre[2], radius; /* px, polar stroke textures: pipe/normals.h */
-    bool seen_through; /* some polygons have no area */
-    uint8_t *outlined; /* the same: has it an edge that dp_outline_of_edge says it draws? */
+    bool seen_through;        /* some polygons have no area */
+    uint8_t *outlined;        /* the same: has it an edge that dp_outline_of_edge says it draws? */
 
-    float *depth;  /* [tile][cell sample], nearest surface; layout: samples.h */
+    float *depth; /* [tile][cell sample], nearest surface; layout: samples.h */
     size_t tile_samples;
     dp_tile_pieces *tile_pieces; /* by tile */
 

@@ -1,11 +1,11 @@
 /* Immediate mode: Raskar 2001, Figure 3. Calls are recorded, dp_finish draws.
  *
- * Data structure: one vertex per dp_vertex call, and polygons as corner lists over them, so that strips
- * and fans share what they share. Every distinct state is a group with a style of its own; groups are
- * found by hash. Invariant: what is recorded is always whole polygons; the vertices of an unfinished
- * one lie at the end, after `start`.
- * The flag of an edge is that of its vertex that came first: an edge that two polygons of a strip share
- * has one flag. Incomplete primitives at dp_end are ignored, as in OpenGL. */
+ * Data structure: one vertex per dp_vertex call, and polygons as corner lists over them, so that
+ * strips and fans share what they share. Every distinct state is a group with a style of its own;
+ * groups are found by hash. Invariant: what is recorded is always whole polygons; the vertices of
+ * an unfinished one lie at the end, after `start`. The flag of an edge is that of its vertex that
+ * came first: an edge that two polygons of a strip share has one flag. Incomplete primitives at
+ * dp_end are ignored, as in OpenGL. */
 #include "pipe/context.h"
 
 #include "base/diag.h"
@@ -44,8 +44,8 @@ struct dp_recording {
     state *states;    /* per group */
     dp_style *styles; /* the same, resolved */
     uint32_t *slots;  /* 1 + group; open addressing, at most half full */
-    size_t positions_cap, flags_cap, corners_cap, corner_flags_cap, firsts_cap, groups_cap, states_cap,
-        styles_cap, slots_cap;
+    size_t positions_cap, flags_cap, corners_cap, corner_flags_cap, firsts_cap, groups_cap,
+        states_cap, styles_cap, slots_cap;
     size_t vertices, corner_count, polygons, group_count, slot_count;
 
     dp_result wrong; /* the first thing that went wrong since the last dp_finish */
@@ -75,9 +75,12 @@ static void remember(dp_recording *r, dp_result result, const char *message) {
     if (!r->wrong) r->wrong = dp_fail(&r->why, result, "%s", message);
 }
 
-static void remember_memory(dp_recording *r) { remember(r, DP_ERR_MEMORY, "out of memory for a recording"); }
+static void remember_memory(dp_recording *r) {
+    remember(r, DP_ERR_MEMORY, "out of memory for a recording");
+}
 
-/* The context's recording, made at the first call. NULL: no context or no memory, which dp_finish tells. */
+/* The context's recording, made at the first call. NULL: no context or no memory, which dp_finish
+ * tells. */
 static dp_recording *recording_of(dp_context *context) {
     if (!context) return NULL;
     if (context->recording) return context->recording;
@@ -104,14 +107,17 @@ static dp_style style_of(const dp_style *picture, const state *s) {
     return style;
 }
 
-/* Takes the state over when it is a sound one; what is wrong is told by the one place that knows. */
+/* Takes the state over when it is a sound one; what is wrong is told by the one place that knows.
+ */
 static void set_state(dp_recording *r, const state *s) {
     const dp_style style = style_of(&r->picture, s);
     dp_style resolved;
     dp_diag why;
     const dp_result result = dp_style_resolve(&style, &resolved, &why);
-    if (result) remember(r, result, why.message);
-    else r->now = *s;
+    if (result)
+        remember(r, result, why.message);
+    else
+        r->now = *s;
 }
 
 static bool known_lines(dp_recording *r, uint32_t lines) {
@@ -177,8 +183,10 @@ void dp_set_style(dp_context *context, const dp_style *style) {
     dp_style resolved;
     dp_diag why;
     const dp_result result = dp_style_resolve(&whole, &resolved, &why);
-    if (result) remember(r, result, why.message);
-    else r->picture = picture;
+    if (result)
+        remember(r, result, why.message);
+    else
+        r->picture = picture;
 }
 
 void dp_set_camera(dp_context *context, const dp_camera *camera) {
@@ -197,7 +205,8 @@ void dp_set_camera(dp_context *context, const dp_camera *camera) {
 static uint32_t hash_state(const state *s) {
     uint32_t words[sizeof *s / sizeof(uint32_t)], hash = 0;
     memcpy(words, s, sizeof words);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) hash = (hash ^ words[i]) * 0x9e3779b1u;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        hash = (hash ^ words[i]) * 0x9e3779b1u;
     return hash ^ hash >> 15;
 }
 
@@ -205,7 +214,8 @@ static uint32_t hash_state(const state *s) {
 static uint32_t *find_slot(const dp_recording *r, const state *s) {
     const size_t mask = r->slot_count - 1;
     size_t i = hash_state(s) & mask;
-    while (r->slots[i] && memcmp(&r->states[r->slots[i] - 1], s, sizeof *s) != 0) i = (i + 1) & mask;
+    while (r->slots[i] && memcmp(&r->states[r->slots[i] - 1], s, sizeof *s) != 0)
+        i = (i + 1) & mask;
     return &r->slots[i];
 }
 
@@ -243,7 +253,8 @@ static void choose_group(dp_recording *r, const dp_allocator *memory) {
 /* The edge between two corners of a strip or fan has the flag of the earlier vertex; the edges of a
  * polygon by itself have that of the corner they start from. */
 static uint8_t edge_flag(const dp_recording *r, uint32_t from, uint32_t to) {
-    const bool shared = r->kind == DP_TRIANGLE_STRIP || r->kind == DP_TRIANGLE_FAN || r->kind == DP_QUAD_STRIP;
+    const bool shared =
+        r->kind == DP_TRIANGLE_STRIP || r->kind == DP_TRIANGLE_FAN || r->kind == DP_QUAD_STRIP;
     return r->flags[shared && to < from ? to : from];
 }
 
@@ -264,7 +275,8 @@ static void add_polygon(dp_context *context, const uint32_t *vertices, size_t n)
     }
     for (size_t i = 0; i < n; i++) {
         r->corners[r->corner_count + i] = vertices[i];
-        r->corner_flags[r->corner_count + i] = edge_flag(r, vertices[i], vertices[i + 1 == n ? 0 : i + 1]);
+        r->corner_flags[r->corner_count + i] =
+            edge_flag(r, vertices[i], vertices[i + 1 == n ? 0 : i + 1]);
     }
     r->groups[r->polygons] = r->group;
     r->firsts[r->polygons] = (uint32_t)r->corner_count;
@@ -273,8 +285,9 @@ static void add_polygon(dp_context *context, const uint32_t *vertices, size_t n)
     r->polygons = polygons;
 }
 
-/* The polygon that the k-th vertex of a primitive (0-based) completes; every second triangle of a strip
- * runs the other way round, and so does the far side of each quad. Returns its corners, 0: none. */
+/* The polygon that the k-th vertex of a primitive (0-based) completes; every second triangle of a
+ * strip runs the other way round, and so does the far side of each quad. Returns its corners, 0:
+ * none. */
 static size_t completed(const dp_recording *r, size_t k, uint32_t v[4]) {
     const uint32_t s = (uint32_t)r->start, i = s + (uint32_t)k;
     switch (r->kind) {
@@ -293,7 +306,8 @@ static size_t completed(const dp_recording *r, size_t k, uint32_t v[4]) {
     case DP_QUAD_STRIP:
         v[0] = i - 3, v[1] = i - 2, v[2] = i, v[3] = i - 1;
         return k >= 3 && k % 2 == 1 ? 4 : 0;
-    default: return 0; /* DP_POLYGON is complete at dp_end */
+    default:
+        return 0; /* DP_POLYGON is complete at dp_end */
     }
 }
 
@@ -343,8 +357,10 @@ void dp_vertex3f(dp_context *context, float x, float y, float z) {
 void dp_vertex3fv(dp_context *context, const float xyz[3]) {
     dp_recording *const r = recording_of(context);
     if (!r) return;
-    if (xyz) dp_vertex3f(context, xyz[0], xyz[1], xyz[2]);
-    else remember(r, DP_ERR_ARGUMENT, "dp_vertex3fv: xyz is NULL");
+    if (xyz)
+        dp_vertex3f(context, xyz[0], xyz[1], xyz[2]);
+    else
+        remember(r, DP_ERR_ARGUMENT, "dp_vertex3fv: xyz is NULL");
 }
 
 /* A polygon of any number of corners: its vertices are the last ones. */
@@ -353,7 +369,8 @@ static void add_open_polygon(dp_context *context) {
     const size_t n = r->vertices - r->start;
     uint32_t few[16], *vertices = few;
     if (n < 3) return;
-    if (n > sizeof few / sizeof *few) vertices = dp_alloc_array(&context->memory, n, sizeof *vertices);
+    if (n > sizeof few / sizeof *few)
+        vertices = dp_alloc_array(&context->memory, n, sizeof *vertices);
     if (!vertices) {
         remember_memory(r);
         return;
@@ -409,11 +426,13 @@ static dp_result draw_recorded(dp_context *context, const dp_target *target, dp_
 
 static dp_result check_finish(dp_context *context, const dp_target *target, dp_diag *diag) {
     dp_recording *const r = context->recording;
-    if (context->recording_lost) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a recording");
+    if (context->recording_lost)
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a recording");
     if (r && r->open) remember(r, DP_ERR_ARGUMENT, "dp_finish: called before dp_end");
     if (r && r->wrong) return dp_fail(diag, r->wrong, "%s", r->why.message);
     if (!target) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_finish: target is NULL");
-    if (!r || !r->has_camera) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_finish: dp_set_camera was not called");
+    if (!r || !r->has_camera)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_finish: dp_set_camera was not called");
     return DP_OK;
 }
 

@@ -1,14 +1,16 @@
-/* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one depth.
+/* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one
+ * depth.
  *
- * The paper's between-test finds them sample by sample; here it only says where to look. While a face is
- * rasterized and falls close to what a sample already holds, the two planes are compared: if they
- * cross within dp_watch_px of the sample, its pixel is a suspect. As the two frontmost surfaces meet at
- * every visible sample of a crossing, whichever comes first, one pass finds all of them. Around
- * suspects, all pairs of polygons are then tested exactly, and each crossing segment becomes a
- * candidate line like an edge, with the same probes.
+ * The paper's between-test finds them sample by sample; here it only says where to look. While a
+ * face is rasterized and falls close to what a sample already holds, the two planes are compared:
+ * if they cross within dp_watch_px of the sample, its pixel is a suspect. As the two frontmost
+ * surfaces meet at every visible sample of a crossing, whichever comes first, one pass finds all of
+ * them. Around suspects, all pairs of polygons are then tested exactly, and each crossing segment
+ * becomes a candidate line like an edge, with the same probes.
  *
- * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that what may meet
- * one of them follows soon after it; bounding boxes are compared many at once (kernel/meet.inc). */
+ * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that
+ * what may meet one of them follows soon after it; bounding boxes are compared many at once
+ * (kernel/meet.inc). */
 #include "kernel/kernels.h"
 #include "pipe/crossing.h"
 #include "pipe/tile.h"
@@ -24,17 +26,20 @@ static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
     uint32_t shared = 0;
     for (uint32_t i = 0; i < na; i++) {
         const uint32_t key = frame->vertices[dp_corner_vertex(polygons, fa + i)].key;
-        for (uint32_t j = 0; j < nb; j++) shared += key == frame->vertices[dp_corner_vertex(polygons, fb + j)].key;
+        for (uint32_t j = 0; j < nb; j++)
+            shared += key == frame->vertices[dp_corner_vertex(polygons, fb + j)].key;
     }
     return shared;
 }
 
-/* What the sample holds is not among the tile's polygons: only which way it faces is known, not how steeply. */
+/* What the sample holds is not among the tile's polygons: only which way it faces is known, not how
+ * steeply. */
 static void watch_unknown(dp_tile_worker *w, const dp_tile_polygon *p, size_t lane, float depth) {
     const bool away = w->away[lane / 64] >> lane % 64 & 1, front = p->flags & DP_POLYGON_FRONT;
     const size_t pixel = lane / w->sampling.samples;
     if (away && !front) return;
-    if (fabsf(depth - w->depth[lane]) > fabsf(dp_depth_steps(w->frame, depth, DP_WATCH_GAP))) return;
+    if (fabsf(depth - w->depth[lane]) > fabsf(dp_depth_steps(w->frame, depth, DP_WATCH_GAP)))
+        return;
     w->suspects[away || !front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
 }
 
@@ -66,12 +71,13 @@ bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     return any;
 }
 
-/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds of fine
- * meshes come close here and there. */
+/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds
+ * of fine meshes come close here and there. */
 void dp_drop_lone(uint64_t suspects[DP_TILE]) {
     uint64_t kept[DP_TILE];
     for (int y = 0; y < DP_TILE; y++) {
-        const uint64_t above = y > 0 ? suspects[y - 1] : 0, below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
+        const uint64_t above = y > 0 ? suspects[y - 1] : 0,
+                       below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
         const uint64_t rows = above | below, all = rows | suspects[y];
         kept[y] = suspects[y] & (rows | all << 1 | all >> 1);
     }
@@ -83,15 +89,18 @@ static bool shows_back_near(const dp_tile_worker *w, int px, int py) {
     const uint32_t samples = w->sampling.samples;
     const int x0 = px > 0 ? px - 1 : 0, x1 = px + 1 < DP_TILE ? px + 1 : px;
     for (int y = py > 0 ? py - 1 : 0; y <= py + 1 && y < DP_TILE; y++) {
-        const uint32_t *const winner = w->winner + dp_pixel_lane(&w->sampling, (uint32_t)x0, (uint32_t)y);
+        const uint32_t *const winner =
+            w->winner + dp_pixel_lane(&w->sampling, (uint32_t)x0, (uint32_t)y);
         for (uint32_t i = 0; i < (uint32_t)(x1 - x0 + 1) * samples; i++)
-            if (winner[i] != UINT32_MAX && !(w->polygons[winner[i]].flags & DP_POLYGON_FRONT)) return true;
+            if (winner[i] != UINT32_MAX && !(w->polygons[winner[i]].flags & DP_POLYGON_FRONT))
+                return true;
     }
     return false;
 }
 
-/* A front and a back face come close along every outline of a closed model. They cross in sight only
- * where the back face is seen too: keeps the suspects near a pixel whose winner is a back face. */
+/* A front and a back face come close along every outline of a closed model. They cross in sight
+ * only where the back face is seen too: keeps the suspects near a pixel whose winner is a back
+ * face. */
 static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
     for (int y = 0; y < DP_TILE; y++)
         for (uint64_t bits = suspects[y]; bits; bits &= bits - 1) {
@@ -102,9 +111,10 @@ static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_T
 
 /* ------- pairs ------- */
 
-/* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes, as above. Others, and
- * what is clipped, have none, and take `shared_corners`. */
-static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t *of_p, uint32_t *of_q) {
+/* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes,
+ * as above. Others, and what is clipped, have none, and take `shared_corners`. */
+static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
+                        uint32_t *of_p, uint32_t *of_q) {
     *of_p = *of_q = 0;
     if ((p->flags | q->flags) & DP_POLYGON_CLIPPED || (p->points ^ 3) | (q->points ^ 3)) return;
     const dp_vertex *const a = w->points + p->point, *const b = w->points + q->point;
@@ -115,8 +125,10 @@ static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const
         }
 }
 
-/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they share lie in it. */
-static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t shared) {
+/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they
+ * share lie in it. */
+static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
+                      uint32_t shared) {
     bool nearer = false, further = false;
     for (uint32_t i = 0; i < p->points; i++) {
         const dp_vertex at = w->points[p->point + i];
@@ -128,7 +140,8 @@ static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const d
 }
 
 /* Not in sight of each other's planes, or neighbours. */
-static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p,
+                       const dp_tile_polygon *q) {
     uint32_t of_p, of_q;
     find_shared(w, p, q, &of_p, &of_q);
     if ((p->flags | q->flags) & DP_POLYGON_EDGE_ON) return false;
@@ -143,8 +156,12 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
     if (!dp_crossing_find(w->frame, p->id, q->id, &from, &to, &normal)) return;
     if (!dp_spine_make(&w->frame->view, from, to, normal, &spine)) return;
-    dp_tile_add_candidate(w, (dp_candidate){.a = p->id, .b = q->id, .edge = DP_CROSSING, .k1 = UINT32_MAX,
-                                           .line = DP_LINE_INTERSECTION},
+    dp_tile_add_candidate(w,
+                          (dp_candidate){.a = p->id,
+                                         .b = q->id,
+                                         .edge = DP_CROSSING,
+                                         .k1 = UINT32_MAX,
+                                         .line = DP_LINE_INTERSECTION},
                           &spine);
 }
 
@@ -169,7 +186,8 @@ static bool look_around(const uint64_t suspects[DP_TILE], pixels *out) {
 static inline bool comes_near(uint32_t box, const pixels *near) {
     const uint32_t x0 = box & 255, y0 = box >> 8 & 255, x1 = box >> 16 & 255, y1 = box >> 24;
     const uint64_t span = (~(uint64_t)0 >> (63 - (x1 - x0))) << x0;
-    const uint32_t first = y0 > near->first ? y0 : near->first, last = y1 < near->last ? y1 : near->last;
+    const uint32_t first = y0 > near->first ? y0 : near->first,
+                   last = y1 < near->last ? y1 : near->last;
     for (uint32_t y = first; y <= last; y++)
         if (near->row[y] & span) return true;
     return false;
@@ -186,7 +204,8 @@ static const pixels *pixels_for(const surroundings *near, uint32_t flags) {
 }
 
 /* Do both polygons' boxes hold one of the pixels that are theirs? */
-static bool meet_near(const surroundings *near, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+static bool meet_near(const surroundings *near, const dp_tile_polygon *p,
+                      const dp_tile_polygon *q) {
     const uint64_t span = dp_box_span(p) & dp_box_span(q);
     const pixels *const of_p = pixels_for(near, p->flags), *const of_q = pixels_for(near, q->flags);
     const uint32_t first = p->y0 > q->y0 ? p->y0 : q->y0, last = p->y1 < q->y1 ? p->y1 : q->y1;
@@ -195,8 +214,10 @@ static bool meet_near(const surroundings *near, const dp_tile_polygon *p, const 
     return false;
 }
 
-/* Which blocks of pixels, with the next ones on the right and below, hold any surroundings: for a first look. */
-static void find_windows(const surroundings *near, uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS]) {
+/* Which blocks of pixels, with the next ones on the right and below, hold any surroundings: for a
+ * first look. */
+static void find_windows(const surroundings *near,
+                         uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS]) {
     memset(windows, 0, DP_CROWD_BLOCKS * DP_CROWD_BLOCKS * sizeof *windows);
     for (uint32_t y = 0; y < DP_TILE; y++) {
         const uint64_t row = near->front.row[y] | (near->mixed ? near->back.row[y] : 0);
@@ -210,46 +231,56 @@ static void find_windows(const surroundings *near, uint32_t windows[DP_CROWD_BLO
     }
 }
 
-/* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their boxes. */
-static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
+/* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their
+ * boxes. */
+static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon,
+                       uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
-    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX), *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
+    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX), *const flags = dp_seen_words(
+                                                                     w, DP_SEEN_FLAGS);
     uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
     find_windows(near, windows);
     const uint32_t count = w->frame->kernels->come_near(w, windows, polygon);
     crowd->count = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
-        if (!(flags[i] & DP_POLYGON_TOUCHES) || !(near->mixed || flags[i] & DP_POLYGON_FRONT)) continue;
+        if (!(flags[i] & DP_POLYGON_TOUCHES) || !(near->mixed || flags[i] & DP_POLYGON_FRONT))
+            continue;
         if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
         polygon[crowd->count++] = w->seen[i];
         rows[(boxes[i] >> 8 & 255) + 1]++;
     }
     const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
-    return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) && DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
+    return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) &&
+           DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
            DP_WORKER_RESERVE(w, crowd.bounds, crowd.bounds_cap, DP_CROWD_BOUNDS * room) &&
            DP_WORKER_RESERVE(w, crowd.keys, crowd.keys_cap, 3 * room);
 }
 
-static void put_bounds(const dp_tile_worker *w, const dp_tile_polygon *p, float *bounds, size_t stride) {
+static void put_bounds(const dp_tile_worker *w, const dp_tile_polygon *p, float *bounds,
+                       size_t stride) {
     const dp_vertex *const v = w->points + p->point;
     dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
     for (uint32_t i = 1; i < p->points; i++) {
         const dp_f4 at = {v[i].x, v[i].y, v[i].d, 0};
         least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
     }
-    for (uint32_t k = 0; k < 3; k++) bounds[k * stride] = least[k], bounds[(3 + k) * stride] = most[k];
+    for (uint32_t k = 0; k < 3; k++)
+        bounds[k * stride] = least[k], bounds[(3 + k) * stride] = most[k];
 }
 
-/* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of their own, which match
- * as seldom; they are told by `shared_corners`. */
+/* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
+ * their own, which match as seldom; they are told by `shared_corners`. */
 static void put_keys(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
     const dp_crowd *const crowd = &w->crowd;
     const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
-    for (uint32_t k = 0; k < 3; k++) crowd->keys[k * (size_t)crowd->stride + at] = known ? w->points[p->point + k].key : 3 * at + k;
+    for (uint32_t k = 0; k < 3; k++)
+        crowd->keys[k * (size_t)crowd->stride + at] =
+            known ? w->points[p->point + k].key : 3 * at + k;
 }
 
-/* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row starts. */
+/* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row
+ * starts. */
 static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
     uint32_t next[DP_TILE];
@@ -273,14 +304,18 @@ void dp_tile_intersections(dp_tile_worker *w) {
     dp_drop_lone(w->suspects[0]);
     if (!look_around(w->suspects[0], &near.front)) return;
     uint32_t rows[DP_TILE + 1] = {0};
-    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap, (size_t)w->seen_count + DP_CROWD_ROOM) || !list_crowd(w, &near, w->crowd.listed, rows)) return;
+    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap,
+                           (size_t)w->seen_count + DP_CROWD_ROOM) ||
+        !list_crowd(w, &near, w->crowd.listed, rows))
+        return;
     sort_crowd(w, w->crowd.listed, rows);
     for (uint32_t i = 0; i < w->crowd.count && !w->failed; i++) {
         const uint32_t a = w->crowd.polygon[i];
         const uint32_t met = w->frame->kernels->meet(&w->crowd, i, rows[w->polygons[a].y1 + 1]);
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
-            if (meet_near(&near, &w->polygons[a], &w->polygons[b])) test_pair(w, a < b ? a : b, a < b ? b : a);
+            if (meet_near(&near, &w->polygons[a], &w->polygons[b]))
+                test_pair(w, a < b ? a : b, a < b ? b : a);
         }
     }
 }

@@ -1,8 +1,9 @@
 /* Primitive assembly: corners to an outline on the screen, clipped where it must be.
  *
- * Most polygons only gather their transformed corners. One with a corner outside the guarded frustum
- * is transformed again in double precision and clipped in clip space; its outline is then no longer
- * corner for corner the polygon, and its edges are clipped one by one where lines are looked for. */
+ * Most polygons only gather their transformed corners. One with a corner outside the guarded
+ * frustum is transformed again in double precision and clipped in clip space; its outline is then
+ * no longer corner for corner the polygon, and its edges are clipped one by one where lines are
+ * looked for. */
 #include "pipe/outline.h"
 
 void dp_outline_scratch_free(dp_outline_scratch *scratch, const dp_allocator *memory) {
@@ -15,7 +16,8 @@ static dp_outline_state clip_outline(const dp_frame *frame, uint32_t first, uint
                                      dp_outline_scratch *scratch, dp_outline *out) {
     const dp_polygons *const polygons = &frame->polygons;
     const size_t room = (size_t)n + 6;
-    if (!dp_reserve(frame->memory, &scratch->clip, &scratch->clip_cap, 2 * room, sizeof *scratch->clip))
+    if (!dp_reserve(frame->memory, &scratch->clip, &scratch->clip_cap, 2 * room,
+                    sizeof *scratch->clip))
         return DP_OUTLINE_MEMORY;
     int any = 0, all = ~0;
     for (uint32_t i = 0; i < n; i++) {
@@ -26,7 +28,8 @@ static dp_outline_state clip_outline(const dp_frame *frame, uint32_t first, uint
         any |= code, all &= code;
     }
     if (all) return DP_OUTLINE_OUTSIDE;
-    const uint32_t left = dp_clip_polygon(&frame->view, any, scratch->clip, n, scratch->clip + room);
+    const uint32_t left =
+        dp_clip_polygon(&frame->view, any, scratch->clip, n, scratch->clip + room);
     if (!left) return DP_OUTLINE_OUTSIDE;
     for (uint32_t i = 0; i < left; i++) {
         const dp_pointd s = dp_to_screen(&frame->view, scratch->clip[i]);
@@ -36,10 +39,11 @@ static dp_outline_state clip_outline(const dp_frame *frame, uint32_t first, uint
     return DP_OUTLINE_OK;
 }
 
-dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon, dp_outline_scratch *scratch,
-                                 dp_outline *out) {
+dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon,
+                                 dp_outline_scratch *scratch, dp_outline *out) {
     const dp_polygons *const polygons = &frame->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
     if (!dp_reserve(frame->memory, &scratch->points, &scratch->points_cap, (size_t)n + 6,
                     sizeof *scratch->points))
         return DP_OUTLINE_MEMORY;
@@ -62,7 +66,8 @@ static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
 
 dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
     const dp_vec3 o = corner_position(polygons, first);
     dp_vec3 sum = {0, 0, 0}, a = dp_sub(corner_position(polygons, first + 1), o);
     for (uint32_t i = 2; i < n; i++) {
@@ -84,7 +89,8 @@ bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
 }
 
 typedef struct extent {
-    double area;  /* twice that on the screen; the screen's y runs down, so a front face's is negative */
+    double area;  /* twice that on the screen; the screen's y runs down, so a front face's is
+                     negative */
     double reach; /* longest side of the box around the first point, px */
 } extent;
 
@@ -107,13 +113,15 @@ bool dp_outline_is_edge_on(const dp_outline *outline) { return is_edge_on(extent
 
 dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline) {
     const extent e = extent_of(outline);
-    if (fabs(e.area) > (double)frame->nearly_edge_on * e.reach) return (dp_facing){e.area < 0, false};
+    if (fabs(e.area) > (double)frame->nearly_edge_on * e.reach)
+        return (dp_facing){e.area < 0, false};
     return (dp_facing){dp_polygon_faces_eye(frame, polygon), is_edge_on(e)};
 }
 
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
     const dp_vec3 o = corner_position(polygons, first);
     dp_vec3 sum = {0, 0, 0};
     double size = 0;

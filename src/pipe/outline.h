@@ -15,9 +15,9 @@ void dp_outline_scratch_free(dp_outline_scratch *scratch, const dp_allocator *me
 
 typedef enum dp_outline_state {
     DP_OUTLINE_OK = 0,
-    DP_OUTLINE_OUTSIDE,  /* nothing of it within the guarded frustum */
-    DP_OUTLINE_INDEX,    /* an index is out of range */
-    DP_OUTLINE_FINITE,   /* a coordinate is NaN or infinite */
+    DP_OUTLINE_OUTSIDE, /* nothing of it within the guarded frustum */
+    DP_OUTLINE_INDEX,   /* an index is out of range */
+    DP_OUTLINE_FINITE,  /* a coordinate is NaN or infinite */
     DP_OUTLINE_MEMORY
 } dp_outline_state;
 
@@ -27,11 +27,11 @@ typedef struct dp_outline {
     bool clipped;
 } dp_outline;
 
-dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon, dp_outline_scratch *scratch,
-                                 dp_outline *out);
+dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon,
+                                 dp_outline_scratch *scratch, dp_outline *out);
 
-/* Thinner than this (px) the area on the screen does not tell a polygon's facing; the world does. Corners are
- * placed to float32 precision, within a few pictures of the screen. */
+/* Thinner than this (px) the area on the screen does not tell a polygon's facing; the world does.
+ * Corners are placed to float32 precision, within a few pictures of the screen. */
 static inline float dp_nearly_edge_on(const dp_view *view) {
     return (float)(dp_max(1024, dp_max(view->width, view->height)) / (1 << 19));
 }

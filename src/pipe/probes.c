@@ -1,13 +1,14 @@
 /* Visibility of spines: sample points on them, hidden by whatever polygon covers them nearer.
  *
- * This is the depth test of the paper's emergent lines taken to the lines themselves: instead of asking
- * at fixed samples which added polygon wins, every polygon of the tile is rasterized onto the points
- * that matter (an irregular depth buffer). The answer is exact for edges far below a pixel and owes
- * nothing to the number of samples.
+ * This is the depth test of the paper's emergent lines taken to the lines themselves: instead of
+ * asking at fixed samples which added polygon wins, every polygon of the tile is rasterized onto
+ * the points that matter (an irregular depth buffer). The answer is exact for edges far below a
+ * pixel and owes nothing to the number of samples.
  *
- * Data structure: probes sorted by pixel, so that those in a row of a polygon's box follow each other, and the least limit
- * around each pixel, which tells that most polygons hide none. A spine's points belong to the tile whose pixel they
- * lie in. Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
+ * Data structure: probes sorted by pixel, so that those in a row of a polygon's box follow each
+ * other, and the least limit around each pixel, which tells that most polygons hide none. A spine's
+ * points belong to the tile whose pixel they lie in. Invariant: the points of one candidate in a
+ * tile are consecutive, k0 to k1. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -49,15 +50,20 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     return *k0 < *k1;
 }
 
-static uint32_t pixel_of(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v; }
+static uint32_t pixel_of(float v) {
+    return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v;
+}
 
 static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *s, uint32_t k) {
     const dp_pointd p = probe_point(s, k);
     const float x = (float)(p.x - w->tile_x), y = (float)(p.y - w->tile_y);
-    w->probes[w->probe_count++] = (dp_probe){.x = x, .y = y,
-                                             .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
-                                             .own_a = c->a, .own_b = c->b,
-                                             .cell = (uint16_t)(pixel_of(y) * DP_TILE + pixel_of(x))};
+    w->probes[w->probe_count++] =
+        (dp_probe){.x = x,
+                   .y = y,
+                   .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
+                   .own_a = c->a,
+                   .own_b = c->b,
+                   .cell = (uint16_t)(pixel_of(y) * DP_TILE + pixel_of(x))};
 }
 
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
@@ -72,12 +78,13 @@ void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *sp
     for (uint32_t k = c.k0; k < c.k1; k++) add_probe(w, &c, spine, k);
 }
 
-/* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of two
- * polygons that share an edge exactly one has it. */
+/* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of
+ * two polygons that share an edge exactly one has it. */
 static bool left_of(dp_vertex a, dp_vertex b, float x, float y, bool flip) {
     const bool swap = a.y > b.y || (a.y == b.y && a.x > b.x);
     const dp_vertex s = swap ? b : a, t = swap ? a : b;
-    const double e = ((double)t.x - s.x) * ((double)y - s.y) - ((double)t.y - s.y) * ((double)x - s.x);
+    const double e =
+        ((double)t.x - s.x) * ((double)y - s.y) - ((double)t.y - s.y) * ((double)x - s.x);
     return swap != flip ? e < 0 : e >= 0;
 }
 
@@ -90,7 +97,8 @@ bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, flo
 }
 
 static bool reserve_sorted(dp_tile_worker *w, size_t need) {
-    return DP_WORKER_RESERVE(w, sorted.x, sorted.x_cap, need) && DP_WORKER_RESERVE(w, sorted.y, sorted.y_cap, need) &&
+    return DP_WORKER_RESERVE(w, sorted.x, sorted.x_cap, need) &&
+           DP_WORKER_RESERVE(w, sorted.y, sorted.y_cap, need) &&
            DP_WORKER_RESERVE(w, sorted.limit, sorted.limit_cap, need) &&
            DP_WORKER_RESERVE(w, sorted.own_a, sorted.own_a_cap, need) &&
            DP_WORKER_RESERVE(w, sorted.own_b, sorted.own_b_cap, need);
@@ -129,10 +137,15 @@ static bool sort_probes(dp_tile_worker *w) {
 
 static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
     if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
-    w->pieces[w->piece_count++] = (dp_piece){.a = c->a, .b = c->b, .edge = c->edge, .k0 = k0,
-                                             .k1 = k1,
-                                             .n = c->n, .line = c->line,
-                                             .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
+    w->pieces[w->piece_count++] =
+        (dp_piece){.a = c->a,
+                   .b = c->b,
+                   .edge = c->edge,
+                   .k0 = k0,
+                   .k1 = k1,
+                   .n = c->n,
+                   .line = c->line,
+                   .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
 }
 
 /* Runs of visible sample points. */
@@ -149,7 +162,8 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 void dp_tile_hide(dp_tile_worker *w) {
     if (!w->probe_count || !sort_probes(w)) return;
     w->frame->kernels->hide(w);
-    for (uint32_t i = 0; i < w->probe_count; i++) w->probes[i].hidden = w->sorted.limit[w->probes[i].place] == INFINITY;
+    for (uint32_t i = 0; i < w->probe_count; i++)
+        w->probes[i].hidden = w->sorted.limit[w->probes[i].place] == INFINITY;
 }
 
 void dp_tile_collect(dp_tile_worker *w) {

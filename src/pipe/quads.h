@@ -1,12 +1,13 @@
-/* Polygons as ink: what quads.c draws, how its samples are tested (quads_fill.c, kernel/ink.inc), and what becomes
- * of them in the picture (quads_put.c). */
+/* Polygons as ink: what quads.c draws, how its samples are tested (quads_fill.c, kernel/ink.inc),
+ * and what becomes of them in the picture (quads_put.c). */
 #ifndef DP_PIPE_QUADS_H
 #define DP_PIPE_QUADS_H
 
 #include "pipe/coverage.h"
 #include "pipe/tile.h"
 
-/* Depth d farther by some pixel sizes, as scale * d + offset: a pixel grows with distance in perspective. */
+/* Depth d farther by some pixel sizes, as scale * d + offset: a pixel grows with distance in
+ * perspective. */
 typedef struct dp_step {
     float scale, offset;
 } dp_step;
@@ -34,7 +35,8 @@ typedef struct dp_brush {
     bool meets;
 } dp_brush;
 
-/* A convex polygon of four corners, or three, ready to be filled: edges as in coverage.h; the box is px, inclusive. */
+/* A convex polygon of four corners, or three, ready to be filled: edges as in coverage.h; the box
+ * is px, inclusive. */
 typedef struct dp_ink_shape {
     dp_f4 a, b, c, threshold;
     uint8_t box[4];
@@ -54,15 +56,16 @@ static inline uint32_t dp_ink_group(uint32_t ink) { return ink & 0xffff; }
 /* Draws a convex polygon in tile space: n points, with the brush's plane as depth. */
 typedef void dp_fill(dp_brush *brush, const dp_point *points, uint32_t n);
 
-/* Over the finished faces: the nearest wins; the same for the joints of ridges; and the between-test of planes. */
+/* Over the finished faces: the nearest wins; the same for the joints of ridges; and the
+ * between-test of planes. */
 dp_fill dp_fill_line, dp_fill_joint, dp_fill_between_planes;
 /* The paper's two depth buffers. */
 dp_fill dp_fill_interval, dp_fill_trap_in_interval;
 /* The stencil buffer. */
 dp_fill dp_fill_count_down, dp_fill_count_up;
 
-/* Takes the samples lane + i with bit i set, whose depth on the brush's plane is d[i]: the kernel's test is true of
- * them, and what is left to be tested takes a look at the polygon that won them. */
+/* Takes the samples lane + i with bit i set, whose depth on the brush's plane is d[i]: the kernel's
+ * test is true of them, and what is left to be tested takes a look at the polygon that won them. */
 void dp_quads_ask(dp_brush *brush, size_t lane, uint32_t bits, const float *d);
 
 /* The tile's ink to the target (quads_put.c). */

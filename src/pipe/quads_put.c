@@ -1,20 +1,23 @@
 /* The ink of a tile's samples to the picture: over what is under it, and as the class of lines.
  *
- * A pixel's colour is the mean of its samples; its class is that which holds most of them, when ink holds half. */
+ * A pixel's colour is the mean of its samples; its class is that which holds most of them, when ink
+ * holds half. */
 #include "pipe/quads.h"
 
-/* Silhouettes of back faces that are seen themselves (open models) are not inked on a back face that
- * is closer behind than this many line widths: there the enlargement only meets its neighbours. */
+/* Silhouettes of back faces that are seen themselves (open models) are not inked on a back face
+ * that is closer behind than this many line widths: there the enlargement only meets its
+ * neighbours. */
 static const double SPARE = 4;
 
-/* The enlargements of back faces that are seen meet each other as folds do; only what lies beyond an
- * outline is a silhouette. */
+/* The enlargements of back faces that are seen meet each other as folds do; only what lies beyond
+ * an outline is a silhouette. */
 static void spare_back_faces(dp_tile_worker *w) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) {
         const uint32_t winner = w->winner[i], ink = w->ink[i];
         if (!ink || dp_ink_line(ink) != DP_LINE_SILHOUETTE || winner == UINT32_MAX) continue;
         if (w->polygons[winner].flags & DP_POLYGON_FRONT) continue;
-        const double width = (double)w->frame->styles[dp_ink_group(ink)].line[DP_LINE_SILHOUETTE].width;
+        const double width =
+            (double)w->frame->styles[dp_ink_group(ink)].line[DP_LINE_SILHOUETTE].width;
         const double close = dp_depth_step(&w->frame->view, (double)w->depth[i], SPARE * width);
         if ((double)w->ink_depth[i] - (double)w->depth[i] < close) w->ink[i] = 0;
     }
@@ -31,10 +34,12 @@ static dp_color surface_color(const dp_tile_worker *w, size_t lane) {
 static void add_sample(const dp_tile_worker *w, size_t lane, float sum[4]) {
     const uint32_t ink = w->ink[lane];
     const dp_color under = w->frame->ink_layer ? 0 : surface_color(w, lane);
-    const dp_color over = ink ? w->frame->styles[dp_ink_group(ink)].line[dp_ink_line(ink)].color : 0;
+    const dp_color over =
+        ink ? w->frame->styles[dp_ink_group(ink)].line[dp_ink_line(ink)].color : 0;
     const float a = (float)(over & 0xff) / 255, b = (float)(under & 0xff) / 255 * (1 - a);
     for (int k = 0; k < 3; k++)
-        sum[k] += a * (float)(over >> (24 - 8 * k) & 0xff) + b * (float)(under >> (24 - 8 * k) & 0xff);
+        sum[k] +=
+            a * (float)(over >> (24 - 8 * k) & 0xff) + b * (float)(under >> (24 - 8 * k) & 0xff);
     sum[3] += a + b;
 }
 
@@ -73,7 +78,8 @@ static void put_ink(const dp_tile_worker *w) {
             const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
             if (!has_ink(w, lane)) continue;
             if (target->rgba) put_color(w, lane, dp_ink_place(w->frame, x, y));
-            if (target->line_class) target->line_class[(size_t)y * target->width + x] = class_of(w, lane);
+            if (target->line_class)
+                target->line_class[(size_t)y * target->width + x] = class_of(w, lane);
         }
 }
 

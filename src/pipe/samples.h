@@ -1,8 +1,8 @@
 /* How a tile's samples lie in memory, and where they lie in a pixel.
  *
- * A tile is DP_TILE x DP_TILE px. Its samples are kept in cells of `vectors` four-lane vectors: with one
- * sample per pixel a cell is four pixels side by side, otherwise it is one pixel with all its samples.
- * Cell (x, y) starts at lane 4 * vectors * (y * cells_x + x). */
+ * A tile is DP_TILE x DP_TILE px. Its samples are kept in cells of `vectors` four-lane vectors:
+ * with one sample per pixel a cell is four pixels side by side, otherwise it is one pixel with all
+ * its samples. Cell (x, y) starts at lane 4 * vectors * (y * cells_x + x). */
 #ifndef DP_PIPE_SAMPLES_H
 #define DP_PIPE_SAMPLES_H
 
@@ -19,8 +19,9 @@ typedef struct dp_sampling {
     dp_f4 x[4], y[4];    /* of each lane, px from the cell's corner */
 } dp_sampling;
 
-/* A run of pixels with as many samples as a kernel has lanes, or one pixel with more: where each sample's
- * pixel and the sample itself lie in the run, and below the pixels' upper edge (px). Samples of a pixel are consecutive. */
+/* A run of pixels with as many samples as a kernel has lanes, or one pixel with more: where each
+ * sample's pixel and the sample itself lie in the run, and below the pixels' upper edge (px).
+ * Samples of a pixel are consecutive. */
 typedef struct dp_block {
     float px[16], x[16], sy[16];
 } dp_block;

@@ -7,10 +7,12 @@ static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal
 }
 
 /* What of [a, b] lies in the frustum, between t0 and t1, is the spine. */
-static bool place_spine(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine, double *t0, double *t1) {
+static bool place_spine(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine, double *t0,
+                        double *t1) {
     const dp_clip_point ca = dp_to_clip(view, a), cb = dp_to_clip(view, b);
     *t0 = 0, *t1 = 1;
-    if ((dp_outcode(view, ca) | dp_outcode(view, cb)) && !dp_clip_segment(view, ca, cb, t0, t1)) return false;
+    if ((dp_outcode(view, ca) | dp_outcode(view, cb)) && !dp_clip_segment(view, ca, cb, t0, t1))
+        return false;
     spine->a = dp_to_screen(view, dp_clip_mix(ca, cb, *t0));
     spine->b = dp_to_screen(view, dp_clip_mix(ca, cb, *t1));
     return dp_spine_divide(spine);

@@ -8,8 +8,9 @@
 /* Fills frame->vertices (allocated). */
 void dp_transform_vertices(dp_frame *frame);
 
-/* Polygons to tiles widened by `margin` px, those that are outlined by frame->fringe where that is more; adds dropped and clipped polygons to `stats`. False when
- * memory is out. `scratch` and `stats` hold one entry per worker. */
+/* Polygons to tiles widened by `margin` px, those that are outlined by frame->fringe where that is
+ * more; adds dropped and clipped polygons to `stats`. False when memory is out. `scratch` and
+ * `stats` hold one entry per worker. */
 typedef struct dp_bin_worker {
     dp_outline_scratch scratch;
     dp_stats stats;

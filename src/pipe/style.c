@@ -26,8 +26,9 @@ static dp_result resolve_line(dp_line_style *line, dp_line which, dp_diag *diag)
 static dp_result resolve_angle(float *angle, float other, const char *name, dp_diag *diag) {
     if (*angle == 0) *angle = other;
     if (!(*angle > 0 && *angle < 360))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the %s angle is %g degrees; it must be between 0 and 360",
-                       name, (double)*angle);
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the %s angle is %g degrees; it must be between 0 and 360", name,
+                       (double)*angle);
     return DP_OK;
 }
 
@@ -38,10 +39,13 @@ static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
         if (style->passes == 1 || style->passes == 2) return DP_OK;
         return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
     }
-    const int needed = style->between == DP_BETWEEN_PLANE ? 2 : style->between == DP_BETWEEN_STENCIL ? 3 : 1;
+    const int needed = style->between == DP_BETWEEN_PLANE     ? 2
+                       : style->between == DP_BETWEEN_STENCIL ? 3
+                                                              : 1;
     if (style->passes == 0) style->passes = needed;
     if (style->passes == 1 && style->ink == DP_INK_QUADS && style->between != DP_BETWEEN_INTERVAL)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "one pass over quads needs the interval test (--between interval)");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "one pass over quads needs the interval test (--between interval)");
     if (style->passes < 1 || style->passes > 3)
         return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
     return DP_OK;
@@ -53,25 +57,28 @@ static dp_result resolve_stroke(dp_stroke_style *s, dp_diag *diag) {
     if (s->k == 0) s->k = 0.5f;
     if (s->scale == 0) s->scale = 1;
     if (!s->repeats) s->repeats = 1;
-    if ((unsigned)s->u > DP_STROKE_POLAR || s->repeats > 8 || !within(s->k, -100, 100) || !within(s->scale, 1e-3f, 1e3f) ||
-        !within(s->taper, 0, 1e4f) || !within(s->jitter, 0, 64) || !within(s->overshoot, 0, 1e3f) ||
-        !within(s->depth, 0, 1) || !within(s->light, 0, 1))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the stroke's u, k, scale, taper, jitter, overshoot, depth, light or "
-                                              "repeats is out of range");
+    if ((unsigned)s->u > DP_STROKE_POLAR || s->repeats > 8 || !within(s->k, -100, 100) ||
+        !within(s->scale, 1e-3f, 1e3f) || !within(s->taper, 0, 1e4f) || !within(s->jitter, 0, 64) ||
+        !within(s->overshoot, 0, 1e3f) || !within(s->depth, 0, 1) || !within(s->light, 0, 1))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the stroke's u, k, scale, taper, jitter, overshoot, depth, light or "
+                       "repeats is out of range");
     return DP_OK;
 }
 
 const char *dp_shading_name(dp_shading shading) {
-    static const char *const names[DP_SHADING_COUNT] = {"flat", "paper", "lambert", "gooch", "toon", "hatch", "halftone", "pencil"};
+    static const char *const names[DP_SHADING_COUNT] = {"flat", "paper", "lambert",  "gooch",
+                                                        "toon", "hatch", "halftone", "pencil"};
     return (unsigned)shading < DP_SHADING_COUNT ? names[shading] : "unknown";
 }
 
 /* Fills in a default and checks the range; NaN is out of every range. */
-static dp_result resolve_number(float *value, float other, float least, float most, const char *name, dp_diag *diag) {
+static dp_result resolve_number(float *value, float other, float least, float most,
+                                const char *name, dp_diag *diag) {
     if (*value == 0) *value = other;
     if (*value >= least && *value <= most) return DP_OK;
-    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s is %g; it must be %g to %g", name, (double)*value, (double)least,
-                   (double)most);
+    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s is %g; it must be %g to %g", name, (double)*value,
+                   (double)least, (double)most);
 }
 
 static dp_result resolve_light(float light[3], dp_diag *diag) {
@@ -80,22 +87,29 @@ static dp_result resolve_light(float light[3], dp_diag *diag) {
     for (int k = 0; k < 3 && none; k++) light[k] = usual[k];
     const float length = sqrtf(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
     if (!(length > 1e-18f) || !isfinite(length))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the light's direction is too short, too long or not finite");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the light's direction is too short, too long or not finite");
     for (int k = 0; k < 3; k++) light[k] /= length;
     return DP_OK;
 }
 
-static dp_result check_image(const dp_image *image, uint32_t most, const char *name, dp_diag *diag) {
-    if (!image->values || (image->width && image->height && image->width <= most && image->height <= most)) return DP_OK;
-    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s texture is %u x %u; each side must be 1 to %u", name, image->width,
-                   image->height, most);
+static dp_result check_image(const dp_image *image, uint32_t most, const char *name,
+                             dp_diag *diag) {
+    if (!image->values ||
+        (image->width && image->height && image->width <= most && image->height <= most))
+        return DP_OK;
+    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s texture is %u x %u; each side must be 1 to %u",
+                   name, image->width, image->height, most);
 }
 
 static dp_result resolve_pencil(float *value, float other, const char *name, dp_diag *diag) {
-    if (*value == 0) *value = other;
-    else if (*value < 0 && *value >= -100) *value = -1e-9f; /* stays when resolved twice */
+    if (*value == 0)
+        *value = other;
+    else if (*value < 0 && *value >= -100)
+        *value = -1e-9f; /* stays when resolved twice */
     if (!(*value >= -1 && *value <= 100))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the pencil's %s is %g; it must be 0 to 100", name, (double)*value);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the pencil's %s is %g; it must be 0 to 100", name,
+                       (double)*value);
     return DP_OK;
 }
 
@@ -105,8 +119,10 @@ static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
     dp_result result = resolve_light(s->light, diag);
     if (!result) result = resolve_number(&s->crease_angle, 40, 0, 180, "crease angle", diag);
     if (!result) result = resolve_number(&s->gooch_blue, 0.4f, 0, 1, "blue of Gooch shading", diag);
-    if (!result) result = resolve_number(&s->gooch_yellow, 0.4f, 0, 1, "yellow of Gooch shading", diag);
-    if (!result) result = resolve_number(&s->gooch_alpha, 0.2f, 0, 1, "alpha of Gooch shading", diag);
+    if (!result)
+        result = resolve_number(&s->gooch_yellow, 0.4f, 0, 1, "yellow of Gooch shading", diag);
+    if (!result)
+        result = resolve_number(&s->gooch_alpha, 0.2f, 0, 1, "alpha of Gooch shading", diag);
     if (!result) result = resolve_number(&s->gooch_beta, 0.6f, 0, 1, "beta of Gooch shading", diag);
     if (!result) result = resolve_number(&s->highlight, 0, 0, 1, "highlight's strength", diag);
     if (!result) result = resolve_number(&s->stroke_scale, 1, 0.05f, 50, "scale of strokes", diag);
@@ -115,34 +131,51 @@ static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
     if (!result) result = resolve_pencil(&s->pencil_s, 2.6f, "S", diag);
     if (!result) result = resolve_pencil(&s->pencil_o, 0.12f, "O", diag);
     if (!result && (s->pencil_tones == 1 || s->pencil_tones > 8))
-        result = dp_fail(diag, DP_ERR_ARGUMENT, "pencil with %u tones; give 2 to 8, or 0 for none", s->pencil_tones);
+        result = dp_fail(diag, DP_ERR_ARGUMENT, "pencil with %u tones; give 2 to 8, or 0 for none",
+                         s->pencil_tones);
     s->ink = color_or(s->ink, DP_RGB(0, 0, 0));
     return result;
 }
 
 static dp_result resolve_mirror(dp_mirror *m, dp_diag *diag) {
-    const double length = sqrt((double)m->normal[0] * m->normal[0] + (double)m->normal[1] * m->normal[1] + (double)m->normal[2] * m->normal[2]);
+    const double length =
+        sqrt((double)m->normal[0] * m->normal[0] + (double)m->normal[1] * m->normal[1] +
+             (double)m->normal[2] * m->normal[2]);
     if (m->size == 0) return DP_OK;
-    if (!(m->size > 0) || !isfinite(m->size) || !isfinite(m->offset) || !isfinite(m->center[0] + m->center[1] + m->center[2]))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's size must be above zero, and its place finite");
+    if (!(m->size > 0) || !isfinite(m->size) || !isfinite(m->offset) ||
+        !isfinite(m->center[0] + m->center[1] + m->center[2]))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the mirror's size must be above zero, and its place finite");
     if (!(length > 1e-18) || !isfinite(length))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's normal is too short, too long or not finite");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the mirror's normal is too short, too long or not finite");
     for (int k = 0; k < 3; k++) m->normal[k] = (float)(m->normal[k] / length);
     m->tint = color_or(m->tint, DP_RGB(255, 255, 255));
-    if (!(m->fade >= 0) || !isfinite(m->fade)) return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's fade must be 0 or above");
+    if (!(m->fade >= 0) || !isfinite(m->fade))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's fade must be 0 or above");
     return resolve_number(&m->tint_share, 0, 0, 1, "share of the mirror's tint", diag);
 }
 
 static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
-    if ((unsigned)m->detector > DP_EDGE_MAP_C1) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge detector is not one of its values");
+    if ((unsigned)m->detector > DP_EDGE_MAP_C1)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the edge detector is not one of its values");
     if (!m->radius) m->radius = 1;
     if (!m->c1_passes) m->c1_passes = 3;
-    if (m->c1_passes > 3) return dp_fail(diag, DP_ERR_ARGUMENT, "C1 has three passes, not %u", m->c1_passes);
-    if (m->radius > 4) return dp_fail(diag, DP_ERR_ARGUMENT, "the edge map's radius is %u px; it must be 1 to 4", m->radius);
-    dp_result result = resolve_number(&m->inner_angle, 24, 0.01f, 180, "angle of inner edges", diag);
-    if (!result) result = resolve_number(&m->inner_softness, 0.25f, 1e-3f, 2, "softness of inner edges", diag);
-    if (!result) result = resolve_number(&m->profile_depth, 6, 0.01f, 1e6f, "depth of profile edges", diag);
-    if (!result) result = resolve_number(&m->profile_softness, 0.5f, 1e-3f, 1, "softness of profile edges", diag);
+    if (m->c1_passes > 3)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "C1 has three passes, not %u", m->c1_passes);
+    if (m->radius > 4)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the edge map's radius is %u px; it must be 1 to 4",
+                       m->radius);
+    dp_result result =
+        resolve_number(&m->inner_angle, 24, 0.01f, 180, "angle of inner edges", diag);
+    if (!result)
+        result =
+            resolve_number(&m->inner_softness, 0.25f, 1e-3f, 2, "softness of inner edges", diag);
+    if (!result)
+        result = resolve_number(&m->profile_depth, 6, 0.01f, 1e6f, "depth of profile edges", diag);
+    if (!result)
+        result =
+            resolve_number(&m->profile_softness, 0.5f, 1e-3f, 1, "softness of profile edges", diag);
     m->inner = color_or(m->inner, DP_RGB(0, 0, 0));
     m->profile = color_or(m->profile, DP_RGB(0, 0, 0));
     return result;
@@ -167,11 +200,13 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
     if (result) return result;
     if ((unsigned)full.method > DP_METHOD_PAPER || (unsigned)full.between > DP_BETWEEN_STENCIL ||
         (unsigned)full.ink > DP_INK_QUADS || (unsigned)full.edges > DP_EDGES_ADJACENCY)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "edges, method, between or ink is not one of its values");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "edges, method, between or ink is not one of its values");
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");
-    if ((result = resolve_shade(&full.shade, diag)) || (result = resolve_edge_map(&full.edge_map, diag)) ||
+    if ((result = resolve_shade(&full.shade, diag)) ||
+        (result = resolve_edge_map(&full.edge_map, diag)) ||
         (result = resolve_mirror(&full.mirror, diag)))
         return result;
     if (full.shade.shading == DP_SHADING_PAPER) full.surface = DP_COLOR_NONE;

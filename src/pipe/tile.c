@@ -14,8 +14,9 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->piece_count = 0;
     worker->away = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
-    worker->finds_edges = frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES && !frame->styles[0].edge_table_off &&
-                          frame->styles[0].edges != DP_EDGES_ADJACENCY;
+    worker->finds_edges =
+        frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES &&
+        !frame->styles[0].edge_table_off && frame->styles[0].edges != DP_EDGES_ADJACENCY;
     dp_sampling_init(&worker->sampling, frame->target.samples);
     dp_block_init(&worker->block, frame->target.samples);
     return dp_reserve(&worker->memory, &worker->winner, &worker->winner_cap, frame->tile_samples,
@@ -71,32 +72,42 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
 }
 
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
-    return sizeof *w + w->winner_cap * sizeof *w->winner + (w->ids_cap + w->backs_cap) * sizeof *w->ids +
-           w->normals_cap * sizeof *w->normals + w->polygons_cap * sizeof *w->polygons +
-           w->points_cap * sizeof *w->points + w->edge_marks_cap + w->meetings_cap * sizeof *w->meetings +
-           w->umbrellas_cap * sizeof *w->umbrellas + (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
+    return sizeof *w + w->winner_cap * sizeof *w->winner +
+           (w->ids_cap + w->backs_cap) * sizeof *w->ids + w->normals_cap * sizeof *w->normals +
+           w->polygons_cap * sizeof *w->polygons + w->points_cap * sizeof *w->points +
+           w->edge_marks_cap + w->meetings_cap * sizeof *w->meetings +
+           w->umbrellas_cap * sizeof *w->umbrellas +
+           (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
            (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
-           (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.keys_cap + w->crowd.met_cap + w->crowd.listed_cap) * 4 + (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 + w->candidates_cap * sizeof *w->candidates +
-           w->probes_cap * sizeof *w->probes +
-           (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap + w->sorted.own_b_cap) * 4 + w->pieces_cap * sizeof *w->pieces +
+           (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.keys_cap + w->crowd.met_cap +
+            w->crowd.listed_cap) *
+               4 +
+           (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 +
+           w->candidates_cap * sizeof *w->candidates + w->probes_cap * sizeof *w->probes +
+           (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap +
+            w->sorted.own_b_cap) *
+               4 +
+           w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 
-/* With o, x and y what a ray through the tile's corner is and how it changes per px, and m the normal n / (n·p) of a
- * plane through p: d = m·ray in perspective, so d0 = m·o, dx = m·x, dy = m·y; m follows by the dual basis. In
- * orthographic views the same holds of what one step of d is, and -1. m points away from the eye, front faces'
- * normals towards it. */
+/* With o, x and y what a ray through the tile's corner is and how it changes per px, and m the
+ * normal n / (n·p) of a plane through p: d = m·ray in perspective, so d0 = m·o, dx = m·x, dy = m·y;
+ * m follows by the dual basis. In orthographic views the same holds of what one step of d is, and
+ * -1. m points away from the eye, front faces' normals towards it. */
 static void find_plane_normal(dp_tile_worker *w) {
     const dp_view *const view = &w->frame->view;
     const double px = w->tile_x, py = w->tile_y;
     const dp_vec3 at = dp_unproject(view, (dp_pointd){px, py, 1}), x = view->across, y = view->down;
-    const dp_vec3 o = dp_sub(at, view->perspective ? view->eye : dp_unproject(view, (dp_pointd){px, py, 0}));
+    const dp_vec3 o =
+        dp_sub(at, view->perspective ? view->eye : dp_unproject(view, (dp_pointd){px, py, 0}));
     const dp_vec3 dual[3] = {dp_cross(x, y), dp_cross(y, o), dp_cross(o, x)};
     const double inverse = -1 / dp_dot(o, dual[0]);
     for (int i = 0; i < 3; i++) {
         float *const out = w->plane_normal[i];
-        out[0] = (float)(dual[i].x * inverse), out[1] = (float)(dual[i].y * inverse), out[2] = (float)(dual[i].z * inverse);
+        out[0] = (float)(dual[i].x * inverse), out[1] = (float)(dual[i].y * inverse),
+        out[2] = (float)(dual[i].z * inverse);
     }
 }
 
@@ -113,8 +124,10 @@ void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
 
 /* Visible pieces of lines, for strokes. */
 static void find_pieces(dp_tile_worker *w) {
-    if (w->frame->adjacency) dp_tile_adjacent_edges(w);
-    else dp_tile_edges(w);
+    if (w->frame->adjacency)
+        dp_tile_adjacent_edges(w);
+    else
+        dp_tile_edges(w);
     dp_tile_emerge(w);
     dp_tile_intersections(w);
     dp_tile_probe(w);
@@ -122,8 +135,10 @@ static void find_pieces(dp_tile_worker *w) {
 
 /* Silhouettes and borders as geometry; what has no outside, as strokes. */
 static void find_fringes(dp_tile_worker *w) {
-    if (w->frame->styles[0].passes == 1) dp_tile_fringe_one_pass(w);
-    else dp_tile_fringe_two_passes(w);
+    if (w->frame->styles[0].passes == 1)
+        dp_tile_fringe_one_pass(w);
+    else
+        dp_tile_fringe_two_passes(w);
     if (!w->failed && w->frame->lines & ~DP_OUTLINES) find_pieces(w);
 }
 
@@ -131,8 +146,10 @@ static void find_lines(dp_tile_worker *w) {
     dp_tile_faces(w);
     dp_tile_surface(w);
     if (!w->frame->lines) return;
-    if (w->frame->styles[0].ink == DP_INK_QUADS && !w->frame->adjacency) dp_tile_quads(w);
-    else find_pieces(w);
+    if (w->frame->styles[0].ink == DP_INK_QUADS && !w->frame->adjacency)
+        dp_tile_quads(w);
+    else
+        find_pieces(w);
 }
 
 void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
@@ -148,7 +165,9 @@ void dp_tile_find(dp_tile_worker *w, uint32_t tile) {
     }
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(w);
-    if (w->frame->lines && dp_is_fringed(w->frame)) find_fringes(w);
-    else find_lines(w);
+    if (w->frame->lines && dp_is_fringed(w->frame))
+        find_fringes(w);
+    else
+        find_lines(w);
     out->count = w->piece_count - first;
 }

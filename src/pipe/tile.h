@@ -21,13 +21,14 @@ enum {
     DP_POLYGON_CLIPPED = 4, /* its points are not its corners any more */
     DP_POLYGON_TOUCHES = 8, /* its points reach the tile itself, not only its margin */
     DP_POLYGON_HIDDEN = 16, /* lies well behind the surface everywhere (cull.c) */
-    DP_POLYGON_NEAR = 32    /* of a triangle: its first edge comes near the tile; two bits more for the others */
+    DP_POLYGON_NEAR =
+        32 /* of a triangle: its first edge comes near the tile; two bits more for the others */
 };
 
 /* A polygon of the tile. */
 typedef struct dp_tile_polygon {
-    uint32_t id;             /* in the frame */
-    uint32_t point;          /* first of its points */
+    uint32_t id;    /* in the frame */
+    uint32_t point; /* first of its points */
     union {
         struct {
             uint8_t x0, y0, x1, y1; /* pixels it may cover, inclusive, clamped to the tile */
@@ -35,9 +36,9 @@ typedef struct dp_tile_polygon {
         uint8_t box[4];
     };
     uint32_t flags : 8;
-    uint32_t points : 24;    /* how many */
-    float nearest;           /* largest d of its points */
-    float d0, dx, dy;        /* its plane: d = d0 + dx * x + dy * y */
+    uint32_t points : 24; /* how many */
+    float nearest;        /* largest d of its points */
+    float d0, dx, dy;     /* its plane: d = d0 + dx * x + dy * y */
 } dp_tile_polygon;
 
 _Static_assert(sizeof(dp_tile_polygon) == 32, "kernel/assemble.inc writes it as two vectors");
@@ -53,32 +54,35 @@ typedef struct dp_edge_list {
 
 enum { DP_EDGES_ROOM = 16 };
 
-/* A slot of the tile's table of edges (edge_table.c): an edge's name, and above it which of the list met there. 0: the
- * slot is free; else 1 + an edge that is alone, or DP_SLOT_PAIR + number of a pair, and DP_SLOT_MORE. */
+/* A slot of the tile's table of edges (edge_table.c): an edge's name, and above it which of the
+ * list met there. 0: the slot is free; else 1 + an edge that is alone, or DP_SLOT_PAIR + number of
+ * a pair, and DP_SLOT_MORE. */
 typedef uint64_t dp_edge_slot;
 
-#define DP_SLOT_PAIR (1u << 31)
-#define DP_SLOT_MORE (1u << 30) /* there are meetings beyond the second */
+#define DP_SLOT_PAIR   (1u << 31)
+#define DP_SLOT_MORE   (1u << 30) /* there are meetings beyond the second */
 #define DP_SLOT_NUMBER (DP_SLOT_MORE - 1)
 
 /* A third or later polygon at an edge. */
 typedef struct dp_meeting {
-    uint32_t first, number; /* of the edge in the list, as the first polygon and as this one has it */
-    uint32_t next;          /* 1 + meeting, 0: none */
+    uint32_t first,
+        number;    /* of the edge in the list, as the first polygon and as this one has it */
+    uint32_t next; /* 1 + meeting, 0: none */
 } dp_meeting;
 
 /* What stands for the normals of back faces: its square is more than any cosine. */
 #define DP_AWAY 2
 static const float dp_away[4] = {0, 0, 0, DP_AWAY};
 
-/* In the same place of front faces: their normals are to be made again where their edges are listed. Some are right to
- * DP_ROUGH_ANGLE, others not at all. */
-#define DP_ROUGH 3
-#define DP_UNKNOWN 4
+/* In the same place of front faces: their normals are to be made again where their edges are
+ * listed. Some are right to DP_ROUGH_ANGLE, others not at all. */
+#define DP_ROUGH       3
+#define DP_UNKNOWN     4
 #define DP_ROUGH_ANGLE 2.5 /* degrees */
 
-/* The triangles around a vertex (kernel/umbrellas.inc): of their normals' components, times DP_UMBRELLA_ONE, and of what
- * these are less, the least; and a sum that tells whether they surround it. */
+/* The triangles around a vertex (kernel/umbrellas.inc): of their normals' components, times
+ * DP_UMBRELLA_ONE, and of what these are less, the least; and a sum that tells whether they
+ * surround it. */
 typedef struct dp_umbrella {
     int16_t least[6]; /* x, -x, y, -y, z, -z */
     uint32_t open;
@@ -86,59 +90,66 @@ typedef struct dp_umbrella {
 
 _Static_assert(sizeof(dp_umbrella) == 16, "kernel/umbrellas.inc takes it for a vector");
 
-#define DP_UMBRELLA_BYTE 0x7f         /* all bytes of an empty one */
+#define DP_UMBRELLA_BYTE   0x7f       /* all bytes of an empty one */
 #define DP_UMBRELLA_CLOSED 0x7f7f7f7f /* its `open` */
-#define DP_UMBRELLA_ONE 8192
+#define DP_UMBRELLA_ONE    8192
 enum { DP_UMBRELLA_AWAY = 24000, DP_UMBRELLA_UNKNOWN = -32767 };
 
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
-    uint32_t a, b;    /* frame polygons: owner, partner or UINT32_MAX */
-    uint32_t edge;    /* corner of the owner, or DP_CROSSING */
-    uint32_t n;       /* sample points on the whole spine */
-    uint32_t k0, k1;  /* those in this tile: [k0, k1) */
-    uint32_t probe;   /* first of its probes */
+    uint32_t a, b;   /* frame polygons: owner, partner or UINT32_MAX */
+    uint32_t edge;   /* corner of the owner, or DP_CROSSING */
+    uint32_t n;      /* sample points on the whole spine */
+    uint32_t k0, k1; /* those in this tile: [k0, k1) */
+    uint32_t probe;  /* first of its probes */
     uint8_t line;
 } dp_candidate;
 
 /* A sample point of a spine. Hidden when a polygon other than its own lies nearer than `limit`. */
 typedef struct dp_probe {
     float x, y;
-    float limit;            /* d */
-    uint32_t own_a, own_b;  /* frame polygons */
-    uint32_t place;         /* among the sorted */
-    uint16_t cell;          /* pixel of the tile that holds it, row by row */
+    float limit;           /* d */
+    uint32_t own_a, own_b; /* frame polygons */
+    uint32_t place;        /* among the sorted */
+    uint16_t cell;         /* pixel of the tile that holds it, row by row */
     bool hidden;
 } dp_probe;
 
 /* The same sorted by pixel, each member for itself, with room for one vector beyond the last. */
 typedef struct dp_sorted_probes {
-    float *x, *y, *limit;     /* limit is infinite once it is hidden */
+    float *x, *y, *limit; /* limit is infinite once it is hidden */
     uint32_t *own_a, *own_b;
     size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
-    uint32_t first[DP_TILE * DP_TILE + 1];           /* by pixel */
-    float least[DP_TILE * DP_TILE + DP_TILE + 16];   /* limit, by pixel, infinite where there is none; a row and a vector more */
-    float window[DP_TILE * DP_TILE];                 /* kernel/hide.inc */
+    uint32_t first[DP_TILE * DP_TILE + 1]; /* by pixel */
+    float least[DP_TILE * DP_TILE + DP_TILE +
+                16]; /* limit, by pixel, infinite where there is none; a row and a vector more */
+    float window[DP_TILE * DP_TILE]; /* kernel/hide.inc */
 } dp_sorted_probes;
 
-/* Polygons around pixels where faces may cross (intersect.c), sorted by the first row of their boxes. */
+/* Polygons around pixels where faces may cross (intersect.c), sorted by the first row of their
+ * boxes. */
 typedef struct dp_crowd {
     uint32_t *polygon;
-    float *bounds; /* least x, y (px, tile space) and d, then the most, `stride` floats from one to the next */
-    uint32_t *keys; /* of triangles' corners, by corner, `stride` from one to the next; what belongs to no other: none */
-    uint32_t *met; /* those that one of them may cross */
+    float *bounds;  /* least x, y (px, tile space) and d, then the most, `stride` floats from one to
+                       the next */
+    uint32_t *keys; /* of triangles' corners, by corner, `stride` from one to the next; what belongs
+                       to no other: none */
+    uint32_t *met;  /* those that one of them may cross */
     uint32_t *listed; /* before they are sorted */
     size_t polygon_cap, bounds_cap, keys_cap, met_cap, listed_cap;
     uint32_t count, stride;
 } dp_crowd;
 
 enum { DP_CROWD_BOUNDS = 6, DP_CROWD_ROOM = 16 };
-enum { DP_CROWD_BLOCK = 8 /* px */, DP_CROWD_BLOCKS = (DP_TILE + DP_CROWD_BLOCK - 1) / DP_CROWD_BLOCK };
+enum {
+    DP_CROWD_BLOCK = 8 /* px */,
+    DP_CROWD_BLOCKS = (DP_TILE + DP_CROWD_BLOCK - 1) / DP_CROWD_BLOCK
+};
 
 /* Points in lists by the tile's pixels. */
 typedef struct dp_pixel_lists {
-    uint64_t row[DP_TILE];             /* pixels that hold any */
-    uint32_t head[DP_TILE * DP_TILE];  /* first of a pixel; valid where `row` has its bit */
+    uint64_t row[DP_TILE];            /* pixels that hold any */
+    uint32_t head[DP_TILE * DP_TILE]; /* first of a pixel; valid where `row` has its bit */
 } dp_pixel_lists;
 
 /* A polygon's edge that the table leaves to emerge. */
@@ -146,19 +157,28 @@ typedef struct dp_loose_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
 } dp_loose_edge;
 
-/* Depth of the furthest sample of 1 + sx times 1 + sy blocks of pixels, the first of which is bx, by (cull.c). Around
- * the tile's blocks lies a ring, of the strip: block [1][1] is the tile's first. */
+/* Depth of the furthest sample of 1 + sx times 1 + sy blocks of pixels, the first of which is bx,
+ * by (cull.c). Around the tile's blocks lies a ring, of the strip: block [1][1] is the tile's
+ * first. */
 enum { DP_BLOCKS = DP_TILE / DP_BLOCK, DP_RINGED = DP_BLOCKS + 2 };
 enum { DP_SPANS = 3 };
 typedef float dp_farthest[DP_SPANS][DP_SPANS][DP_RINGED][DP_RINGED]; /* [sy][sx][by][bx] */
 
-/* Depth of the front faces half a pixel beyond the tile: on the left, right, above and below it, at a quarter and at
- * three quarters of each pixel. */
+/* Depth of the front faces half a pixel beyond the tile: on the left, right, above and below it, at
+ * a quarter and at three quarters of each pixel. */
 enum { DP_STRIP_SIDES = 4, DP_STRIP = 2 * DP_TILE };
 typedef float dp_strip[DP_STRIP_SIDES][DP_STRIP];
 
-/* What is wanted of all seen polygons one after the other: box, flags and `nearest` of the records, keys of triangles. */
-enum { DP_SEEN_BOX, DP_SEEN_FLAGS, DP_SEEN_NEAREST, DP_SEEN_KEYS, DP_SEEN_MEMBERS = DP_SEEN_KEYS + 3, DP_SEEN_ROOM = 16 };
+/* What is wanted of all seen polygons one after the other: box, flags and `nearest` of the records,
+ * keys of triangles. */
+enum {
+    DP_SEEN_BOX,
+    DP_SEEN_FLAGS,
+    DP_SEEN_NEAREST,
+    DP_SEEN_KEYS,
+    DP_SEEN_MEMBERS = DP_SEEN_KEYS + 3,
+    DP_SEEN_ROOM = 16
+};
 
 struct dp_tile_worker {
     const dp_frame *frame;
@@ -167,8 +187,9 @@ struct dp_tile_worker {
     bool failed; /* out of memory: the tile is abandoned */
 
     bool watching; /* for intersections, while faces are drawn */
-    const uint64_t *away; /* a bit per sample that no polygon of this tile has won and that holds something all the
-                             same: does that face away? NULL: there are no such samples (src/stream/) */
+    const uint64_t
+        *away; /* a bit per sample that no polygon of this tile has won and that holds something all
+                  the same: does that face away? NULL: there are no such samples (src/stream/) */
     dp_block block; /* of samples that the kernels draw at once */
 
     uint32_t tile, tile_x, tile_y;
@@ -177,31 +198,39 @@ struct dp_tile_worker {
     float *depth;     /* the tile's samples */
     uint32_t *winner; /* tile polygon per sample; UINT32_MAX: none */
 
-    uint32_t *ids, *backs; /* of the tile's polygons, in the frame; those of triangles that face away */
+    uint32_t *ids,
+        *backs; /* of the tile's polygons, in the frame; those of triangles that face away */
     dp_tile_polygon *polygons;
-    bool finds_edges;      /* by the table of edges: normals are wanted */
-    float plane_normal[3][3]; /* what d0, dx, dy (perspective) or -1, dx, dy of a plane are times to give its normal */
-    float (*normals)[4];   /* by polygon: unit normal and 0, DP_ROUGH or DP_UNKNOWN, or dp_away (kernel/edges.inc) */
-    uint32_t *unsure;      /* front faces whose normals are still to be made, as their edges are listed */
+    bool finds_edges;         /* by the table of edges: normals are wanted */
+    float plane_normal[3][3]; /* what d0, dx, dy (perspective) or -1, dx, dy of a plane are times to
+                                 give its normal */
+    float (*normals)[4];      /* by polygon: unit normal and 0, DP_ROUGH or DP_UNKNOWN, or dp_away
+                                 (kernel/edges.inc) */
+    uint32_t
+        *unsure; /* front faces whose normals are still to be made, as their edges are listed */
     dp_umbrella *umbrellas; /* by the keys of vertices, shifted right */
     uint32_t umbrella_shift;
-    dp_vertex *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
+    dp_vertex
+        *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
     uint32_t *keys; /* of the triangles' corners, by corner: `keys_stride` from one to the next */
     uint32_t *seen; /* polygons that are not hidden, ascending */
     uint32_t *seen_words; /* dp_seen_words */
     dp_edge_list edges;
     dp_edge_slot *edge_slots;
-    uint8_t *edge_marks;     /* by number in the list: it may be a line */
-    uint32_t *pair_first, *pair_second; /* edges of the list: one as either of two polygons has it */
+    uint8_t *edge_marks; /* by number in the list: it may be a line */
+    uint32_t *pair_first,
+        *pair_second; /* edges of the list: one as either of two polygons has it */
     dp_meeting *meetings;
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
     dp_probe *probes;
     dp_piece *pieces; /* of all the worker's tiles in this frame */
-    size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap, points_cap, meetings_cap, slots_cap;
+    size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap,
+        points_cap, meetings_cap, slots_cap;
     size_t unsure_cap, umbrellas_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
     size_t candidates_cap, probes_cap, pieces_cap;
-    uint32_t undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
+    uint32_t
+        undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     size_t keys_cap, seen_words_cap;
     uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count, meeting_count, slot_count;
@@ -209,7 +238,8 @@ struct dp_tile_worker {
     uint32_t candidate_count, probe_count;
     size_t piece_count;
 
-    uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
+    uint64_t
+        suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
     dp_crowd crowd;
 
     dp_sorted_probes sorted;
@@ -219,10 +249,10 @@ struct dp_tile_worker {
     size_t loose_cap, lookups_cap;
     uint32_t loose_count;
 
-    uint32_t *ink;    /* quads.c: per sample; its depth; the stencil buffer */
+    uint32_t *ink; /* quads.c: per sample; its depth; the stencil buffer */
     float *ink_depth;
     uint8_t *stencil;
-    dp_vec3 *world;   /* corners of one polygon */
+    dp_vec3 *world; /* corners of one polygon */
     dp_clip_point *clip;
     struct dp_screen_edge *screen_edges;
     size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap, screen_edges_cap;
@@ -232,35 +262,37 @@ struct dp_tile_worker {
 };
 
 /* Grows one of the worker's arrays; remembers a failure. */
-#define DP_WORKER_RESERVE(worker, array, capacity, need)                                              \
-    ((need) <= (worker)->capacity ||                                                                  \
-     dp_reserve(&(worker)->memory, &(worker)->array, &(worker)->capacity, (need),                     \
-                sizeof *(worker)->array) ||                                                           \
+#define DP_WORKER_RESERVE(worker, array, capacity, need)                                           \
+    ((need) <= (worker)->capacity ||                                                               \
+     dp_reserve(&(worker)->memory, &(worker)->array, &(worker)->capacity, (need),                  \
+                sizeof *(worker)->array) ||                                                        \
      !((worker)->failed = true))
 
 bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
 void dp_tile_worker_free(dp_tile_worker *worker);
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 
-/* Takes up a tile: nothing has won a sample, no line is known; its depth stays as it is (tile.c). */
+/* Takes up a tile: nothing has won a sample, no line is known; its depth stays as it is (tile.c).
+ */
 void dp_tile_open(dp_tile_worker *worker, uint32_t tile);
 
 /* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
 void dp_tile_find(dp_tile_worker *worker, uint32_t tile);
 
 /* The stages of dp_tile_find, each in its own file. */
-void dp_tile_assemble(dp_tile_worker *worker);                             /* assemble.c; draws faces, but for … */
-void dp_tile_find_farthest(dp_tile_worker *worker);                        /* cull.c */
-void dp_tile_faces(dp_tile_worker *worker);                                /* cull.c; … some back faces */
-bool dp_tile_see(dp_tile_worker *worker, bool culling);                    /* cull.c: lists what is not hidden, or all */
-void dp_tile_edges(dp_tile_worker *worker);                                /* edges.c */
-void dp_tile_emerge(dp_tile_worker *worker);                               /* emerge.c */
-void dp_tile_intersections(dp_tile_worker *worker);                        /* intersect.c */
-void dp_tile_probe(dp_tile_worker *worker);                                /* probes.c: the next two */
+void dp_tile_assemble(dp_tile_worker *worker);      /* assemble.c; draws faces, but for … */
+void dp_tile_find_farthest(dp_tile_worker *worker); /* cull.c */
+void dp_tile_faces(dp_tile_worker *worker);         /* cull.c; … some back faces */
+bool dp_tile_see(dp_tile_worker *worker,
+                 bool culling);                     /* cull.c: lists what is not hidden, or all */
+void dp_tile_edges(dp_tile_worker *worker);         /* edges.c */
+void dp_tile_emerge(dp_tile_worker *worker);        /* emerge.c */
+void dp_tile_intersections(dp_tile_worker *worker); /* intersect.c */
+void dp_tile_probe(dp_tile_worker *worker);         /* probes.c: the next two */
 void dp_tile_hide(dp_tile_worker *worker);    /* the tile's seen polygons hide sample points */
 void dp_tile_collect(dp_tile_worker *worker); /* runs of visible sample points become pieces */
 
-void dp_tile_surface(dp_tile_worker *worker);                              /* surface.c */
+void dp_tile_surface(dp_tile_worker *worker); /* surface.c */
 void dp_tile_bare_surface(dp_tile_worker *worker);
 
 /* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
@@ -269,24 +301,30 @@ void dp_tile_quads(dp_tile_worker *worker);
 /* Culling: how far behind the surface is well behind it, pixel sizes. */
 #define DP_CULL_SLACK 6
 
-/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)? */
-bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1, float nearest);
+/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)?
+ */
+bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1,
+                   float nearest);
 
 /* The same of a polygon's box. */
 bool dp_tile_is_hidden(const dp_tile_worker *worker, const dp_tile_polygon *polygon);
 
-/* Does edge i of a polygon come as near to the tile as `reach` px? A polygon that is not clipped has an edge from
- * point to point of its outline. */
-static inline bool dp_tile_edge_reaches(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i, float reach) {
+/* Does edge i of a polygon come as near to the tile as `reach` px? A polygon that is not clipped
+ * has an edge from point to point of its outline. */
+static inline bool dp_tile_edge_reaches(const dp_tile_worker *w, const dp_tile_polygon *p,
+                                        uint32_t i, float reach) {
     if (p->flags & DP_POLYGON_CLIPPED) return true;
-    const dp_vertex a = w->points[p->point + i], b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
+    const dp_vertex a = w->points[p->point + i],
+                    b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
     return dp_maxf(a.x, b.x) >= -reach && dp_minf(a.x, b.x) <= DP_TILE + reach &&
            dp_maxf(a.y, b.y) >= -reach && dp_minf(a.y, b.y) <= DP_TILE + reach;
 }
 
 /* Does it come near the tile? Others are other tiles'. */
-static inline bool dp_tile_edge_is_near(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i) {
-    if (p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED)) return p->flags & (uint32_t)DP_POLYGON_NEAR << i;
+static inline bool dp_tile_edge_is_near(const dp_tile_worker *w, const dp_tile_polygon *p,
+                                        uint32_t i) {
+    if (p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED))
+        return p->flags & (uint32_t)DP_POLYGON_NEAR << i;
     return dp_tile_edge_reaches(w, p, i, DP_BESIDE);
 }
 
@@ -301,24 +339,25 @@ static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
 /* Sets the normal of a polygon that is too thin for float32 (edges.c). */
 void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
 
-/* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face, or, when `backs`,
- * a back face that is not hidden (assemble.c). */
+/* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face,
+ * or, when `backs`, a back face that is not hidden (assemble.c). */
 void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index, bool backs);
 
-/* Called while `index` is rasterized and its depth lies close to what sample `lane` holds (intersect.c). */
+/* Called while `index` is rasterized and its depth lies close to what sample `lane` holds
+ * (intersect.c). */
 void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, float depth);
 
-/* Of suspects by rows of pixels (intersect.c): drops those that stand alone; adds the neighbours, false when
- * there are none. */
+/* Of suspects by rows of pixels (intersect.c): drops those that stand alone; adds the neighbours,
+ * false when there are none. */
 void dp_drop_lone(uint64_t suspects[DP_TILE]);
 bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]);
 
-/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe and the final
- * k0, k1 are filled here (probes.c). */
+/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe and the
+ * final k0, k1 are filled here (probes.c). */
 void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine);
 
-/* Puts item `index` into the list of the pixel that holds (x, y), or the tile's nearest one; returns what
- * was first there, or UINT32_MAX. */
+/* Puts item `index` into the list of the pixel that holds (x, y), or the tile's nearest one;
+ * returns what was first there, or UINT32_MAX. */
 static inline uint32_t dp_pixel_push(dp_pixel_lists *lists, float x, float y, uint32_t index) {
     const uint32_t px = x <= 0 ? 0 : x >= DP_TILE ? DP_TILE - 1 : (uint32_t)x;
     const uint32_t py = y <= 0 ? 0 : y >= DP_TILE ? DP_TILE - 1 : (uint32_t)y;
@@ -339,7 +378,8 @@ static inline uint32_t *dp_seen_words(const dp_tile_worker *w, uint32_t member) 
     return w->seen_words + (size_t)member * w->seen_stride;
 }
 
-/* Does a polygon cover a point of the tile? Of two polygons that share an edge exactly one does (probes.c). */
+/* Does a polygon cover a point of the tile? Of two polygons that share an edge exactly one does
+ * (probes.c). */
 bool dp_tile_covers(const dp_tile_worker *worker, const dp_tile_polygon *polygon, float x, float y);
 
 /* Is the polygon part of the surface that is painted and hides (in this tile)? */
@@ -353,15 +393,20 @@ static inline float dp_depth_steps(const dp_frame *frame, float d, float px) {
     return px * (fabsf(d) * frame->step_scale + frame->step_offset);
 }
 
-/* A crossing is looked for this far around a sample, px: beyond the next sample on the other side … */
-static inline float dp_watch_px(const dp_tile_worker *w) { return w->sampling.samples == 1 ? 1.5f : 0.75f; }
+/* A crossing is looked for this far around a sample, px: beyond the next sample on the other side …
+ */
+static inline float dp_watch_px(const dp_tile_worker *w) {
+    return w->sampling.samples == 1 ? 1.5f : 0.75f;
+}
 
-/* … or where the gap in depth is less than this many pixel sizes: the other polygon may be the steep one. */
+/* … or where the gap in depth is less than this many pixel sizes: the other polygon may be the
+ * steep one. */
 #define DP_WATCH_GAP 8
 
 /* A sample this close in depth to a plane may be of a polygon that crosses it. */
 static inline float dp_watch_reach(const dp_tile_worker *w, float dx, float dy, float nearest) {
-    return dp_watch_px(w) * (fabsf(dx) + fabsf(dy)) + dp_depth_steps(w->frame, nearest, DP_WATCH_GAP);
+    return dp_watch_px(w) * (fabsf(dx) + fabsf(dy)) +
+           dp_depth_steps(w->frame, nearest, DP_WATCH_GAP);
 }
 
 /* The depth of a polygon's plane at a point of the tile. */

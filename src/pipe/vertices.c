@@ -14,8 +14,8 @@ static void transform_block(void *arg, uint32_t index, uint32_t worker) {
     (void)worker;
     const uint32_t first = index * BLOCK, count = frame->polygons.vertex_count;
     const uint32_t last = count - first < BLOCK ? count : first + BLOCK;
-    frame->kernels->transform(&frame->view, dp_vertex_position(&frame->polygons, first), frame->polygons.stride,
-                              last - first, frame->vertices + first);
+    frame->kernels->transform(&frame->view, dp_vertex_position(&frame->polygons, first),
+                              frame->polygons.stride, last - first, frame->vertices + first);
 }
 
 void dp_transform_vertices(dp_frame *frame) {

@@ -1,7 +1,7 @@
 /* The camera resolved for one picture: world space to pixels and depth.
  *
- * Screen space: x right, y down, px, pixel (i, j) covers [i, i+1) x [j, j+1). Depth `d` is affine in
- * screen x and y on every plane and larger when nearer: 1 / distance in perspective, minus the
+ * Screen space: x right, y down, px, pixel (i, j) covers [i, i+1) x [j, j+1). Depth `d` is affine
+ * in screen x and y on every plane and larger when nearer: 1 / distance in perspective, minus the
  * distance in orthographic views (distance along the line of sight, world units). */
 #ifndef DP_PIPE_VIEW_H
 #define DP_PIPE_VIEW_H
@@ -15,16 +15,16 @@
 
 typedef struct dp_view {
     bool perspective;
-    double width, height;   /* px */
-    double clip[4][4];      /* rows x, y, z, w: world to clip space; w is the distance in perspective */
-    double sight[4];        /* row: world to distance along the line of sight */
-    dp_vec3 eye, forward;   /* world space; forward is the paper's camera axis C, unit */
-    double focal;           /* px per unit at distance 1 (perspective), px per unit (orthographic) */
-    dp_vec3 corner;         /* the screen's point (0, 0) at d = 1, world space */
-    dp_vec3 across, down;   /* what it moves by per px of x and y there */
-    dp_vec3 inverse[3];     /* of the rows x, y and sight, over `determinant`, by columns */
+    double width, height; /* px */
+    double clip[4][4]; /* rows x, y, z, w: world to clip space; w is the distance in perspective */
+    double sight[4];   /* row: world to distance along the line of sight */
+    dp_vec3 eye, forward; /* world space; forward is the paper's camera axis C, unit */
+    double focal;         /* px per unit at distance 1 (perspective), px per unit (orthographic) */
+    dp_vec3 corner;       /* the screen's point (0, 0) at d = 1, world space */
+    dp_vec3 across, down; /* what it moves by per px of x and y there */
+    dp_vec3 inverse[3];   /* of the rows x, y and sight, over `determinant`, by columns */
     double determinant;
-    double guard;           /* vertices further than guard * w from the axis are clipped */
+    double guard; /* vertices further than guard * w from the axis are clipped */
 } dp_view;
 
 /* A point on the screen. */
@@ -89,7 +89,14 @@ dp_vec3 dp_unproject(const dp_view *view, dp_pointd p);
 
 /* Clipping ------------------------------------------------------------------------------------- */
 
-enum { DP_CLIP_NEAR = 1, DP_CLIP_FAR = 2, DP_CLIP_LEFT = 4, DP_CLIP_RIGHT = 8, DP_CLIP_BOTTOM = 16, DP_CLIP_TOP = 32 };
+enum {
+    DP_CLIP_NEAR = 1,
+    DP_CLIP_FAR = 2,
+    DP_CLIP_LEFT = 4,
+    DP_CLIP_RIGHT = 8,
+    DP_CLIP_BOTTOM = 16,
+    DP_CLIP_TOP = 32
+};
 
 /* Which planes of the (guarded) frustum the point is outside of. */
 static inline int dp_outcode(const dp_view *view, dp_clip_point c) {
@@ -104,7 +111,8 @@ static inline int dp_outcode(const dp_view *view, dp_clip_point c) {
 uint32_t dp_clip_polygon(const dp_view *view, int codes, dp_clip_point *points, uint32_t n,
                          dp_clip_point *scratch);
 
-/* Clips the segment from a to b; *t0, *t1 are what is left of [0, 1] in clip space. False: nothing. */
+/* Clips the segment from a to b; *t0, *t1 are what is left of [0, 1] in clip space. False: nothing.
+ */
 bool dp_clip_segment(const dp_view *view, dp_clip_point a, dp_clip_point b, double *t0, double *t1);
 
 static inline dp_clip_point dp_clip_mix(dp_clip_point a, dp_clip_point b, double t) {

@@ -1,6 +1,7 @@
-/* The cartoon map (Nienhaus and Döllner 2003, 5): the cartoon-shaded picture, sampled around each pixel to smooth
- * the jaggies between its patches. Weights 1 2 1 in both directions; neighbours of another group, beyond a step in
- * distance or beyond the surface do not count, so that outlines stay sharp. */
+/* The cartoon map (Nienhaus and Döllner 2003, 5): the cartoon-shaded picture, sampled around each
+ * pixel to smooth the jaggies between its patches. Weights 1 2 1 in both directions; neighbours of
+ * another group, beyond a step in distance or beyond the surface do not count, so that outlines
+ * stay sharp. */
 #include "shade/passes.h"
 
 static const float STEP = 12; /* pixel sizes between neighbours of one surface */
@@ -35,8 +36,15 @@ static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_
 static void smooth_row(const dp_shade_store *s, uint32_t x, uint32_t y, uint64_t mask) {
     const dp_gbuffer *const g = &s->gbuffer;
     const size_t at = (size_t)y * g->stride + x, pixel = 4 * ((size_t)y * g->width + x);
-    const dp_smooth_run run = {.color = s->color + pixel, .out = s->smooth + pixel, .id = g->id + at, .distance = g->distance + at,
-                               .width = g->width, .stride = g->stride, .step = STEP, .fy = g->fy, .perspective = g->perspective};
+    const dp_smooth_run run = {.color = s->color + pixel,
+                               .out = s->smooth + pixel,
+                               .id = g->id + at,
+                               .distance = g->distance + at,
+                               .width = g->width,
+                               .stride = g->stride,
+                               .step = STEP,
+                               .fy = g->fy,
+                               .perspective = g->perspective};
     s->shaders->smooth(&run, mask);
 }
 

@@ -1,10 +1,12 @@
 /* Composition: edges over shades, then pixels that several surfaces share.
  *
- * Edges in the paper's order (5, Technical Illustrations): between the shade and the inner edges' colour first,
- * weighed by the map's RGB, then between the result and the profile edges' colour, weighed by its A.
+ * Edges in the paper's order (5, Technical Illustrations): between the shade and the inner edges'
+ * colour first, weighed by the map's RGB, then between the result and the profile edges' colour,
+ * weighed by its A.
  *
- * Resolving: a pixel's own surface covers `share` of it; the rest is the paper, or a surface that one of the
- * pixels around shows, the one whose distance comes nearest to `other`. Colours are not premultiplied. */
+ * Resolving: a pixel's own surface covers `share` of it; the rest is the paper, or a surface that
+ * one of the pixels around shows, the one whose distance comes nearest to `other`. Colours are not
+ * premultiplied. */
 #include "gbuffer/edge_map.h"
 #include "shade/passes.h"
 
@@ -12,7 +14,8 @@
 
 /* c + (edge - c) * strength, for all four channels; an edge's own alpha weakens it. */
 static void blend(uint8_t c[4], dp_color edge, float strength) {
-    const float s = strength * (float)(edge & 0xff) / 255, under = (float)c[3] / 255, alpha = s + under * (1 - s);
+    const float s = strength * (float)(edge & 0xff) / 255, under = (float)c[3] / 255,
+                alpha = s + under * (1 - s);
     if (!(s > 0)) return;
     for (int k = 0; k < 3; k++) {
         const float over = (float)(edge >> (24 - 8 * k) & 0xff);
@@ -49,7 +52,8 @@ void dp_edges_tile(dp_shade_store *s, uint32_t tile) {
 /* ------- resolving ------- */
 
 /* The colour of what covers the rest of pixel (x, y). */
-static const uint8_t *other_color(const dp_shade_store *s, const uint8_t *colors, uint32_t x, uint32_t y, float other) {
+static const uint8_t *other_color(const dp_shade_store *s, const uint8_t *colors, uint32_t x,
+                                  uint32_t y, float other) {
     const dp_gbuffer *const g = &s->gbuffer;
     const uint8_t *best = colors + 4 * ((size_t)y * g->width + x);
     float least = INFINITY;
@@ -77,12 +81,14 @@ static void mix_colors(const uint8_t a[4], const uint8_t b[4], uint32_t share, u
 }
 
 /* A pixel that is shared. */
-static void resolve_pixel(const dp_shade_store *s, const uint8_t background[4], uint32_t x, uint32_t y) {
+static void resolve_pixel(const dp_shade_store *s, const uint8_t background[4], uint32_t x,
+                          uint32_t y) {
     const dp_gbuffer *const g = &s->gbuffer;
     const size_t at = (size_t)y * g->stride + x;
     const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
-    mix_colors(s->shown + 4 * ((size_t)y * g->width + x), on_paper ? background : other_color(s, s->shown, x, y, g->other[at]),
-               g->share[at], s->frame->target.rgba + (size_t)y * s->frame->target.rgba_stride + 4 * (size_t)x);
+    mix_colors(s->shown + 4 * ((size_t)y * g->width + x),
+               on_paper ? background : other_color(s, s->shown, x, y, g->other[at]), g->share[at],
+               s->frame->target.rgba + (size_t)y * s->frame->target.rgba_stride + 4 * (size_t)x);
 }
 
 /* A run of ones in `bits`, from the lowest on, is taken out of them. */
@@ -94,7 +100,8 @@ static void take_run(uint64_t *bits, uint32_t *from, uint32_t *to) {
 }
 
 /* Paper where nothing was painted: background of tiles that hold polygons. */
-static void paper_row(const dp_shade_store *s, const uint8_t background[4], uint64_t bits, uint32_t tile_x, uint32_t y) {
+static void paper_row(const dp_shade_store *s, const uint8_t background[4], uint64_t bits,
+                      uint32_t tile_x, uint32_t y) {
     const dp_target *const target = &s->frame->target;
     uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
     while (bits) {
@@ -117,14 +124,16 @@ void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
     const dp_gbuffer *const g = &s->gbuffer;
     const dp_target *const target = &s->frame->target;
     const dp_color paper = s->frame->styles[0].paper;
-    const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16), (uint8_t)(paper >> 8), (uint8_t)paper};
+    const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16),
+                                   (uint8_t)(paper >> 8), (uint8_t)paper};
     const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;
     const uint32_t width = g->width - tile_x < DP_TILE ? g->width - tile_x : DP_TILE;
     if (!target->rgba || g->clean[tile]) return;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
         const uint32_t y = first + row;
         uint64_t bits = g->mask[(size_t)tile * DP_TILE + row];
-        if (s->frame->painted_later) paper_row(s, background, ~bits & ~(uint64_t)0 >> (64 - width), tile_x, y);
+        if (s->frame->painted_later)
+            paper_row(s, background, ~bits & ~(uint64_t)0 >> (64 - width), tile_x, y);
         uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
         const uint8_t *const own = s->shown + 4 * ((size_t)y * g->width + tile_x);
         while (bits) { /* all as it is, then those pixels again that are shared */
@@ -132,7 +141,8 @@ void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
             take_run(&bits, &from, &to);
             memcpy(out + 4 * (size_t)from, own + 4 * (size_t)from, 4 * (size_t)(to - from));
         }
-        for (uint64_t shared = g->shared[(size_t)tile * DP_TILE + row]; shared; shared &= shared - 1)
+        for (uint64_t shared = g->shared[(size_t)tile * DP_TILE + row]; shared;
+             shared &= shared - 1)
             resolve_pixel(s, background, tile_x + (uint32_t)__builtin_ctzll(shared), y);
         if (s->frame->ink_layer) ink_row(s, tile_x, width, y);
     }

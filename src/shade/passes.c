@@ -1,12 +1,10 @@
-/* The passes over the whole picture, between finding lines and inking them (Nienhaus and Döllner 2003, "Rendering
- * Passes"): the G-buffer was filled with the tiles; then
- *     0  shade      G-buffer -> color               (right after its tile is filled, where it looks at no other)
- *     1  cartoon    color -> smooth                  (toon)
- *     2  store      G-buffer to 8 bits, if asked for
- *     3  edges      G-buffer -> edge map, over color
- *     4  resolve    color -> target
- * Every pass runs over tiles in parallel and reads what earlier passes left around its pixels; it looks only at
- * the spans of rows that hold a surface, so that background costs nothing. */
+/* The passes over the whole picture, between finding lines and inking them (Nienhaus and Döllner
+ * 2003, "Rendering Passes"): the G-buffer was filled with the tiles; then 0  shade      G-buffer ->
+ * color               (right after its tile is filled, where it looks at no other) 1  cartoon color
+ * -> smooth                  (toon) 2  store      G-buffer to 8 bits, if asked for 3  edges
+ * G-buffer -> edge map, over color 4  resolve    color -> target Every pass runs over tiles in
+ * parallel and reads what earlier passes left around its pixels; it looks only at the spans of rows
+ * that hold a surface, so that background costs nothing. */
 #include "shade/passes.h"
 
 #include "kernel/kernels.h"
@@ -40,7 +38,8 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
 
 static bool is_shaded(const dp_frame *frame) {
     const dp_shading shading = frame->styles[0].shade.shading;
-    return (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) || frame->styles[0].shade.model_colors;
+    return (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) ||
+           frame->styles[0].shade.model_colors;
 }
 
 static bool wants_colors(const dp_frame *frame, bool mirror) {
@@ -57,7 +56,8 @@ static bool is_active(const dp_frame *frame, bool mirror) {
 bool dp_shade_needs_normals(const dp_shade_store *s) {
     const dp_frame *const frame = s->frame;
     const dp_normals normals = frame->styles[0].shade.normals;
-    return s->active && (normals == DP_NORMALS_SMOOTH || (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
+    return s->active && (normals == DP_NORMALS_SMOOTH ||
+                         (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
 }
 
 static bool make_texture(uint8_t **values, void (*make)(uint8_t *), const dp_allocator *memory) {
@@ -71,10 +71,14 @@ static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
     const dp_shade *const shade = &s->setup.shade;
     if (shade->shading != DP_SHADING_HATCH && shade->shading != DP_SHADING_HALFTONE) return true;
     const bool dots = shade->shading == DP_SHADING_HALFTONE;
-    s->setup.strokes = (dp_strokes_texture){shade->strokes.values, shade->strokes.width, shade->strokes.height};
+    s->setup.strokes =
+        (dp_strokes_texture){shade->strokes.values, shade->strokes.width, shade->strokes.height};
     if (shade->strokes.values) return true;
-    if (!make_texture(dots ? &s->halftone : &s->hatching, dots ? dp_make_halftone : dp_make_hatching, memory)) return false;
-    s->setup.strokes = (dp_strokes_texture){dots ? s->halftone : s->hatching, DP_STROKES_SIZE, DP_STROKES_SIZE};
+    if (!make_texture(dots ? &s->halftone : &s->hatching,
+                      dots ? dp_make_halftone : dp_make_hatching, memory))
+        return false;
+    s->setup.strokes =
+        (dp_strokes_texture){dots ? s->halftone : s->hatching, DP_STROKES_SIZE, DP_STROKES_SIZE};
     return true;
 }
 
@@ -110,7 +114,8 @@ static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
     g->polygon = NULL;
     if (shade->shading != DP_SHADING_PENCIL) return true;
     const uint32_t tones = shade->strokes.values || !shade->pencil_tones ? 1 : shade->pencil_tones;
-    if (!dp_reserve(frame->memory, &s->polygon, &s->polygon_cap, g->stride * g->height, sizeof *s->polygon) ||
+    if (!dp_reserve(frame->memory, &s->polygon, &s->polygon_cap, g->stride * g->height,
+                    sizeof *s->polygon) ||
         !make_graphite(s, tones, frame->memory))
         return false;
     g->polygon = s->polygon;
@@ -120,27 +125,31 @@ static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
     s->setup.pencil = &s->pencil;
     s->setup.tone_count = tones;
     for (uint32_t i = 0; i < tones; i++)
-        s->setup.tones[i] = (dp_strokes_texture){s->graphite + i * (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE,
-                                                 DP_GRAPHITE_SIZE, DP_GRAPHITE_SIZE};
+        s->setup.tones[i] =
+            (dp_strokes_texture){s->graphite + i * (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE,
+                                 DP_GRAPHITE_SIZE, DP_GRAPHITE_SIZE};
     if (shade->strokes.values)
-        s->setup.tones[0] = (dp_strokes_texture){shade->strokes.values, shade->strokes.width, shade->strokes.height};
+        s->setup.tones[0] = (dp_strokes_texture){shade->strokes.values, shade->strokes.width,
+                                                 shade->strokes.height};
     return true;
 }
 
 /* Do strokes stick to the surface along the model's texture coordinates? */
 static bool wants_texcoords(const dp_shade_store *s) {
     const dp_shade *const shade = &s->setup.shade;
-    return (shade->shading == DP_SHADING_HATCH || shade->shading == DP_SHADING_HALFTONE) && shade->object_space &&
-           s->frame->polygons.texcoords.values;
+    return (shade->shading == DP_SHADING_HATCH || shade->shading == DP_SHADING_HALFTONE) &&
+           shade->object_space && s->frame->polygons.texcoords.values;
 }
 
 bool dp_shade_gathered(dp_shade_store *s) {
     const dp_frame *const frame = s->frame;
     if (!s->active) return true;
-    if (!dp_gbuffer_begin(&s->gbuffer, frame, wants_texcoords(s)) || !take_pencil(s, frame)) return false;
+    if (!dp_gbuffer_begin(&s->gbuffer, frame, wants_texcoords(s)) || !take_pencil(s, frame))
+        return false;
     if (s->setup.shade.shading != DP_SHADING_PENCIL) return true;
     if (!dp_bends_make(&s->bends, &frame->polygons, frame->threads, frame->memory) ||
-        !dp_reserve(frame->memory, &s->turns, &s->turns_cap, (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
+        !dp_reserve(frame->memory, &s->turns, &s->turns_cap,
+                    (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
         return false;
     dp_pencil_vertices(frame, (const float(*)[3])s->bends.along, s->turns);
     s->setup.turns = s->turns;
@@ -150,7 +159,9 @@ bool dp_shade_gathered(dp_shade_store *s) {
 static void set_up(dp_shade_store *s, const dp_frame *frame) {
     const dp_shade *const shade = &frame->styles[0].shade;
     const dp_color ink = shade->ink;
-    s->setup = (dp_shading_setup){.shade = *shade, .g = &s->gbuffer, .shades = shade->shades.values,
+    s->setup = (dp_shading_setup){.shade = *shade,
+                                  .g = &s->gbuffer,
+                                  .shades = shade->shades.values,
                                   .shade_count = shade->shades.width};
     for (int k = 0; k < 3; k++) s->setup.ink[k] = (float)(ink >> (24 - 8 * k) & 0xff) / 255;
     if (s->setup.shades) return;
@@ -170,7 +181,8 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
     const bool smooth = shade->shading == DP_SHADING_TOON && !shade->nearest;
     if (!choose_strokes(s, frame->memory) ||
         (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
-        (s->colored && smooth && !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, 4 * pixels, 1)))
+        (s->colored && smooth &&
+         !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, 4 * pixels, 1)))
         return false;
     s->shown = smooth ? s->smooth : s->color;
     return true;
@@ -180,8 +192,11 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
 
 static dp_color surface_of(const dp_shade_store *s, uint16_t id) {
     const uint32_t group = id - 1u;
-    const dp_style *const styles = s->frame->styles, *const style = &styles[group < s->frame->style_count ? group : 0];
-    const dp_color own = s->setup.shade.model_colors && style->shade.shading != DP_SHADING_PAPER ? dp_source_group_color(s->source, group) : 0;
+    const dp_style *const styles = s->frame->styles,
+                          *const style = &styles[group < s->frame->style_count ? group : 0];
+    const dp_color own = s->setup.shade.model_colors && style->shade.shading != DP_SHADING_PAPER
+                             ? dp_source_group_color(s->source, group)
+                             : 0;
     const dp_color c = own ? own : style->surface;
     return c & 0xff ? c : styles[0].paper;
 }
@@ -194,7 +209,8 @@ static void to_floats(dp_color c, float rgba[4]) {
 static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
     for (uint32_t i = 0, end; i < run->n; i = end) {
         float rgba[4];
-        for (end = i + 1; end < run->n && run->id[end] == run->id[i]; end++) {}
+        for (end = i + 1; end < run->n && run->id[end] == run->id[i]; end++) {
+        }
         to_floats(run->id[i] ? surface_of(s, run->id[i]) : 0, rgba);
         for (uint32_t k = i; k < end; k++) {
             run->color[0][k] = rgba[0], run->color[1][k] = rgba[1], run->color[2][k] = rgba[2];
@@ -203,10 +219,12 @@ static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
     }
 }
 
-static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1, dp_shade_run *run) {
+static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1,
+                      dp_shade_run *run) {
     const dp_gbuffer *const g = &s->gbuffer;
     const size_t at = (size_t)y * g->stride + x0;
-    run->nx = g->nx + at, run->ny = g->ny + at, run->nz = g->nz + at, run->distance = g->distance + at;
+    run->nx = g->nx + at, run->ny = g->ny + at, run->nz = g->nz + at,
+    run->distance = g->distance + at;
     run->u = g->u ? g->u + at : NULL, run->v = g->v ? g->v + at : NULL, run->id = g->id + at;
     run->stride = g->stride, run->x = x0, run->y = y, run->n = x1 - x0;
     if (s->frame->style_count == 1 && !s->setup.shade.model_colors) {
@@ -228,12 +246,14 @@ static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
 static void put_mirror(const dp_shade_store *s, const dp_shade_run *run) {
     const size_t at = (size_t)run->y * s->gbuffer.width + run->x;
     for (uint32_t i = 0; i < run->n; i++)
-        if (run->id[i] == 1 + DP_MIRROR_GROUP) memcpy(s->color + 4 * (at + i), s->mirrored + 4 * (at + i), 4);
+        if (run->id[i] == 1 + DP_MIRROR_GROUP)
+            memcpy(s->color + 4 * (at + i), s->mirrored + 4 * (at + i), 4);
 }
 
 static void shade_tile(dp_shade_store *s, uint32_t tile) {
     const dp_shading shading = s->setup.shade.shading;
-    dp_shade_operator *const look = shading == DP_SHADING_PENCIL ? dp_shade_pencil : s->shaders->looks[shading];
+    dp_shade_operator *const look =
+        shading == DP_SHADING_PENCIL ? dp_shade_pencil : s->shaders->looks[shading];
     const dp_gbuffer *const g = &s->gbuffer;
     const uint32_t first = tile / g->tiles_x * DP_TILE;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
@@ -299,11 +319,16 @@ void dp_shade_prepare(dp_shade_store *s) {
 bool dp_shade_pass_runs(const dp_shade_store *s, int pass) {
     const dp_edge_map *const map = &s->frame->styles[0].edge_map;
     switch (pass) {
-    case SHADE: return s->colored && looks_around(s);
-    case CARTOON: return s->colored && s->shown == s->smooth;
-    case STORE: return map->detector && map->eight_bits;
-    case EDGES: return map->detector;
-    default: return true;
+    case SHADE:
+        return s->colored && looks_around(s);
+    case CARTOON:
+        return s->colored && s->shown == s->smooth;
+    case STORE:
+        return map->detector && map->eight_bits;
+    case EDGES:
+        return map->detector;
+    default:
+        return true;
     }
 }
 
@@ -313,10 +338,18 @@ void dp_shade_pass_ends(dp_shade_store *s, int pass) {
 
 void dp_shade_pass(dp_shade_store *s, int pass, uint32_t tile) {
     switch (pass) {
-    case SHADE: shade_tile(s, tile); break;
-    case CARTOON: dp_cartoon_map_tile(s, tile); break;
-    case STORE: dp_gbuffer_quantize(&s->gbuffer, tile); break;
-    case EDGES: dp_edges_tile(s, tile); break;
+    case SHADE:
+        shade_tile(s, tile);
+        break;
+    case CARTOON:
+        dp_cartoon_map_tile(s, tile);
+        break;
+    case STORE:
+        dp_gbuffer_quantize(&s->gbuffer, tile);
+        break;
+    case EDGES:
+        dp_edges_tile(s, tile);
+        break;
     default:
         if (s->colored) dp_resolve_tile(s, tile);
         if (wants_planes(&s->frame->target)) put_outputs(s, tile);

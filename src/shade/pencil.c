@@ -1,18 +1,21 @@
 /* Pencil rendering (Hermosilla and Vázquez 2010, 2.4, after Lee, Kwon and Lee 2006).
  *
- *   vertex stage     dp_pencil_vertices: the direction of least curvature, turned to the camera, x and y of it
- *   geometry stage   the G-buffer keeps which polygon a pixel shows, so that a pixel gets the three directions of its
- *                    polygon's corners as they are, without interpolation and without a copy of any vertex (Listing 2.4)
- *   pixel stage      three look-ups at screen coordinates turned by the three directions, blended by thirds; then
- *                    tone = value ^ ((1 - max(N·L, 0)) S + O)                                          (Listing 2.5)
+ *   vertex stage     dp_pencil_vertices: the direction of least curvature, turned to the camera, x
+ * and y of it geometry stage   the G-buffer keeps which polygon a pixel shows, so that a pixel gets
+ * the three directions of its polygon's corners as they are, without interpolation and without a
+ * copy of any vertex (Listing 2.4) pixel stage      three look-ups at screen coordinates turned by
+ * the three directions, blended by thirds; then tone = value ^ ((1 - max(N·L, 0)) S + O)
+ * (Listing 2.5)
  *
- * As printed each pixel's coordinates are turned by its corners' exact angles. Far from the origin two angles that
- * hardly differ lead to different places in the texture, so that strokes break at every edge: on fine meshes they turn into
- * noise. Here angles are told apart in DP_TURNS steps, and between two steps their textures are cross-faded: neighbours
- * that agree have the same strokes. `pencil_printed` is as printed.
+ * As printed each pixel's coordinates are turned by its corners' exact angles. Far from the origin
+ * two angles that hardly differ lead to different places in the texture, so that strokes break at
+ * every edge: on fine meshes they turn into noise. Here angles are told apart in DP_TURNS steps,
+ * and between two steps their textures are cross-faded: neighbours that agree have the same
+ * strokes. `pencil_printed` is as printed.
  *
  * Brightness, light and tone are looked up in a table of bytes.
- * Tones (Lee et al.): a row of textures with more and more strokes instead of the power; two are mixed. */
+ * Tones (Lee et al.): a row of textures with more and more strokes instead of the power; two are
+ * mixed. */
 #include "shade/pencil.h"
 
 #include "base/hostile.h"
@@ -37,14 +40,20 @@ static void turn_block(void *arg, uint32_t index, uint32_t worker) {
     const turning *const t = arg;
     const uint32_t first = index * BLOCK, n = t->count - first < BLOCK ? t->count - first : BLOCK;
     (void)worker;
-    if (t->printed) t->rows->turn_exactly(t->along + first, t->right, t->up, n, t->turns + first);
-    else t->rows->turn(t->along + first, t->right, t->up, n, t->turns + first);
+    if (t->printed)
+        t->rows->turn_exactly(t->along + first, t->right, t->up, n, t->turns + first);
+    else
+        t->rows->turn(t->along + first, t->right, t->up, n, t->turns + first);
 }
 
 void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn *turns) {
     const dp_view *const view = &frame->view;
     const uint32_t count = frame->polygons.vertex_count;
-    turning t = {.rows = dp_pencil_rows_for(frame->kernels->lanes), .along = along, .turns = turns, .count = count, .printed = frame->styles[0].shade.pencil_printed};
+    turning t = {.rows = dp_pencil_rows_for(frame->kernels->lanes),
+                 .along = along,
+                 .turns = turns,
+                 .count = count,
+                 .printed = frame->styles[0].shade.pencil_printed};
     const dp_vec3 x = dp_v3(view->clip[0][0], view->clip[0][1], view->clip[0][2]);
     const dp_vec3 right = dp_unit(dp_sub(x, dp_scale(view->forward, dp_dot(x, view->forward))));
     const dp_vec3 up = dp_cross(right, view->forward);
@@ -74,8 +83,10 @@ static void find_corners(const dp_shading_setup *setup, const dp_shade_run *run,
     }
     for (uint32_t i = 0; i < c->count; i++) {
         const uint32_t polygon = shown[c->pixel[i]], first = dp_first_corner(polygons, polygon);
-        const uint32_t n = polygons->firsts ? dp_corner_count(polygons, polygon) : 3; /* of more corners: three of them */
-        for (uint32_t k = 0; k < 3; k++) c->vertex[i][k] = dp_corner_vertex(polygons, first + k * n / 3);
+        const uint32_t n = polygons->firsts ? dp_corner_count(polygons, polygon)
+                                            : 3; /* of more corners: three of them */
+        for (uint32_t k = 0; k < 3; k++)
+            c->vertex[i][k] = dp_corner_vertex(polygons, first + k * n / 3);
     }
     for (uint32_t i = 0; i < c->count; i++)
         for (uint32_t k = 0; k < 3; k++) c->turn[i][k] = setup->turns[c->vertex[i][k]];
@@ -87,7 +98,8 @@ void dp_make_pencil_table(dp_pencil_table *p) {
     for (uint32_t i = 0; i < 256; i++) p->weight[i] = (float)i / 765;
 }
 
-static inline void put_strand(dp_strands *s, uint32_t at, uint32_t pixel, float cosine, float sine, float weight) {
+static inline void put_strand(dp_strands *s, uint32_t at, uint32_t pixel, float cosine, float sine,
+                              float weight) {
     s->pixel[at] = (int32_t)pixel, s->c[at] = cosine, s->s[at] = sine, s->weight[at] = weight;
 }
 
@@ -101,13 +113,16 @@ typedef struct shares {
 static inline void add_share(shares *s, uint32_t step, float weight) {
     uint32_t i = 0;
     while (i < s->count && s->step[i] != step) i++;
-    if (i == s->count) s->step[s->count] = step, s->weight[s->count++] = weight;
-    else s->weight[i] += weight;
+    if (i == s->count)
+        s->step[s->count] = step, s->weight[s->count++] = weight;
+    else
+        s->weight[i] += weight;
 }
 
 static uint32_t after(uint32_t step) { return step + 1 < DP_TURNS ? step + 1 : 0; }
 
-static void add_differing(const dp_pencil_table *p, const dp_turn turn[3], uint32_t pixel, dp_strands *s) {
+static void add_differing(const dp_pencil_table *p, const dp_turn turn[3], uint32_t pixel,
+                          dp_strands *s) {
     shares of = {.count = 0};
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t low = turn[k] >> 8, part = turn[k] & 0xff;
@@ -118,7 +133,8 @@ static void add_differing(const dp_pencil_table *p, const dp_turn turn[3], uint3
         put_strand(s, s->count++, pixel, p->c[of.step[i]], p->s[of.step[i]], of.weight[i]);
 }
 
-/* Mostly the three corners have the same step, and its strand, and the next one's if any has a part of it, are all. */
+/* Mostly the three corners have the same step, and its strand, and the next one's if any has a part
+ * of it, are all. */
 static void find_strands(const dp_pencil_table *p, const corners *c, dp_strands *s) {
     s->count = 0;
     for (uint32_t i = 0; i < c->count; i++) {
@@ -129,8 +145,10 @@ static void find_strands(const dp_pencil_table *p, const corners *c, dp_strands 
             continue;
         }
         const uint32_t a = turn[0] & 0xff, b = turn[1] & 0xff, d = turn[2] & 0xff;
-        put_strand(s, s->count, pixel, p->c[low], p->s[low], p->weight[255 - a] + p->weight[255 - b] + p->weight[255 - d]);
-        put_strand(s, s->count + 1, pixel, p->c[next], p->s[next], p->weight[a] + p->weight[b] + p->weight[d]);
+        put_strand(s, s->count, pixel, p->c[low], p->s[low],
+                   p->weight[255 - a] + p->weight[255 - b] + p->weight[255 - d]);
+        put_strand(s, s->count + 1, pixel, p->c[next], p->s[next],
+                   p->weight[a] + p->weight[b] + p->weight[d]);
         s->count += 1 + ((a | b | d) != 0); /* without a jump, which nobody could foresee */
     }
 }
@@ -143,21 +161,25 @@ static void find_strands_printed(const corners *c, dp_strands *s) {
             const uint32_t at = 3 * i + k;
             const float angle = (float)c->turn[i][k] * (PI / 65536);
             const bool same = i && c->turn[i - 1][k] == c->turn[i][k];
-            put_strand(s, at, c->pixel[i], same ? s->c[at - 3] : cosf(angle), same ? s->s[at - 3] : sinf(angle), 1.0f / 3);
+            put_strand(s, at, c->pixel[i], same ? s->c[at - 3] : cosf(angle),
+                       same ? s->s[at - 3] : sinf(angle), 1.0f / 3);
         }
 }
 
 void dp_make_powers(uint8_t *powers, float s, float o) {
     for (uint32_t dark = 0; dark < 256; dark++)
         for (uint32_t v = 0; v < 256; v++)
-            powers[256 * dark + v] = (uint8_t)(255 * powf((float)v / 255, (float)dark / 255 * s + dp_maxf(o, 0)) + 0.5f);
+            powers[256 * dark + v] =
+                (uint8_t)(255 * powf((float)v / 255, (float)dark / 255 * s + dp_maxf(o, 0)) + 0.5f);
 }
 
 void dp_shade_pencil(const dp_shading_setup *setup, dp_shade_run *run) {
     corners c;
     dp_strands strands;
     find_corners(setup, run, &c);
-    if (setup->shade.pencil_printed) find_strands_printed(&c, &strands);
-    else find_strands(setup->pencil, &c, &strands);
+    if (setup->shade.pencil_printed)
+        find_strands_printed(&c, &strands);
+    else
+        find_strands(setup->pencil, &c, &strands);
     dp_pencil_rows_for(setup->frame->kernels->lanes)->shade(setup, &strands, run);
 }

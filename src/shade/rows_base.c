@@ -1,5 +1,5 @@
 /* The looks of surfaces for any processor, and which are chosen. */
-#define DP_LANES 4
+#define DP_LANES   4
 #define DP_SHADERS dp_shaders_base
 #include "shade/rows.inc"
 

@@ -1,12 +1,13 @@
-/* The built-in stroke textures, made, not shipped: every texel holds its priority, the tone below which it is inked
- * (Freudenberg, Masuch, Strothotte, Real-Time Halftoning, 2002). The same numbers every time: an integer
- * generator, and lattices that wrap around.
+/* The built-in stroke textures, made, not shipped: every texel holds its priority, the tone below
+ * which it is inked (Freudenberg, Masuch, Strothotte, Real-Time Halftoning, 2002). The same numbers
+ * every time: an integer generator, and lattices that wrap around.
  *
- * Hatching: three directions of strokes. Of the first, lines come in bit-reversed order, so that the first ones are
- * far apart and every later one falls between; each is broken into strokes of uneven length that
- * waver a little. The second direction joins in for dark tones, the third for the darkest. Across a stroke the
- * priority falls off: it begins thin and grows as it gets darker.
- * Dots: the cosine screen, turned by 22.6 degrees; how high a texel lies in it is how early it is inked. */
+ * Hatching: three directions of strokes. Of the first, lines come in bit-reversed order, so that
+ * the first ones are far apart and every later one falls between; each is broken into strokes of
+ * uneven length that waver a little. The second direction joins in for dark tones, the third for
+ * the darkest. Across a stroke the priority falls off: it begins thin and grows as it gets darker.
+ * Dots: the cosine screen, turned by 22.6 degrees; how high a texel lies in it is how early it is
+ * inked. */
 #include "shade/shade.h"
 
 #include <string.h>
@@ -28,7 +29,8 @@ static uint32_t reversed(uint32_t v, uint32_t bits) {
     return r;
 }
 
-/* Direction d: 0 along u, 1 along v, 2 along the diagonal; (a, b) along and across. All wrap around. */
+/* Direction d: 0 along u, 1 along v, 2 along the diagonal; (a, b) along and across. All wrap
+ * around. */
 static uint8_t *texel(uint8_t *values, int d, int a, int b) {
     const int u = d == 0 ? a : b, v = d == 0 ? b : d == 1 ? a : a + b;
     const int x = d == 2 ? a : u;
@@ -36,14 +38,17 @@ static uint8_t *texel(uint8_t *values, int d, int a, int b) {
 }
 
 /* A stroke from `from`, `length` texels long, at `across`, its priority 0 to 255. */
-static void draw_stroke(uint8_t *values, int d, int from, int length, float across, float priority, uint32_t *seed) {
+static void draw_stroke(uint8_t *values, int d, int from, int length, float across, float priority,
+                        uint32_t *seed) {
     const float bend = between(seed, -2, 2), tilt = between(seed, -1, 1);
     for (int i = 0; i < length; i++) {
-        const float t = (float)i / (float)length, ends = dp_minf(dp_minf((float)i, (float)(length - 1 - i)) / 10 + 0.3f, 1);
+        const float t = (float)i / (float)length,
+                    ends = dp_minf(dp_minf((float)i, (float)(length - 1 - i)) / 10 + 0.3f, 1);
         const float centre = across + bend * 4 * t * (1 - t) + tilt * (t - 0.5f);
         const float half = 1.9f * ends; /* texels */
         for (int b = (int)floorf(centre - 3); b <= (int)ceilf(centre + 3); b++) {
-            const float off = fabsf((float)b - centre), falloff = dp_minf(dp_maxf(1.25f - off / half, 0), 1);
+            const float off = fabsf((float)b - centre),
+                        falloff = dp_minf(dp_maxf(1.25f - off / half, 0), 1);
             const float value = priority * falloff;
             uint8_t *const to = texel(values, d, from + i, b);
             if (value > (float)*to) *to = (uint8_t)(value + 0.5f);
@@ -53,12 +58,14 @@ static void draw_stroke(uint8_t *values, int d, int from, int length, float acro
 
 static void draw_direction(uint8_t *values, int d, float highest, float lowest, uint32_t *seed) {
     for (uint32_t k = 0; k < LINES; k++) {
-        const float across = ((float)reversed(k, 5) + 0.5f) * SIZE / LINES + between(seed, -1.2f, 1.2f);
+        const float across =
+            ((float)reversed(k, 5) + 0.5f) * SIZE / LINES + between(seed, -1.2f, 1.2f);
         const float priority = highest + (lowest - highest) * (float)k / (LINES - 1);
         int at = (int)(next_random(seed) & (SIZE - 1));
         const int end = at + SIZE;
         while (at < end) {
-            const int wanted = (int)between(seed, 50, 120), length = end - at < wanted + 20 ? end - at : wanted;
+            const int wanted = (int)between(seed, 50, 120),
+                      length = end - at < wanted + 20 ? end - at : wanted;
             draw_stroke(values, d, at, length, across, priority * between(seed, 0.9f, 1), seed);
             at += length - (int)between(seed, 0, 8);
             if (end - at < 12) break;
@@ -75,11 +82,15 @@ void dp_make_hatching(uint8_t *values) {
 }
 
 void dp_make_halftone(uint8_t *values) {
-    enum { A = 24, B = 10 }; /* waves per side, so that the lattice of dots, 26 per side, wraps around */
+    enum {
+        A = 24,
+        B = 10
+    }; /* waves per side, so that the lattice of dots, 26 per side, wraps around */
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             const double step = 2 * 3.14159265358979323846 / SIZE;
-            const double height = 0.5 + 0.25 * (cos(step * (A * x + B * y)) + cos(step * (A * y - B * x)));
+            const double height =
+                0.5 + 0.25 * (cos(step * (A * x + B * y)) + cos(step * (A * y - B * x)));
             values[y * SIZE + x] = (uint8_t)(4 + 247 * height + 0.5);
         }
 }

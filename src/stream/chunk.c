@@ -1,14 +1,16 @@
 /* Edges between the triangles of a chunk, and which way triangles face.
  *
- * Data structure: open addressing over edges, by keys that kernels have made of their ends' positions
- * (kernel/sift.inc). A slot holds half of the key as well, so that looking at positions is nearly always
- * looking at the edge that is sought. Invariant: at most half of the slots are used. */
+ * Data structure: open addressing over edges, by keys that kernels have made of their ends'
+ * positions (kernel/sift.inc). A slot holds half of the key as well, so that looking at positions
+ * is nearly always looking at the edge that is sought. Invariant: at most half of the slots are
+ * used. */
 #include "stream/chunk.h"
 
 /* ------- facing ------- */
 
 /* In double precision, for triangles that are thin or seen nearly edge-on. */
-static bool slow_facing(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 c, float normal[4], uint8_t *state) {
+static bool slow_facing(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 c, float normal[4],
+                        uint8_t *state) {
     const dp_vec3 u = dp_sub(b, a), v = dp_sub(c, a), n = dp_cross(u, v);
     const double size = dp_max(dp_dot(u, u), dp_dot(v, v));
     if (dp_length(n) <= 1e-12 * size) return false; /* as dp_polygon_has_no_area */
@@ -19,30 +21,33 @@ static bool slow_facing(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 c, fl
     return true;
 }
 
-bool dp_triangle_facing(const dp_view *view, const float *a, const float *b, const float *c, float normal[4],
-                        uint8_t *state) {
+bool dp_triangle_facing(const dp_view *view, const float *a, const float *b, const float *c,
+                        float normal[4], uint8_t *state) {
     const float ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
     const float vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
     const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const float n2 = nx * nx + ny * ny + nz * nz, u2 = ux * ux + uy * uy + uz * uz, v2 = vx * vx + vy * vy + vz * vz;
+    const float n2 = nx * nx + ny * ny + nz * nz, u2 = ux * ux + uy * uy + uz * uz,
+                v2 = vx * vx + vy * vy + vz * vz;
     const float ex = view->perspective ? a[0] - (float)view->eye.x : (float)view->forward.x;
     const float ey = view->perspective ? a[1] - (float)view->eye.y : (float)view->forward.y;
     const float ez = view->perspective ? a[2] - (float)view->eye.z : (float)view->forward.z;
     const float along = nx * ex + ny * ey + nz * ez, e2 = ex * ex + ey * ey + ez * ez;
-    if (!(n2 > 1e-6f * u2 * v2) || !(n2 > FLT_MIN) || !(along * along > 1e-6f * n2 * e2) || !isfinite(n2 * e2))
+    if (!(n2 > 1e-6f * u2 * v2) || !(n2 > FLT_MIN) || !(along * along > 1e-6f * n2 * e2) ||
+        !isfinite(n2 * e2))
         return slow_facing(view, dp_v3f(a), dp_v3f(b), dp_v3f(c), normal, state);
     normal[0] = nx, normal[1] = ny, normal[2] = nz, normal[3] = n2;
     *state = along < 0 ? DP_TRIANGLE_FRONT : DP_TRIANGLE_BACK;
     return true;
 }
 
-bool dp_edge_is_plain(uint8_t state_a, const float normal_a[4], uint8_t state_b, const float normal_b[4],
-                      float flat_cosine) {
+bool dp_edge_is_plain(uint8_t state_a, const float normal_a[4], uint8_t state_b,
+                      const float normal_b[4], float flat_cosine) {
     const uint8_t both = state_a & state_b;
     if (both & DP_TRIANGLE_BACK) return true;
     if (!(both & DP_TRIANGLE_FRONT) || flat_cosine > 1) return false;
     if (flat_cosine < 0) return true;
-    const float dot = normal_a[0] * normal_b[0] + normal_a[1] * normal_b[1] + normal_a[2] * normal_b[2];
+    const float dot =
+        normal_a[0] * normal_b[0] + normal_a[1] * normal_b[1] + normal_a[2] * normal_b[2];
     return dot > 0 && dot * dot > flat_cosine * flat_cosine * (normal_a[3] * normal_b[3]);
 }
 
@@ -60,9 +65,12 @@ static bool same_position(const uint8_t *p, const uint8_t *q) {
 }
 
 /* 1: the edges run opposite ways, as they should; -1: the same way; 0: they are different edges. */
-static int compare_edges(const dp_triangles *triangles, uint32_t t, uint32_t e, uint32_t u, uint32_t f) {
+static int compare_edges(const dp_triangles *triangles, uint32_t t, uint32_t e, uint32_t u,
+                         uint32_t f) {
     enum { CORNER = 3 * sizeof(float) };
-    const uint8_t *const a = triangles->corners + t * triangles->stride, *const b = triangles->corners + u * triangles->stride;
+    const uint8_t *const a = triangles->corners + t * triangles->stride, *const b =
+                                                                             triangles->corners +
+                                                                             u * triangles->stride;
     const uint8_t *const a0 = a + CORNER * e, *const a1 = a + CORNER * (e == 2 ? 0 : e + 1);
     const uint8_t *const b0 = b + CORNER * f, *const b1 = b + CORNER * (f == 2 ? 0 : f + 1);
     if (same_position(a0, b1) && same_position(a1, b0)) return 1;
@@ -102,7 +110,8 @@ static void add_edge(dp_chunk *chunk, const dp_triangles *triangles, uint32_t t,
 }
 
 /* An edge that lies outside the picture is no line. */
-static bool may_be_seen(const dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_edge *e, const dp_view *view) {
+static bool may_be_seen(const dp_chunk *chunk, const dp_triangles *triangles,
+                        const dp_chunk_edge *e, const dp_view *view) {
     float corners[9];
     if (chunk->state[e->a] & DP_TRIANGLE_WITHIN) return true;
     dp_triangle_corners(triangles, e->a, corners);
@@ -123,7 +132,9 @@ void dp_chunk_edges(dp_chunk *chunk, const dp_triangles *triangles, const dp_chu
     for (uint32_t i = 0; i < chunk->edge_count; i++) {
         const dp_chunk_edge *const e = &chunk->edges[i];
         if (e->met == 2) {
-            if (dp_edge_is_plain(chunk->state[e->a], chunk->normal[e->a], chunk->state[e->b], chunk->normal[e->b], view->flat_cosine)) continue;
+            if (dp_edge_is_plain(chunk->state[e->a], chunk->normal[e->a], chunk->state[e->b],
+                                 chunk->normal[e->b], view->flat_cosine))
+                continue;
             chunk->lines[e->a] |= (uint8_t)(1u << e->edge_a);
             chunk->lines[e->b] |= (uint8_t)(1u << e->edge_b);
         } else if (e->met == 1 && may_be_seen(chunk, triangles, e, view->view)) {

@@ -1,12 +1,12 @@
 /* Intersections of a streamed model.
  *
- * While faces are drawn, pixels where two of them come close are noted for the whole picture, as in a tile
- * (intersect.c); what a sample holds from earlier lists counts too, by the way it faces. In the second
- * reading every triangle that touches such a pixel, or one beside it, and is not hidden joins the crowd. In
- * the end the crowd is a mesh: in each tile its faces are drawn by themselves, into samples that start empty,
- * so that suspects, pairs and crossings are found there as they would be among all triangles. Where there
- * are suspects the crowd is all there is to be seen, so it hides what is hidden; elsewhere along a
- * crossing the picture's samples do.
+ * While faces are drawn, pixels where two of them come close are noted for the whole picture, as in
+ * a tile (intersect.c); what a sample holds from earlier lists counts too, by the way it faces. In
+ * the second reading every triangle that touches such a pixel, or one beside it, and is not hidden
+ * joins the crowd. In the end the crowd is a mesh: in each tile its faces are drawn by themselves,
+ * into samples that start empty, so that suspects, pairs and crossings are found there as they
+ * would be among all triangles. Where there are suspects the crowd is all there is to be seen, so
+ * it hides what is hidden; elsewhere along a crossing the picture's samples do.
  *
  * In one pass nobody comes by again: the crowd are the pairs found within each list. */
 #include "stream/draw.h"
@@ -24,7 +24,7 @@ static void note_facing(const dp_tile_worker *w, uint64_t *away) {
         for (uint32_t i = 0; i < 64; i++) {
             if (winner[i] == UINT32_MAX) continue;
             won |= (uint64_t)1 << i;
-            back |= (uint64_t)!(w->polygons[winner[i]].flags & DP_POLYGON_FRONT) << i;
+            back |= (uint64_t) !(w->polygons[winner[i]].flags & DP_POLYGON_FRONT) << i;
         }
         away[word] = (away[word] & ~won) | back;
     }
@@ -35,7 +35,8 @@ static void note_pairs(const dp_stream_draw *s, const dp_tile_worker *w, dp_stre
     for (uint32_t i = 0; i < w->candidate_count; i++) {
         const uint32_t ids[2] = {w->candidates[i].a, w->candidates[i].b};
         if (own->crowd_count + 2 > s->crowd_limit) return;
-        if (!dp_reserve(s->memory, &own->crowd, &own->crowd_cap, own->crowd_count + 2, sizeof *own->crowd)) {
+        if (!dp_reserve(s->memory, &own->crowd, &own->crowd_cap, own->crowd_count + 2,
+                        sizeof *own->crowd)) {
             own->failed = true;
             return;
         }
@@ -66,7 +67,8 @@ static void find_away(const dp_stream_draw *s, uint32_t tile, uint64_t rows[DP_T
     memset(rows, 0xff, DP_TILE * sizeof *rows);
     for (size_t i = 0; i < f->tile_samples; i++) {
         const size_t pixel = i / f->target.samples;
-        if (!(away[i / 64] >> i % 64 & 1)) rows[pixel / DP_TILE] &= ~((uint64_t)1 << pixel % DP_TILE);
+        if (!(away[i / 64] >> i % 64 & 1))
+            rows[pixel / DP_TILE] &= ~((uint64_t)1 << pixel % DP_TILE);
     }
     dp_drop_lone(rows);
 }
@@ -102,7 +104,8 @@ static bool gather_pairs(dp_stream_draw *s) {
     }
     qsort(s->crowd, count, sizeof *s->crowd, by_number);
     for (size_t i = 0; i < count; i++)
-        if (!i || s->crowd[s->crowd_count - 1].number != s->crowd[i].number) s->crowd[s->crowd_count++] = s->crowd[i];
+        if (!i || s->crowd[s->crowd_count - 1].number != s->crowd[i].number)
+            s->crowd[s->crowd_count++] = s->crowd[i];
     return true;
 }
 
@@ -114,17 +117,21 @@ bool dp_stream_choose_crowded(dp_stream_draw *s) {
 /* ------- at the end ------- */
 
 /* Adds a tile's crossings to the lines it has. */
-static bool add_lines(const dp_stream_draw *s, const dp_tile_worker *w, uint32_t first, dp_tile_lines *lines) {
-    const uint32_t candidates = lines->candidate_count + w->candidate_count, probes = lines->probe_count + w->probe_count;
+static bool add_lines(const dp_stream_draw *s, const dp_tile_worker *w, uint32_t first,
+                      dp_tile_lines *lines) {
+    const uint32_t candidates = lines->candidate_count + w->candidate_count,
+                   probes = lines->probe_count + w->probe_count;
     const size_t head = candidates * sizeof *w->candidates;
     uint8_t *const block = dp_alloc(s->memory, head + probes * sizeof *w->probes);
     if (!block) return false;
-    const dp_tile_lines all = {(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head), candidates, probes};
+    const dp_tile_lines all = {(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head),
+                               candidates, probes};
     if (lines->candidate_count) {
         memcpy(all.candidates, lines->candidates, lines->candidate_count * sizeof *all.candidates);
         memcpy(all.probes, lines->probes, lines->probe_count * sizeof *all.probes);
     }
-    memcpy(all.candidates + lines->candidate_count, w->candidates, w->candidate_count * sizeof *all.candidates);
+    memcpy(all.candidates + lines->candidate_count, w->candidates,
+           w->candidate_count * sizeof *all.candidates);
     memcpy(all.probes + lines->probe_count, w->probes, w->probe_count * sizeof *all.probes);
     for (uint32_t i = lines->candidate_count; i < candidates; i++) {
         all.candidates[i].a += first, all.candidates[i].b += first;
@@ -141,7 +148,8 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_worker *const own = &s->workers[worker];
     const uint64_t *const crowded = s->crowded + (size_t)tile * DP_TILE;
     if (!dp_bins_tile_count(&w->frame->polygon_bins, tile)) return;
-    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->frame->tile_samples, sizeof *own->depth)) {
+    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->frame->tile_samples,
+                    sizeof *own->depth)) {
         own->failed = true;
         return;
     }
@@ -151,11 +159,13 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(w);
     dp_tile_faces(w);
-    for (uint32_t y = 0; y < DP_TILE; y++) w->suspects[0][y] &= crowded[y], w->suspects[1][y] &= crowded[y];
+    for (uint32_t y = 0; y < DP_TILE; y++)
+        w->suspects[0][y] &= crowded[y], w->suspects[1][y] &= crowded[y];
     dp_tile_intersections(w);
     if (!w->candidate_count) return;
     dp_stream_hide_by_samples(w);
-    if (!add_lines(s, w, (uint32_t)(s->mesh_count - s->crowd_count), &s->lines[tile])) own->failed = true;
+    if (!add_lines(s, w, (uint32_t)(s->mesh_count - s->crowd_count), &s->lines[tile]))
+        own->failed = true;
 }
 
 bool dp_stream_find_crossings(dp_stream_draw *s) {
@@ -164,8 +174,10 @@ bool dp_stream_find_crossings(dp_stream_draw *s) {
     if (!s->crowd_count) return true;
     if (!dp_stream_add_polygons(s, s->crowd, s->crowd_count)) return false;
     const dp_polygons all = f->polygons;
-    f->polygons = (dp_polygons){.positions = s->positions + 9 * (size_t)first, .stride = 3 * sizeof(float),
-                                .vertex_count = (uint32_t)(3 * s->crowd_count), .count = (uint32_t)s->crowd_count};
+    f->polygons = (dp_polygons){.positions = s->positions + 9 * (size_t)first,
+                                .stride = 3 * sizeof(float),
+                                .vertex_count = (uint32_t)(3 * s->crowd_count),
+                                .count = (uint32_t)s->crowd_count};
     const bool sound = dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_crossings);
     f->polygons = all;
     return sound;

@@ -12,8 +12,8 @@ typedef struct dp_chunk_rest {
     float (*corners)[9]; /* [DP_CHUNK] of triangles that may cover samples (or wanted pixels) */
     uint32_t *numbers;   /* [DP_CHUNK] */
     uint32_t covering;
-    uint32_t first;      /* where they go in the drawing's list */
-    size_t kept_first;   /* and the others in stream->kept */
+    uint32_t first;         /* where they go in the drawing's list */
+    size_t kept_first;      /* and the others in stream->kept */
     dp_kept_triangle *kept; /* [DP_CHUNK] */
     uint32_t kept_count;
     uint32_t *pixels; /* [DP_CHUNK] of the crowd: where they are counted */
@@ -26,7 +26,7 @@ typedef struct dp_fan dp_fan; /* fans.c */
 /* A triangle that has an edge which is thought to be a line. */
 typedef struct dp_mate {
     uint32_t fan, number;
-    float corner[3];   /* not on the edge */
+    float corner[3]; /* not on the edge */
     float triangle[9];
 } dp_mate;
 
@@ -36,7 +36,7 @@ typedef struct dp_stream_worker {
     uint8_t *buffer;
     dp_kept_triangle *crowd; /* one pass: triangles that cross others */
     size_t crowd_cap, crowd_count;
-    dp_mate *mates;          /* of the part at hand */
+    dp_mate *mates; /* of the part at hand */
     size_t mates_cap, mate_count;
     float *depth; /* of a tile's samples, for crossings.c */
     size_t depth_cap;
@@ -60,38 +60,40 @@ struct dp_stream_draw {
 
     dp_chunk_rest *rests; /* [chunks] of the part at hand */
     uint32_t chunks;
-    float (*corners)[9];  /* triangles to be drawn next; [part] */
-    uint32_t *numbers;    /* theirs */
-    uint32_t covering;    /* how many */
+    float (*corners)[9]; /* triangles to be drawn next; [part] */
+    uint32_t *numbers;   /* theirs */
+    uint32_t covering;   /* how many */
 
     dp_kept kept;
-    size_t joined;        /* triangles of it whose edges have met; the others came with the last part */
-    float *positions;     /* frame->polygons */
+    size_t joined;    /* triangles of it whose edges have met; the others came with the last part */
+    float *positions; /* frame->polygons */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
     size_t positions_cap, flags_cap, numbers_cap, source_cap;
-    uint32_t mesh_count;  /* polygons: what is kept, then the crowd */
+    uint32_t mesh_count; /* polygons: what is kept, then the crowd */
 
     dp_kept_triangle *crowd; /* triangles where faces may cross; numbers ascend */
     size_t crowd_cap, crowd_count, crowd_limit;
-    uint64_t *away;       /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
+    uint64_t *away; /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
     uint64_t (*suspects)[2][DP_TILE]; /* by tile, as in dp_tile_worker */
-    uint64_t *crowded;    /* dp_chunk_view */
-    dp_fan *fans;         /* edges that are thought to be lines */
-    uint32_t *fan_slots;  /* [fan_slot_count] 1 + fan, 0: free */
+    uint64_t *crowded;                /* dp_chunk_view */
+    dp_fan *fans;                     /* edges that are thought to be lines */
+    uint32_t *fan_slots;              /* [fan_slot_count] 1 + fan, 0: free */
     uint32_t fan_count, fan_slot_count;
-    uint64_t *fan_filter; /* [fan_filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
+    uint64_t
+        *fan_filter; /* [fan_filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
     uint32_t fan_filter_bits;
-    uint8_t *crowd_counts; /* [tile][DP_TILE][DP_TILE] triangles of the crowd that begin in a pixel */
+    uint8_t
+        *crowd_counts; /* [tile][DP_TILE][DP_TILE] triangles of the crowd that begin in a pixel */
 
-    float *farthest;      /* dp_chunk_view */
+    float *farthest; /* dp_chunk_view */
     uint64_t *wanted;
     dp_tile_lines *lines; /* by tile */
     uint64_t triangles;   /* in the stream */
     bool read_again;
-    bool thinned;         /* lines were left out where there were too many */
-    bool waited_in_vain;  /* edges were given up whose other triangles may still have come */
-    double done;          /* share of the work, for progress */
+    bool thinned;        /* lines were left out where there were too many */
+    bool waited_in_vain; /* edges were given up whose other triangles may still have come */
+    double done;         /* share of the work, for progress */
 };
 
 /* What a reading is for. */
@@ -101,32 +103,36 @@ typedef enum dp_reading {
     DP_READ_HIDERS     /* triangles hide sample points */
 } dp_reading;
 
-/* One reading from the start: part after part, chunk by chunk (readings.c). Progress goes from `from` to
- * `to`. Only the first counts in the context's statistics. */
-dp_result dp_stream_read(dp_stream_draw *stream, dp_reading reading, double from, double to, dp_diag *diag);
+/* One reading from the start: part after part, chunk by chunk (readings.c). Progress goes from
+ * `from` to `to`. Only the first counts in the context's statistics. */
+dp_result dp_stream_read(dp_stream_draw *stream, dp_reading reading, double from, double to,
+                         dp_diag *diag);
 
 /* Draws stream->corners and forgets them (tiles.c). False when memory is out. */
 bool dp_stream_draw_faces(dp_stream_draw *stream);
 bool dp_stream_hide_probes(dp_stream_draw *stream);
 
-/* After the first reading: the target's surface, and the lines among what is kept. When the source is
- * not read again, samples hide the lines' sample points (samples.c). */
+/* After the first reading: the target's surface, and the lines among what is kept. When the source
+ * is not read again, samples hide the lines' sample points (samples.c). */
 bool dp_stream_find_lines(dp_stream_draw *stream);
 void dp_stream_hide_by_samples(dp_tile_worker *worker);
 /* Makes frame->polygons longer by triangles; false when memory is out. */
-bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *triangles, size_t count);
+bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *triangles,
+                            size_t count);
 
-/* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while the source
- * is read again; at the end. */
+/* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while
+ * the source is read again; at the end. */
 void dp_stream_note_suspects(dp_stream_draw *stream, dp_tile_worker *worker, dp_stream_worker *own);
 bool dp_stream_choose_crowded(dp_stream_draw *stream);
 bool dp_stream_find_crossings(dp_stream_draw *stream);
 
 /* Edges that are thought to be lines (fans.c): a table of them; a triangle's edge from a to b,
- * with its corner c beside it, is looked for there; what was found in a part is noted; a tile's lines. */
+ * with its corner c beside it, is looked for there; what was found in a part is noted; a tile's
+ * lines. */
 bool dp_stream_make_fans(dp_stream_draw *stream);
-void dp_stream_look_for_fans(const dp_stream_draw *stream, const float *a, const float *b, const float *c,
-                             const float *triangle, uint32_t number, dp_stream_worker *own);
+void dp_stream_look_for_fans(const dp_stream_draw *stream, const float *a, const float *b,
+                             const float *c, const float *triangle, uint32_t number,
+                             dp_stream_worker *own);
 /* Without looking into the table: false means no. */
 static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t edge_key) {
     const uint32_t bit = edge_key & (stream->fan_filter_bits - 1);
@@ -135,7 +141,8 @@ static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t e
 bool dp_stream_join_fans(dp_stream_draw *stream);
 void dp_stream_settle_fans(const dp_stream_draw *stream, dp_tile_lines *lines);
 
-/* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is out. */
+/* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is
+ * out. */
 bool dp_stream_place_polygons(dp_stream_draw *stream);
 bool dp_stream_for_tiles(dp_stream_draw *stream, dp_task *task);
 

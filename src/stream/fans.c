@@ -1,12 +1,14 @@
 /* Edges at which more than two triangles meet, and not all were kept.
  *
- * Two of them may have been plain to each other, and forgotten, before the others came by; those make a line
- * among themselves, or wait for ever and emerge as an outline. In the second reading all come by again:
- * whoever has an edge that is thought to be a line is noted there, as the eye sees it: on either side of the
- * edge the triangle that rises most towards the eye hides the rest (edges.c: resolve_fan). In the end the two
- * that are left decide what line it is, if any. Edges at which nobody new came by stay as they are.
+ * Two of them may have been plain to each other, and forgotten, before the others came by; those
+ * make a line among themselves, or wait for ever and emerge as an outline. In the second reading
+ * all come by again: whoever has an edge that is thought to be a line is noted there, as the eye
+ * sees it: on either side of the edge the triangle that rises most towards the eye hides the rest
+ * (edges.c: resolve_fan). In the end the two that are left decide what line it is, if any. Edges at
+ * which nobody new came by stay as they are.
  *
- * Data structure: open addressing over edges of candidates; what is noted does not depend on the order. */
+ * Data structure: open addressing over edges of candidates; what is noted does not depend on the
+ * order. */
 #include "stream/draw.h"
 
 #include "kernel/kernels.h"
@@ -15,9 +17,9 @@
 
 /* A triangle at an edge, seen from the eye. */
 typedef struct flap {
-    double rise;     /* change of depth per px away from the edge */
-    dp_vec3 normal;  /* unit, of the side that is seen */
-    dp_vec3 corner;  /* the one that is not on the edge */
+    double rise;    /* change of depth per px away from the edge */
+    dp_vec3 normal; /* unit, of the side that is seen */
+    dp_vec3 corner; /* the one that is not on the edge */
     uint32_t number;
     bool front, there;
 } flap;
@@ -28,32 +30,43 @@ struct dp_fan {
     flap side[2];    /* left and right of the edge on the screen */
 };
 
-static const float *position(const dp_stream_draw *s, uint32_t corner) { return s->positions + 3 * (size_t)corner; }
+static const float *position(const dp_stream_draw *s, uint32_t corner) {
+    return s->positions + 3 * (size_t)corner;
+}
 static uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-static bool make_flap(const dp_stream_draw *s, const float *a, const float *b, const float *c, const float *triangle,
-                      uint32_t number, int *side, flap *out) {
+static bool make_flap(const dp_stream_draw *s, const float *a, const float *b, const float *c,
+                      const float *triangle, uint32_t number, int *side, flap *out) {
     const dp_view *const view = &s->context->frame.view;
     dp_spine spine;
     const dp_clip_point clip = dp_to_clip(view, dp_v3f(c));
-    if (!(clip.w > 0) || !dp_spine_make(view, dp_v3f(a), dp_v3f(b), dp_v3(0, 0, 0), &spine)) return false;
+    if (!(clip.w > 0) || !dp_spine_make(view, dp_v3f(a), dp_v3f(b), dp_v3(0, 0, 0), &spine))
+        return false;
     const dp_pointd p = dp_to_screen(view, clip);
     const double ex = spine.b.x - spine.a.x, ey = spine.b.y - spine.a.y, length = hypot(ex, ey);
     const double x = p.x - spine.a.x, y = p.y - spine.a.y, across = (ex * y - ey * x) / length;
     if (!(length > 0) || !(fabs(across) > 0)) return false;
-    const double on_edge = spine.a.d + (spine.b.d - spine.a.d) * (ex * x + ey * y) / (length * length);
+    const double on_edge =
+        spine.a.d + (spine.b.d - spine.a.d) * (ex * x + ey * y) / (length * length);
     const dp_vec3 o = dp_v3f(triangle);
-    const dp_vec3 n = dp_unit(dp_cross(dp_sub(dp_v3f(triangle + 3), o), dp_sub(dp_v3f(triangle + 6), o)));
+    const dp_vec3 n =
+        dp_unit(dp_cross(dp_sub(dp_v3f(triangle + 3), o), dp_sub(dp_v3f(triangle + 6), o)));
     const bool front = dp_dot(n, dp_view_vector(view, o)) < 0;
     *side = across < 0;
-    *out = (flap){(p.d - on_edge) / fabs(across), dp_scale(n, front ? 1 : -1), dp_v3f(c), number, front, true};
+    *out = (flap){(p.d - on_edge) / fabs(across),
+                  dp_scale(n, front ? 1 : -1),
+                  dp_v3f(c),
+                  number,
+                  front,
+                  true};
     return true;
 }
 
 /* Keeps the flap nearest to the eye on its side; of equals the first in the stream. */
 static void offer(dp_fan *fan, int side, const flap *f) {
     flap *const best = &fan->side[side];
-    if (!best->there || f->rise > best->rise || (f->rise >= best->rise && f->number < best->number)) *best = *f;
+    if (!best->there || f->rise > best->rise || (f->rise >= best->rise && f->number < best->number))
+        *best = *f;
 }
 
 /* As kernels make it of a chunk's edges. */
@@ -72,7 +85,8 @@ static void add_fan(dp_stream_draw *s, uint32_t corner) {
     int side;
     flap own;
     *fan = (dp_fan){.corner = corner};
-    if (!make_flap(s, a, b, c, position(s, 3 * polygon), s->polygon_numbers[polygon], &side, &own)) return;
+    if (!make_flap(s, a, b, c, position(s, 3 * polygon), s->polygon_numbers[polygon], &side, &own))
+        return;
     offer(fan, side, &own);
     uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1);
     while (s->fan_slots[slot]) slot = (slot + 1) & (s->fan_slot_count - 1);
@@ -83,8 +97,10 @@ static void add_fan(dp_stream_draw *s, uint32_t corner) {
 
 static const dp_fan *fan_at(const dp_stream_draw *s, uint32_t corner) {
     const float *const a = position(s, corner), *const b = position(s, next_corner(corner));
-    for (uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1); s->fan_slots[slot]; slot = (slot + 1) & (s->fan_slot_count - 1))
-        if (s->fans[s->fan_slots[slot] - 1].corner == corner) return &s->fans[s->fan_slots[slot] - 1];
+    for (uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1); s->fan_slots[slot];
+         slot = (slot + 1) & (s->fan_slot_count - 1))
+        if (s->fans[s->fan_slots[slot] - 1].corner == corner)
+            return &s->fans[s->fan_slots[slot] - 1];
     return NULL;
 }
 
@@ -97,30 +113,36 @@ bool dp_stream_make_fans(dp_stream_draw *s) {
     while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
     s->fan_slots = dp_alloc_zeroed(s->memory, s->fan_slot_count * sizeof *s->fan_slots);
     s->fans = dp_alloc_array(s->memory, count, sizeof *s->fans);
-    s->fan_filter_bits = s->fan_slot_count < 1u << 27 ? 16 * s->fan_slot_count : 1u << 31; /* few of them are set */
+    s->fan_filter_bits =
+        s->fan_slot_count < 1u << 27 ? 16 * s->fan_slot_count : 1u << 31; /* few of them are set */
     s->fan_filter = dp_alloc_zeroed(s->memory, s->fan_filter_bits / 8);
     if (!s->fan_slots || !s->fans || !s->fan_filter) return false;
     for (uint32_t t = 0; t < tiles; t++)
         for (uint32_t i = 0; i < s->lines[t].candidate_count; i++) {
-            const uint32_t corner = 3 * s->lines[t].candidates[i].a + s->lines[t].candidates[i].edge;
+            const uint32_t corner =
+                3 * s->lines[t].candidates[i].a + s->lines[t].candidates[i].edge;
             if (!fan_at(s, corner)) add_fan(s, corner);
         }
     return true;
 }
 
 static bool is_edge(const dp_stream_draw *s, const dp_fan *fan, const float *a, const float *b) {
-    const float *const p = position(s, fan->corner), *const q = position(s, next_corner(fan->corner));
+    const float *const p = position(s, fan->corner), *const q =
+                                                         position(s, next_corner(fan->corner));
     const size_t size = 3 * sizeof(float);
-    return (!memcmp(p, a, size) && !memcmp(q, b, size)) || (!memcmp(p, b, size) && !memcmp(q, a, size));
+    return (!memcmp(p, a, size) && !memcmp(q, b, size)) ||
+           (!memcmp(p, b, size) && !memcmp(q, a, size));
 }
 
-void dp_stream_look_for_fans(const dp_stream_draw *s, const float *a, const float *b, const float *c, const float *triangle,
-                             uint32_t number, dp_stream_worker *own) {
+void dp_stream_look_for_fans(const dp_stream_draw *s, const float *a, const float *b,
+                             const float *c, const float *triangle, uint32_t number,
+                             dp_stream_worker *own) {
     const uint32_t mask = s->fan_slot_count - 1;
     for (uint32_t slot = dp_edge_hash(a, b) & mask; s->fan_slots[slot]; slot = (slot + 1) & mask) {
         const dp_fan *const fan = &s->fans[s->fan_slots[slot] - 1];
         if (s->polygon_numbers[fan->corner / 3] == number || !is_edge(s, fan, a, b)) continue;
-        if (!dp_reserve(s->memory, &own->mates, &own->mates_cap, own->mate_count + 1, sizeof *own->mates)) {
+        if (!dp_reserve(s->memory, &own->mates, &own->mates_cap, own->mate_count + 1,
+                        sizeof *own->mates)) {
             own->failed = true;
             return;
         }
@@ -136,12 +158,16 @@ static bool is_known(const dp_stream_draw *s, const dp_fan *fan, uint32_t number
     uint32_t lo = 0, hi = s->mesh_count;
     while (hi - lo > 1) {
         const uint32_t mid = lo + (hi - lo) / 2;
-        if (s->polygon_numbers[mid] <= number) lo = mid;
-        else hi = mid;
+        if (s->polygon_numbers[mid] <= number)
+            lo = mid;
+        else
+            hi = mid;
     }
     if (!hi || s->polygon_numbers[lo] != number) return false;
     for (uint32_t c = 3 * lo; c < 3 * lo + 3; c++)
-        if (s->edge_flags[c] != DP_EDGE_PLAIN && is_edge(s, fan, position(s, c), position(s, next_corner(c)))) return true;
+        if (s->edge_flags[c] != DP_EDGE_PLAIN &&
+            is_edge(s, fan, position(s, c), position(s, next_corner(c))))
+            return true;
     return false;
 }
 
@@ -155,8 +181,8 @@ bool dp_stream_join_fans(dp_stream_draw *s) {
             int side;
             flap f;
             /* sides are told along the fan's own edge */
-            if (!make_flap(s, position(s, fan->corner), position(s, next_corner(fan->corner)), mate->corner, mate->triangle,
-                           mate->number, &side, &f))
+            if (!make_flap(s, position(s, fan->corner), position(s, next_corner(fan->corner)),
+                           mate->corner, mate->triangle, mate->number, &side, &f))
                 continue;
             offer(fan, side, &f);
             fan->met = fan->met || !is_known(s, fan, mate->number);
@@ -174,7 +200,8 @@ static int line_of(const dp_stream_draw *s, const dp_fan *fan) {
     if (!l->there || !r->there) return DP_LINE_SILHOUETTE;
     if (!l->front && !r->front) return -1;
     const dp_vec3 into = dp_sub(r->corner, dp_v3f(position(s, fan->corner)));
-    const dp_fold fold = {.normal_a = l->normal, .normal_b = r->normal, .concave = dp_dot(l->normal, into) > 0};
+    const dp_fold fold = {
+        .normal_a = l->normal, .normal_b = r->normal, .concave = dp_dot(l->normal, into) > 0};
     return dp_fold_line(&fold, &s->context->frame.styles[0]);
 }
 

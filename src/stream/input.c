@@ -1,9 +1,9 @@
 /* Reading a source in parts of many chunks, as triangles.
  *
- * Where the source has records (a binary STL), a part is only a range of numbers: each chunk reads its own,
- * in its own thread. Otherwise polygons are taken out of batches one after the other, and split where they
- * have more than three corners; the diagonals never draw. Either way a triangle's number is its place in
- * the stream, the same in every reading. */
+ * Where the source has records (a binary STL), a part is only a range of numbers: each chunk reads
+ * its own, in its own thread. Otherwise polygons are taken out of batches one after the other, and
+ * split where they have more than three corners; the diagonals never draw. Either way a triangle's
+ * number is its place in the stream, the same in every reading. */
 #include "stream/input.h"
 
 #include "base/diag.h"
@@ -11,11 +11,14 @@
 
 #include <string.h>
 
-static dp_result out_of_memory(dp_diag *diag) { return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model"); }
+static dp_result out_of_memory(dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
+}
 
-dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks, const dp_allocator *memory,
-                        dp_stats *stats, dp_diag *diag) {
-    *input = (dp_input){.source = source, .memory = memory, .stats = stats, .part = chunks * DP_CHUNK};
+dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
+                        const dp_allocator *memory, dp_stats *stats, dp_diag *diag) {
+    *input =
+        (dp_input){.source = source, .memory = memory, .stats = stats, .part = chunks * DP_CHUNK};
     if (dp_source_rewindable(source)) {
         const dp_result result = dp_source_rewind(source, diag);
         if (result) return result;
@@ -42,7 +45,8 @@ void dp_input_close(dp_input *input) {
 
 /* ------- polygons of batches ------- */
 
-static void put(dp_input *input, const float *a, const float *b, const float *c, unsigned flags, size_t polygon) {
+static void put(dp_input *input, const float *a, const float *b, const float *c, unsigned flags,
+                size_t polygon) {
     float *const out = input->corners[input->count];
     memcpy(out, a, 3 * sizeof(float));
     memcpy(out + 3, b, 3 * sizeof(float));
@@ -52,15 +56,18 @@ static void put(dp_input *input, const float *a, const float *b, const float *c,
 }
 
 /* Bit 0 where the edge from corner `from` of n leads to the next one and draws. */
-static unsigned edge_flag(const dp_batch *batch, size_t first, size_t n, uint32_t from, uint32_t to) {
+static unsigned edge_flag(const dp_batch *batch, size_t first, size_t n, uint32_t from,
+                          uint32_t to) {
     return to == (from + 1) % n && (!batch->edge_flags || batch->edge_flags[first + from]);
 }
 
-static void put_piece(dp_input *input, size_t polygon, size_t first, size_t n, uint32_t a, uint32_t b, uint32_t c) {
+static void put_piece(dp_input *input, size_t polygon, size_t first, size_t n, uint32_t a,
+                      uint32_t b, uint32_t c) {
     const float *const *const at = input->scratch.at;
     const dp_batch *const batch = &input->batch;
     put(input, at[a], at[b], at[c],
-        edge_flag(batch, first, n, a, b) | edge_flag(batch, first, n, b, c) << 1 | edge_flag(batch, first, n, c, a) << 2,
+        edge_flag(batch, first, n, a, b) | edge_flag(batch, first, n, b, c) << 1 |
+            edge_flag(batch, first, n, c, a) << 2,
         polygon);
 }
 
@@ -80,7 +87,8 @@ static bool locate(dp_input *input, size_t first, size_t n) {
             input->stats->dropped_index++;
             return false;
         }
-        const float *const p = (const float *)(const void *)((const char *)batch->positions + vertex * batch->position_stride);
+        const float *const p = (const float *)(const void *)((const char *)batch->positions +
+                                                             vertex * batch->position_stride);
         if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) {
             input->stats->dropped_finite++;
             return false;
@@ -98,7 +106,10 @@ static bool take_polygon(dp_input *input, size_t polygon, dp_result *result, dp_
     if (n < 3) return input->stats->dropped_corners++, true;
     if (n - 2 > input->part - input->count) {
         if (!input->count)
-            *result = dp_fail(diag, DP_ERR_LIMIT, "a polygon of %zu corners; streamed, it may have %u, or more with more memory", n, input->part + 2);
+            *result = dp_fail(
+                diag, DP_ERR_LIMIT,
+                "a polygon of %zu corners; streamed, it may have %u, or more with more memory", n,
+                input->part + 2);
         return false;
     }
     if (!reserve_scratch(input, n)) return *result = out_of_memory(diag), false;
@@ -109,7 +120,8 @@ static bool take_polygon(dp_input *input, size_t polygon, dp_result *result, dp_
         return true;
     }
     input->stats->split++;
-    const uint32_t pieces = dp_split_polygon(input->scratch.at, (uint32_t)n, input->scratch.links, input->scratch.triangles);
+    const uint32_t pieces = dp_split_polygon(input->scratch.at, (uint32_t)n, input->scratch.links,
+                                             input->scratch.triangles);
     for (uint32_t i = 0; i < pieces; i++) {
         const uint32_t *const t = input->scratch.triangles[i];
         put_piece(input, polygon, first, n, t[0], t[1], t[2]);
@@ -139,7 +151,8 @@ dp_result dp_input_next(dp_input *input, dp_diag *diag) {
     const dp_records *const r = &input->source->records;
     input->first += input->count;
     input->count = 0;
-    if (input->first >= UINT32_MAX - 2 - input->part) return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles", UINT32_MAX - 2 - input->part);
+    if (input->first >= UINT32_MAX - 2 - input->part)
+        return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles", UINT32_MAX - 2 - input->part);
     if (!r->read) return next_of_batches(input, diag);
     const uint64_t left = r->count - input->first;
     input->count = left < input->part ? (uint32_t)left : input->part;
@@ -152,12 +165,14 @@ size_t dp_input_buffer_size(const dp_input *input) {
     return input->source->records.read ? input->source->records.size * DP_CHUNK : 1;
 }
 
-dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer, dp_triangles *out, dp_diag *diag) {
+dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer, dp_triangles *out,
+                         dp_diag *diag) {
     const dp_records *const r = &input->source->records;
     const uint32_t first = index * DP_CHUNK;
     const uint32_t count = input->count - first < DP_CHUNK ? input->count - first : DP_CHUNK;
     if (!r->read) {
-        *out = (dp_triangles){(const uint8_t *)input->corners[first], sizeof *input->corners, count, input->flags + first};
+        *out = (dp_triangles){(const uint8_t *)input->corners[first], sizeof *input->corners, count,
+                              input->flags + first};
         return DP_OK;
     }
     *out = (dp_triangles){buffer + r->corners, r->size, count, NULL};

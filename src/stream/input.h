@@ -17,7 +17,7 @@ typedef struct dp_input {
 
     /* Sources without records: the batch at hand, and the part's triangles taken out of batches. */
     dp_batch batch;
-    size_t taken;      /* polygons of the batch */
+    size_t taken;        /* polygons of the batch */
     uint64_t handed_out; /* polygons of earlier batches */
     float (*corners)[9]; /* [part] */
     uint8_t *flags;      /* [part] */
@@ -26,15 +26,16 @@ typedef struct dp_input {
 } dp_input;
 
 /* Parts of `chunks` chunks. */
-dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks, const dp_allocator *memory,
-                        dp_stats *stats, dp_diag *diag);
+dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
+                        const dp_allocator *memory, dp_stats *stats, dp_diag *diag);
 void dp_input_close(dp_input *input);
 
 /* To the next part; count 0 at the end. DP_ERR_LIMIT beyond 2^32 - 3 triangles. */
 dp_result dp_input_next(dp_input *input, dp_diag *diag);
 
 /* Triangles of chunk `index` of the part; `buffer` takes DP_CHUNK records. Any thread. */
-dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer, dp_triangles *out, dp_diag *diag);
+dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer, dp_triangles *out,
+                         dp_diag *diag);
 size_t dp_input_buffer_size(const dp_input *input);
 
 /* Which polygon of the source a triangle of the part is of. */

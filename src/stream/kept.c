@@ -1,21 +1,23 @@
-/* Triangles carried from chunk to chunk of a stream, and their edges that wait for another triangle.
+/* Triangles carried from chunk to chunk of a stream, and their edges that wait for another
+ * triangle.
  *
- * An edge whose two triangles lie in different chunks is found here: by the bits of its ends' positions,
- * as in a tile's table. When they meet and it is plain, both forget it; a triangle without any edge that
- * matters is dropped. What is left at the end is a small mesh with the lines in it, and the ordinary
- * stages draw it.
+ * An edge whose two triangles lie in different chunks is found here: by the bits of its ends'
+ * positions, as in a tile's table. When they meet and it is plain, both forget it; a triangle
+ * without any edge that matters is dropped. What is left at the end is a small mesh with the lines
+ * in it, and the ordinary stages draw it.
  *
- * Data structure: triangles in stream order; open addressing over (hash and edge, triangle number) pairs.
- * A slot names a triangle by its number in the stream, which dropping others does not change; it is found
- * by that number. Invariant: every DP_EDGE_ALONE edge of a triangle that was joined has one slot.
+ * Data structure: triangles in stream order; open addressing over (hash and edge, triangle number)
+ * pairs. A slot names a triangle by its number in the stream, which dropping others does not
+ * change; it is found by that number. Invariant: every DP_EDGE_ALONE edge of a triangle that was
+ * joined has one slot.
  *
- * Memory is bounded. Where a source names the triangles of an edge far apart (in any order, at worst), more
- * may wait than `limit`: those are dropped that lie behind the surface as known so far, and then half of the
- * edges, by their hash, are put off to another reading of the source; and so on. So the lines are the
- * same for any order, and disorder costs time. Only after DP_SHARES_MOST readings are edges given up, the
- * oldest first, and counted. Where lines themselves are too many (a noisy scan whose triangles are far below
- * a pixel), they are thinned: one to a pixel, then one to a square of pixels, as it takes; it is black there
- * already. */
+ * Memory is bounded. Where a source names the triangles of an edge far apart (in any order, at
+ * worst), more may wait than `limit`: those are dropped that lie behind the surface as known so
+ * far, and then half of the edges, by their hash, are put off to another reading of the source; and
+ * so on. So the lines are the same for any order, and disorder costs time. Only after
+ * DP_SHARES_MOST readings are edges given up, the oldest first, and counted. Where lines themselves
+ * are too many (a noisy scan whose triangles are far below a pixel), they are thinned: one to a
+ * pixel, then one to a square of pixels, as it takes; it is black there already. */
 #include "stream/kept.h"
 
 #include <stdlib.h>
@@ -33,15 +35,19 @@ void dp_kept_free(dp_kept *kept) {
 }
 
 uint64_t dp_kept_bytes(const dp_kept *kept) {
-    return (kept->cap + kept->earlier_cap) * sizeof *kept->triangles + kept->slots_cap * sizeof *kept->slots;
+    return (kept->cap + kept->earlier_cap) * sizeof *kept->triangles +
+           kept->slots_cap * sizeof *kept->slots;
 }
 
-static const float *corner(const dp_kept_triangle *t, uint32_t i) { return t->corners + 3 * (i % 3); }
+static const float *corner(const dp_kept_triangle *t, uint32_t i) {
+    return t->corners + 3 * (i % 3);
+}
 
 static uint32_t position_hash(const float *p) {
     uint32_t b[3];
     memcpy(b, p, sizeof b);
-    const uint64_t h = ((uint64_t)b[0] * 0x9e3779b97f4a7c15u) ^ ((uint64_t)b[1] * 0xc2b2ae3d27d4eb4fu) ^
+    const uint64_t h = ((uint64_t)b[0] * 0x9e3779b97f4a7c15u) ^
+                       ((uint64_t)b[1] * 0xc2b2ae3d27d4eb4fu) ^
                        ((uint64_t)b[2] * 0x165667b19e3779f9u);
     return (uint32_t)((h * 0xff51afd7ed558ccdu) >> 32);
 }
@@ -56,7 +62,9 @@ static uint32_t edge_hash(const dp_kept_triangle *t, uint32_t edge) {
     return dp_edge_hash_bits(corner(t, edge), corner(t, edge + 1));
 }
 
-static bool is_of_share(dp_kept_share share, uint32_t hash) { return (hash >> 20 & share.mask) == share.value; }
+static bool is_of_share(dp_kept_share share, uint32_t hash) {
+    return (hash >> 20 & share.mask) == share.value;
+}
 
 bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge) {
     return !share.mask || is_of_share(share, edge_hash(triangle, edge));
@@ -82,7 +90,9 @@ static bool rebuild(dp_kept *kept, size_t count, size_t more) {
         for (int e = 0; e < 3; e++) edges += kept->triangles[i].edges[e] == DP_EDGE_ALONE;
     uint32_t slots = 64;
     while (slots < 2 * edges) slots *= 2;
-    if (!dp_reserve(kept->memory, &kept->slots, &kept->slots_cap, 2 * (size_t)slots, sizeof *kept->slots)) return false;
+    if (!dp_reserve(kept->memory, &kept->slots, &kept->slots_cap, 2 * (size_t)slots,
+                    sizeof *kept->slots))
+        return false;
     memset(kept->slots, 0xff, 2 * (size_t)slots * sizeof *kept->slots);
     kept->slot_count = slots;
     kept->slots_used = 0;
@@ -93,29 +103,38 @@ static bool rebuild(dp_kept *kept, size_t count, size_t more) {
     return true;
 }
 
-/* Numbers are spread more or less evenly, so every other step guesses the place from the numbers at both
- * ends; the steps between bisect. */
+/* Numbers are spread more or less evenly, so every other step guesses the place from the numbers at
+ * both ends; the steps between bisect. */
 static dp_kept_triangle *find_number(const dp_kept *kept, uint32_t number) {
     dp_kept_triangle *const all = kept->triangles;
     if (!kept->count || number < all[0].number || number > all[kept->count - 1].number) return NULL;
     size_t lo = 0, hi = kept->count - 1;
     for (bool guess = true; lo < hi; guess = !guess) {
         const uint64_t span = all[hi].number - all[lo].number, ahead = number - all[lo].number;
-        const size_t mid = guess ? lo + (size_t)((double)(hi - lo) * (double)ahead / (double)span) : lo + (hi - lo) / 2;
+        const size_t mid = guess ? lo + (size_t)((double)(hi - lo) * (double)ahead / (double)span)
+                                 : lo + (hi - lo) / 2;
         if (all[mid].number == number) return &all[mid];
-        if (all[mid].number < number) lo = mid + 1;
-        else if (mid == lo) return NULL;
-        else hi = mid - 1;
+        if (all[mid].number < number)
+            lo = mid + 1;
+        else if (mid == lo)
+            return NULL;
+        else
+            hi = mid - 1;
         if (lo > hi || number < all[lo].number || number > all[hi].number) return NULL;
     }
     return all[lo].number == number ? &all[lo] : NULL;
 }
 
 /* 1: the edges run opposite ways, as they should; -1: the same way; 0: they are different edges. */
-static int compare_edges(const dp_kept_triangle *t, uint32_t e, const dp_kept_triangle *u, uint32_t f) {
+static int compare_edges(const dp_kept_triangle *t, uint32_t e, const dp_kept_triangle *u,
+                         uint32_t f) {
     const size_t size = 3 * sizeof(float);
-    if (!memcmp(corner(t, e), corner(u, f + 1), size) && !memcmp(corner(t, e + 1), corner(u, f), size)) return 1;
-    if (!memcmp(corner(t, e), corner(u, f), size) && !memcmp(corner(t, e + 1), corner(u, f + 1), size)) return -1;
+    if (!memcmp(corner(t, e), corner(u, f + 1), size) &&
+        !memcmp(corner(t, e + 1), corner(u, f), size))
+        return 1;
+    if (!memcmp(corner(t, e), corner(u, f), size) &&
+        !memcmp(corner(t, e + 1), corner(u, f + 1), size))
+        return -1;
     return 0;
 }
 
@@ -192,7 +211,8 @@ static bool halve_share(dp_kept *kept) {
     for (size_t i = 0; i < kept->count; i++) {
         dp_kept_triangle *const t = &kept->triangles[i];
         for (uint32_t e = 0; e < 3; e++)
-            if (t->edges[e] == DP_EDGE_ALONE && !is_of_share(kept->share, edge_hash(t, e))) t->edges[e] = DP_EDGE_PLAIN;
+            if (t->edges[e] == DP_EDGE_ALONE && !is_of_share(kept->share, edge_hash(t, e)))
+                t->edges[e] = DP_EDGE_PLAIN;
     }
     drop_plain(kept, 0);
     return true;
@@ -208,10 +228,12 @@ static size_t count_lines(const dp_kept *kept) {
     return count;
 }
 
-/* The square of 2^shift pixels that holds the edge's middle, the picture's nearest; the same from both sides. */
+/* The square of 2^shift pixels that holds the edge's middle, the picture's nearest; the same from
+ * both sides. */
 static size_t cell_of(const dp_kept *kept, const dp_kept_triangle *t, uint32_t edge, int shift) {
     const dp_chunk_view *const v = kept->view;
-    const dp_vec3 middle = dp_scale(dp_add(dp_v3f(corner(t, edge)), dp_v3f(corner(t, edge + 1))), 0.5);
+    const dp_vec3 middle =
+        dp_scale(dp_add(dp_v3f(corner(t, edge)), dp_v3f(corner(t, edge + 1))), 0.5);
     const dp_clip_point c = dp_to_clip(v->view, middle);
     if (!(c.w > 0)) return 0;
     const dp_pointd p = dp_to_screen(v->view, c);
@@ -220,8 +242,8 @@ static size_t cell_of(const dp_kept *kept, const dp_kept_triangle *t, uint32_t e
     return (y >> shift) * ((size_t)v->tiles_x * DP_TILE >> shift) + (x >> shift);
 }
 
-/* What comes late goes first, since what came early may be hidden by it; then the hash decides. Both triangles
- * of an edge give it the same rank, if only they came close enough together. */
+/* What comes late goes first, since what came early may be hidden by it; then the hash decides.
+ * Both triangles of an edge give it the same rank, if only they came close enough together. */
 static uint32_t rank_of(const dp_kept_triangle *t, uint32_t edge) {
     const uint32_t age = ~(t->number >> 18) & 0x3fff;
     return age << 18 | edge_hash(t, edge) >> 14;
@@ -229,13 +251,14 @@ static uint32_t rank_of(const dp_kept_triangle *t, uint32_t edge) {
 
 enum { THINNING_MOST = 6 };
 
-/* Leaves one line to a square of 1, 2, 4, … px: the first in rank. An edge is left with both its triangles or with
- * neither; those that are not, do not emerge (tiles.c). */
+/* Leaves one line to a square of 1, 2, 4, … px: the first in rank. An edge is left with both its
+ * triangles or with neither; those that are not, do not emerge (tiles.c). */
 static bool thin(dp_kept *kept) {
     const dp_chunk_view *const v = kept->view;
     const int shift = kept->thinning - 1;
     const size_t cells = (size_t)v->tiles_x * v->tiles_y * DP_TILE * DP_TILE;
-    if (!dp_reserve(kept->memory, &kept->cells, &kept->cells_cap, cells, sizeof *kept->cells)) return false;
+    if (!dp_reserve(kept->memory, &kept->cells, &kept->cells_cap, cells, sizeof *kept->cells))
+        return false;
     memset(kept->cells, 0xff, cells * sizeof *kept->cells);
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < kept->count; i++)
@@ -266,12 +289,15 @@ static bool thin_lines(dp_kept *kept, size_t room) {
 /* Looks at all when many have come since the last time. */
 static bool settle(dp_kept *kept) {
     const size_t least = DP_TUNED(4096, 8) + kept->limit / 4;
-    const size_t room = kept->limit > kept->earlier_count + least ? kept->limit - kept->earlier_count : least;
+    const size_t room =
+        kept->limit > kept->earlier_count + least ? kept->limit - kept->earlier_count : least;
     if (kept->count <= 2 * kept->settled + DP_TUNED(65536, 4) && kept->count <= room) return true;
     drop_plain(kept, 0);
     if (kept->count > room / 4 * 3) drop_hidden(kept);
-    if (kept->count > room / 4 * 3 && count_lines(kept) > room / 2 && !thin_lines(kept, room)) return false;
-    if (kept->count > room / 8 * 7) while (kept->count > room / 2 && halve_share(kept)) continue;
+    if (kept->count > room / 4 * 3 && count_lines(kept) > room / 2 && !thin_lines(kept, room))
+        return false;
+    if (kept->count > room / 8 * 7)
+        while (kept->count > room / 2 && halve_share(kept)) continue;
     if (kept->count > room / 8 * 7) give_up_oldest(kept, room / 4 * 3);
     drop_plain(kept, 0);
     kept->settled = kept->count;
@@ -291,14 +317,17 @@ static void join_some(dp_kept *kept, dp_kept_triangle *triangles, size_t count) 
     for (size_t i = 0; i < count; i++)
         for (uint32_t e = 0; e < 3; e++) {
             if (triangles[i].edges[e] != DP_EDGE_ALONE) continue;
-            if (is_of_share(kept->share, hashes[i][e])) join_edge(kept, &triangles[i], e, hashes[i][e]);
-            else triangles[i].edges[e] = DP_EDGE_PLAIN; /* put off after this triangle was sifted */
+            if (is_of_share(kept->share, hashes[i][e]))
+                join_edge(kept, &triangles[i], e, hashes[i][e]);
+            else
+                triangles[i].edges[e] = DP_EDGE_PLAIN; /* put off after this triangle was sifted */
         }
 }
 
 bool dp_kept_join(dp_kept *kept, size_t first) {
     const size_t edges = 3 * (kept->count - first);
-    if (2 * (kept->slots_used + edges) > kept->slot_count && !rebuild(kept, first, edges)) return false;
+    if (2 * (kept->slots_used + edges) > kept->slot_count && !rebuild(kept, first, edges))
+        return false;
     for (size_t i = first; i < kept->count; i += AHEAD)
         join_some(kept, kept->triangles + i, kept->count - i < AHEAD ? kept->count - i : AHEAD);
     drop_plain(kept, first);
@@ -331,9 +360,12 @@ static void merge_earlier(dp_kept *kept) {
 
 bool dp_kept_next_share(dp_kept *kept, bool *enough) {
     drop_plain(kept, 0);
-    *enough = dp_reserve(kept->memory, &kept->earlier, &kept->earlier_cap, kept->earlier_count + kept->count, sizeof *kept->earlier);
+    *enough = dp_reserve(kept->memory, &kept->earlier, &kept->earlier_cap,
+                         kept->earlier_count + kept->count, sizeof *kept->earlier);
     if (!*enough) return false;
-    if (kept->count) memcpy(kept->earlier + kept->earlier_count, kept->triangles, kept->count * sizeof *kept->triangles);
+    if (kept->count)
+        memcpy(kept->earlier + kept->earlier_count, kept->triangles,
+               kept->count * sizeof *kept->triangles);
     kept->earlier_count += kept->count;
     kept->count = kept->settled = 0;
     merge_earlier(kept);

@@ -1,4 +1,5 @@
-/* What is kept of a stream: the triangles whose edges may be lines, or wait for their other triangle. */
+/* What is kept of a stream: the triangles whose edges may be lines, or wait for their other
+ * triangle. */
 #ifndef DP_STREAM_KEPT_H
 #define DP_STREAM_KEPT_H
 
@@ -26,21 +27,21 @@ typedef struct dp_kept {
     const dp_chunk_view *view;
     dp_kept_triangle *triangles; /* numbers ascend */
     size_t count, cap;
-    size_t settled; /* how many were left when all were last looked at */
-    size_t limit;   /* triangles, those of earlier readings included */
+    size_t settled;            /* how many were left when all were last looked at */
+    size_t limit;              /* triangles, those of earlier readings included */
     dp_kept_triangle *earlier; /* what earlier readings kept; after the last, all in one */
     size_t earlier_count, earlier_cap;
-    dp_kept_share share; /* edges that this reading follows */
+    dp_kept_share share;                 /* edges that this reading follows */
     dp_kept_share later[DP_SHARES_MOST]; /* and others, still to come */
     uint32_t later_count, shares;
     uint32_t *slots; /* 2 * slot_count: hash and edge, triangle number */
     size_t slots_cap;
     uint32_t slot_count, slots_used; /* used: also by what was taken out */
-    uint64_t lost;    /* edges given up for want of memory while they waited */
+    uint64_t lost;                   /* edges given up for want of memory while they waited */
     uint64_t thinned; /* lines left out where there are too many, counted from both sides */
-    uint32_t *cells; /* by square of pixels, while lines are thinned */
+    uint32_t *cells;  /* by square of pixels, while lines are thinned */
     size_t cells_cap;
-    int thinning;    /* one line to a square of 2^(thinning - 1) px; 0: not at all */
+    int thinning; /* one line to a square of 2^(thinning - 1) px; 0: not at all */
 } dp_kept;
 
 void dp_kept_free(dp_kept *kept);
@@ -48,16 +49,19 @@ void dp_kept_free(dp_kept *kept);
 /* The same from both sides of the edge from p to q; its two lowest bits are 0. */
 uint32_t dp_edge_hash_bits(const float *p, const float *q);
 /* One for a table of its own. */
-static inline uint32_t dp_edge_hash(const float *p, const float *q) { return dp_edge_hash_bits(p, q) >> 2; }
+static inline uint32_t dp_edge_hash(const float *p, const float *q) {
+    return dp_edge_hash_bits(p, q) >> 2;
+}
 
 /* Does a reading that follows this share follow the edge of a triangle? */
 bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge);
 
-/* Begins with the next share of edges; false when there is none. *enough: false when memory is out. */
+/* Begins with the next share of edges; false when there is none. *enough: false when memory is out.
+ */
 bool dp_kept_next_share(dp_kept *kept, bool *enough);
 
-/* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped, and so are edges that
- * are not followed any more. False when memory is out. */
+/* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped, and so
+ * are edges that are not followed any more. False when memory is out. */
 bool dp_kept_join(dp_kept *kept, size_t first);
 
 uint64_t dp_kept_bytes(const dp_kept *kept);

@@ -1,13 +1,13 @@
-/* A reading of the source: parts are cut into chunks, chunks are sifted in parallel, and what is left of
- * them is put together in order.
+/* A reading of the source: parts are cut into chunks, chunks are sifted in parallel, and what is
+ * left of them is put together in order.
  *
- * Most triangles end in their chunk. Those that may cover a sample are listed until the list is full and
- * then go through the ordinary stages; those with an edge that matters are kept (kept.c). Order is that of
- * the stream, whatever thread sifted which chunk.
+ * Most triangles end in their chunk. Those that may cover a sample are listed until the list is
+ * full and then go through the ordinary stages; those with an edge that matters are kept (kept.c).
+ * Order is that of the stream, whatever thread sifted which chunk.
  *
- * The edges of what is kept meet one after the other, in one thread; the others sift the next part meanwhile.
- * Nothing in a chunk depends on that: what edges are followed is said when its part begins, and edges that are
- * put off by then are dropped when it is their turn. */
+ * The edges of what is kept meet one after the other, in one thread; the others sift the next part
+ * meanwhile. Nothing in a chunk depends on that: what edges are followed is said when its part
+ * begins, and edges that are put off by then are dropped when it is their turn. */
 #include "stream/draw.h"
 
 #include "base/diag.h"
@@ -22,8 +22,8 @@ typedef struct job {
     bool failed;         /* it is out of memory */
 } job;
 
-/* Lists the triangles whose state has one of the flags. Written without asking, and counted where it is meant: what
- * comes next cannot be foretold. */
+/* Lists the triangles whose state has one of the flags. Written without asking, and counted where
+ * it is meant: what comes next cannot be foretold. */
 static uint32_t list_triangles(dp_chunk *chunk, const uint8_t *states, uint8_t flags) {
     uint32_t count = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
@@ -33,7 +33,8 @@ static uint32_t list_triangles(dp_chunk *chunk, const uint8_t *states, uint8_t f
     return count;
 }
 
-static void leave_covering(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, dp_chunk_rest *rest) {
+static void leave_covering(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+                           dp_chunk_rest *rest) {
     rest->covering = list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS);
     for (uint32_t i = 0; i < rest->covering; i++) {
         const uint32_t t = chunk->listed[i];
@@ -42,8 +43,8 @@ static void leave_covering(dp_chunk *chunk, uint32_t number, const dp_triangles 
     }
 }
 
-static void leave_kept(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles, const dp_input *input,
-                       dp_kept_share share, dp_chunk_rest *rest) {
+static void leave_kept(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+                       const dp_input *input, dp_kept_share share, dp_chunk_rest *rest) {
     uint32_t left = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
         chunk->listed[left] = (uint16_t)t;
@@ -59,7 +60,8 @@ static void leave_kept(dp_chunk *chunk, uint32_t number, const dp_triangles *tri
             k->edges[i] = line ? DP_EDGE_LINE : alone ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
         }
         for (uint32_t i = 0; i < 3; i++)
-            if (k->edges[i] == DP_EDGE_ALONE && !dp_kept_follows(share, k, i)) k->edges[i] = DP_EDGE_PLAIN;
+            if (k->edges[i] == DP_EDGE_ALONE && !dp_kept_follows(share, k, i))
+                k->edges[i] = DP_EDGE_PLAIN;
         rest->kept_count += (k->edges[0] | k->edges[1] | k->edges[2]) != 0;
         k->number = number + t;
         k->polygon = dp_input_polygon(input, number + t);
@@ -67,8 +69,8 @@ static void leave_kept(dp_chunk *chunk, uint32_t number, const dp_triangles *tri
     }
 }
 
-static void leave_crowd(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
-                        dp_chunk_rest *rest) {
+static void leave_crowd(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number,
+                        const dp_triangles *triangles, dp_chunk_rest *rest) {
     rest->kept_count = list_triangles(chunk, chunk->state, DP_TRIANGLE_CROWD);
     for (uint32_t i = 0; i < rest->kept_count; i++) {
         const uint32_t t = chunk->listed[i];
@@ -76,21 +78,24 @@ static void leave_crowd(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t 
         dp_triangle_corners(triangles, t, corners);
         rest->pixels[i] = dp_chunk_pixel(corners, &stream->view);
         dp_kept_triangle *const k = &rest->kept[i];
-        *k = (dp_kept_triangle){.number = number + t, .polygon = dp_input_polygon(&stream->input, number + t)};
+        *k = (dp_kept_triangle){.number = number + t,
+                                .polygon = dp_input_polygon(&stream->input, number + t)};
         memcpy(k->corners, triangles->corners + t * triangles->stride, sizeof k->corners);
     }
 }
 
-static void look_for_fans(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
-                          dp_stream_worker *own) {
-    const uint32_t count = stream->fan_count ? list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS) : 0;
+static void look_for_fans(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number,
+                          const dp_triangles *triangles, dp_stream_worker *own) {
+    const uint32_t count =
+        stream->fan_count ? list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS) : 0;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t e = 0, t = chunk->listed[i]; e < 3; e++) {
             if (!dp_stream_may_be_fan(stream, chunk->edge_key[e][t])) continue;
             if (triangles->flags && !(triangles->flags[t] >> e & 1)) continue;
             float corners[9];
             dp_triangle_corners(triangles, t, corners);
-            dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3), corners + 3 * ((e + 2) % 3), corners, number + t, own);
+            dp_stream_look_for_fans(stream, corners + 3 * e, corners + 3 * ((e + 1) % 3),
+                                    corners + 3 * ((e + 2) % 3), corners, number + t, own);
         }
 }
 
@@ -123,9 +128,12 @@ static bool join_edges(dp_stream_draw *s) {
 
 static void do_task(void *arg, uint32_t index, uint32_t worker) {
     job *const j = arg;
-    if (!j->joins) sift_chunk(j, index, worker);
-    else if (index) sift_chunk(j, index - 1, worker);
-    else j->failed = !join_edges(j->stream);
+    if (!j->joins)
+        sift_chunk(j, index, worker);
+    else if (index)
+        sift_chunk(j, index - 1, worker);
+    else
+        j->failed = !join_edges(j->stream);
 }
 
 static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
@@ -173,37 +181,47 @@ static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
         sum += s->rests[i].kept_count;
     }
     if (sum == kept->count) return true;
-    if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles)) return false;
+    if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles))
+        return false;
     dp_parallel(s->context->threads, chunks, keep_chunk, s);
     kept->count = sum;
     return true;
 }
 
-/* Surfaces seen at a grazing angle put thousands of triangles into a pixel; what crosses there is no line
- * that could be seen. */
+/* Surfaces seen at a grazing angle put thousands of triangles into a pixel; what crosses there is
+ * no line that could be seen. */
 enum { CROWD_MOST = 128 };
 
 /* Beyond the limit crossings are given up. */
 static bool keep_crowd(dp_stream_draw *s, uint32_t chunks) {
     for (uint32_t i = 0; i < chunks; i++) {
         const dp_chunk_rest *const rest = &s->rests[i];
-        if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, s->crowd_count + rest->kept_count, sizeof *s->crowd)) return false;
+        if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, s->crowd_count + rest->kept_count,
+                        sizeof *s->crowd))
+            return false;
         for (uint32_t k = 0; k < rest->kept_count; k++) {
             uint8_t *const counted = &s->crowd_counts[rest->pixels[k]];
             if (*counted > CROWD_MOST) continue;
             ++*counted;
-            if (s->crowd_count < s->crowd_limit) s->crowd[s->crowd_count++] = rest->kept[k];
-            else s->context->stats.edges_lost++;
+            if (s->crowd_count < s->crowd_limit)
+                s->crowd[s->crowd_count++] = rest->kept[k];
+            else
+                s->context->stats.edges_lost++;
         }
     }
     return true;
 }
 
-static dp_result out_of_memory(dp_diag *diag) { return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing"); }
+static dp_result out_of_memory(dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing");
+}
 
 static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag) {
     const uint32_t chunks = s->input.count / DP_CHUNK + (s->input.count % DP_CHUNK != 0);
-    job j = {.stream = s, .reading = reading, .share = s->kept.share, .joins = s->joined < s->kept.count};
+    job j = {.stream = s,
+             .reading = reading,
+             .share = s->kept.share,
+             .joins = s->joined < s->kept.count};
     dp_parallel(s->context->threads, chunks + j.joins, do_task, &j);
     if (j.failed) return out_of_memory(diag);
     for (uint32_t i = 0; i < chunks; i++)
@@ -212,7 +230,8 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
             return s->rests[i].result;
         }
     if (!list_covering(s, chunks, reading) ||
-        !(reading == DP_READ_HIDERS ? keep_crowd(s, chunks) && dp_stream_join_fans(s) : keep_edges(s, chunks)))
+        !(reading == DP_READ_HIDERS ? keep_crowd(s, chunks) && dp_stream_join_fans(s)
+                                    : keep_edges(s, chunks)))
         return out_of_memory(diag);
     return DP_OK;
 }
@@ -220,24 +239,28 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
 static dp_result report(const dp_stream_draw *s, double from, double to, dp_diag *diag) {
     const dp_context *const c = s->context;
     double done = dp_input_fraction(&s->input);
-    if (done < 0 && s->triangles) done = (double)(s->input.first + s->input.count) / (double)s->triangles;
+    if (done < 0 && s->triangles)
+        done = (double)(s->input.first + s->input.count) / (double)s->triangles;
     if (c->progress && c->progress(c->user, done < 0 ? done : from + (to - from) * done))
         return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
     return DP_OK;
 }
 
-static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, double to, dp_diag *diag) {
+static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, double to,
+                          dp_diag *diag) {
     for (;;) {
         dp_result result = dp_input_next(&s->input, diag);
         if (result) return result;
         if (!s->input.count) break;
-        if ((result = read_part(s, reading, diag)) || (result = report(s, from, to, diag))) return result;
+        if ((result = read_part(s, reading, diag)) || (result = report(s, from, to, diag)))
+            return result;
     }
     s->triangles = s->input.first;
     return join_edges(s) && draw_listed(s, reading) ? DP_OK : out_of_memory(diag);
 }
 
-dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, double to, dp_diag *diag) {
+dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, double to,
+                         dp_diag *diag) {
     dp_context *const c = s->context;
     dp_source *const source = s->input.source;
     const dp_stats before = c->stats;

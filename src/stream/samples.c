@@ -1,12 +1,13 @@
 /* One reading: the picture's depth samples hide sample points of lines.
  *
- * A point is visible when some sample beside it shows what lies no nearer than the line's own polygons do
- * there: the surface that the line lies on, or what is behind it. How far a sample may lie from the point
- * is what one pass costs: lines end up to a pixel late behind the outline of something nearer, and what
- * is finer than a pixel may show through. */
+ * A point is visible when some sample beside it shows what lies no nearer than the line's own
+ * polygons do there: the surface that the line lies on, or what is behind it. How far a sample may
+ * lie from the point is what one pass costs: lines end up to a pixel late behind the outline of
+ * something nearer, and what is finer than a pixel may show through. */
 #include "stream/draw.h"
 
-/* How much nearer a sample may be and still not hide, in pixel sizes, and per px of slope beside that. */
+/* How much nearer a sample may be and still not hide, in pixel sizes, and per px of slope beside
+ * that. */
 static const double SLACK = 2, STEEPEST = 8;
 
 /* Depth of a kept triangle's plane at tile place (x, y), as far as it is not seen edge-on. */
@@ -18,8 +19,10 @@ static plane plane_of(const dp_tile_worker *w, uint32_t polygon, float x, float 
     plane p = {d, 0, 0};
     if (polygon == UINT32_MAX) return p;
     const dp_vertex *const v = w->frame->vertices + 3 * (size_t)polygon;
-    const double bx = (double)v[1].x - v[0].x, by = (double)v[1].y - v[0].y, bd = (double)v[1].d - v[0].d;
-    const double cx = (double)v[2].x - v[0].x, cy = (double)v[2].y - v[0].y, cd = (double)v[2].d - v[0].d;
+    const double bx = (double)v[1].x - v[0].x, by = (double)v[1].y - v[0].y,
+                 bd = (double)v[1].d - v[0].d;
+    const double cx = (double)v[2].x - v[0].x, cy = (double)v[2].y - v[0].y,
+                 cd = (double)v[2].d - v[0].d;
     const double area = bx * cy - by * cx, most = fabs(dp_depth_step(&w->frame->view, d, STEEPEST));
     const double dx = (bd * cy - by * cd) / area, dy = (bx * cd - bd * cx) / area;
     if (!(fabs(dx) + fabs(dy) <= most)) return p; /* also NaN: clipped */
@@ -28,13 +31,15 @@ static plane plane_of(const dp_tile_worker *w, uint32_t polygon, float x, float 
 
 static const float *samples_at(const dp_frame *frame, uint32_t x, uint32_t y) {
     const size_t tile = (size_t)(y / DP_TILE) * frame->tiles_x + x / DP_TILE;
-    return frame->depth + tile * frame->tile_samples + (size_t)(y % DP_TILE * DP_TILE + x % DP_TILE) * frame->target.samples;
+    return frame->depth + tile * frame->tile_samples +
+           (size_t)(y % DP_TILE * DP_TILE + x % DP_TILE) * frame->target.samples;
 }
 
 /* Does some sample of a pixel (tile place px, py) leave the point visible? */
 static bool is_clear(const dp_tile_worker *w, const plane own[2], double slack, int px, int py) {
     const int x = px + (int)w->tile_x, y = py + (int)w->tile_y;
-    if (x < 0 || y < 0 || x >= (int)w->frame->target.width || y >= (int)w->frame->target.height) return false;
+    if (x < 0 || y < 0 || x >= (int)w->frame->target.width || y >= (int)w->frame->target.height)
+        return false;
     const float *const d = samples_at(w->frame, (uint32_t)x, (uint32_t)y);
     const uint32_t samples = w->frame->target.samples;
     for (uint32_t i = 0; i < samples; i++) {
@@ -48,7 +53,8 @@ static bool is_clear(const dp_tile_worker *w, const plane own[2], double slack, 
 
 static bool is_visible(const dp_tile_worker *w, const dp_candidate *c, const dp_probe *p) {
     static const int beside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    const plane own[2] = {plane_of(w, c->a, p->x, p->y, p->limit), plane_of(w, c->b, p->x, p->y, p->limit)};
+    const plane own[2] = {plane_of(w, c->a, p->x, p->y, p->limit),
+                          plane_of(w, c->b, p->x, p->y, p->limit)};
     const double slack = fabs(dp_depth_step(&w->frame->view, p->limit, SLACK));
     const int px = (int)floorf(p->x), py = (int)floorf(p->y);
     for (int i = 0; i < 5; i++)

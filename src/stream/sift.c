@@ -1,12 +1,13 @@
 /* A chunk's triangles sifted, before anything is binned.
  *
- * In a model larger than memory nearly all triangles are far below a sample: what they cost is decided
- * here. A triangle is dropped that lies outside the picture, or well behind what is already known of the
- * surface; and one whose box holds no sample point covers nothing, but may still have edges. In the second
- * reading those are left that touch a pixel that is looked at.
+ * In a model larger than memory nearly all triangles are far below a sample: what they cost is
+ * decided here. A triangle is dropped that lies outside the picture, or well behind what is already
+ * known of the surface; and one whose box holds no sample point covers nothing, but may still have
+ * edges. In the second reading those are left that touch a pixel that is looked at.
  *
- * Kernels do so for most (kernel/sift.inc), this is the general way: what has to be clipped, is seen nearly
- * edge-on or reaches over more than two pixels or blocks. Both decide the same of what both can. */
+ * Kernels do so for most (kernel/sift.inc), this is the general way: what has to be clipped, is
+ * seen nearly edge-on or reaches over more than two pixels or blocks. Both decide the same of what
+ * both can. */
 #include "stream/chunk.h"
 
 #include "kernel/kernels.h"
@@ -34,18 +35,22 @@ static box box_of(dp_point a, dp_point b, dp_point c) {
 }
 
 static bool is_outside(const box *b, const dp_view *view) {
-    return b->x1 < -DP_SIFT_MARGIN || b->y1 < -DP_SIFT_MARGIN || b->x0 > (float)view->width + DP_SIFT_MARGIN ||
+    return b->x1 < -DP_SIFT_MARGIN || b->y1 < -DP_SIFT_MARGIN ||
+           b->x0 > (float)view->width + DP_SIFT_MARGIN ||
            b->y0 > (float)view->height + DP_SIFT_MARGIN;
 }
 
 /* Well behind the surface in every block around it. */
 static bool is_hidden(const box *b, const dp_chunk_view *v) {
     const float x0 = b->x0 - 1, y0 = b->y0 - 1, x1 = b->x1 + 1, y1 = b->y1 + 1;
-    if (!(x0 >= 0 && y0 >= 0 && x1 < (float)(v->tiles_x * DP_TILE) && y1 < (float)(v->tiles_y * DP_TILE))) return false;
+    if (!(x0 >= 0 && y0 >= 0 && x1 < (float)(v->tiles_x * DP_TILE) &&
+          y1 < (float)(v->tiles_y * DP_TILE)))
+        return false;
     const uint32_t bx0 = (uint32_t)x0 / DP_BLOCK, bx1 = (uint32_t)x1 / DP_BLOCK;
     const uint32_t by0 = (uint32_t)y0 / DP_BLOCK, by1 = (uint32_t)y1 / DP_BLOCK;
     if (bx1 - bx0 > 16 || by1 - by0 > 16) return false;
-    const float nearest = b->nearest + (float)fabs(dp_depth_step(v->view, b->nearest, DP_SIFT_SLACK));
+    const float nearest =
+        b->nearest + (float)fabs(dp_depth_step(v->view, b->nearest, DP_SIFT_SLACK));
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++) {
             const size_t tile = (size_t)(by / DP_BLOCKS) * v->tiles_x + bx / DP_BLOCKS;
@@ -55,16 +60,19 @@ static bool is_hidden(const box *b, const dp_chunk_view *v) {
     return true;
 }
 
-bool dp_triangle_is_hidden(const dp_chunk_view *view, const float *a, const float *b, const float *c) {
+bool dp_triangle_is_hidden(const dp_chunk_view *view, const float *a, const float *b,
+                           const float *c) {
     int outcodes[3];
-    const box at = box_of(place_corner(view->view, a, &outcodes[0]), place_corner(view->view, b, &outcodes[1]),
-                          place_corner(view->view, c, &outcodes[2]));
+    const box at =
+        box_of(place_corner(view->view, a, &outcodes[0]), place_corner(view->view, b, &outcodes[1]),
+               place_corner(view->view, c, &outcodes[2]));
     return !(outcodes[0] | outcodes[1] | outcodes[2]) && is_hidden(&at, view);
 }
 
 /* Does the box hold a sample point? Also true for boxes of more than two pixels' side. */
 static bool holds_sample(const box *b, const dp_sampling *s) {
-    const float x0 = b->x0 - DP_SIFT_ROUNDING, y0 = b->y0 - DP_SIFT_ROUNDING, x1 = b->x1 + DP_SIFT_ROUNDING, y1 = b->y1 + DP_SIFT_ROUNDING;
+    const float x0 = b->x0 - DP_SIFT_ROUNDING, y0 = b->y0 - DP_SIFT_ROUNDING,
+                x1 = b->x1 + DP_SIFT_ROUNDING, y1 = b->y1 + DP_SIFT_ROUNDING;
     const float px0 = floorf(x0), py0 = floorf(y0), px1 = floorf(x1), py1 = floorf(y1);
     if (px1 - px0 > 1 || py1 - py0 > 1) return true;
     const bool single = s->samples == 1;
@@ -72,8 +80,11 @@ static bool holds_sample(const box *b, const dp_sampling *s) {
         for (float px = px0; px <= px1; px++)
             for (uint32_t i = 0; i < s->vectors; i++) {
                 const dp_f4 half = dp_splat(0.5f);
-                const dp_f4 x = dp_splat(px) + (single ? half : s->x[i]), y = dp_splat(py) + (single ? half : s->y[i]);
-                if (dp_any((x >= dp_splat(x0)) & (x <= dp_splat(x1)) & (y >= dp_splat(y0)) & (y <= dp_splat(y1)))) return true;
+                const dp_f4 x = dp_splat(px) + (single ? half : s->x[i]),
+                            y = dp_splat(py) + (single ? half : s->y[i]);
+                if (dp_any((x >= dp_splat(x0)) & (x <= dp_splat(x1)) & (y >= dp_splat(y0)) &
+                           (y <= dp_splat(y1))))
+                    return true;
             }
     return false;
 }
@@ -81,11 +92,14 @@ static bool holds_sample(const box *b, const dp_sampling *s) {
 /* Does the box touch one of the pixels? */
 static bool holds_pixel(const box *b, const dp_chunk_view *v, const uint64_t *pixels) {
     const float w = (float)(v->tiles_x * DP_TILE - 1), h = (float)(v->tiles_y * DP_TILE - 1);
-    const uint32_t x0 = (uint32_t)dp_minf(dp_maxf(b->x0 - DP_SIFT_ROUNDING, 0), w), x1 = (uint32_t)dp_minf(dp_maxf(b->x1 + DP_SIFT_ROUNDING, 0), w);
-    const uint32_t y0 = (uint32_t)dp_minf(dp_maxf(b->y0 - DP_SIFT_ROUNDING, 0), h), y1 = (uint32_t)dp_minf(dp_maxf(b->y1 + DP_SIFT_ROUNDING, 0), h);
+    const uint32_t x0 = (uint32_t)dp_minf(dp_maxf(b->x0 - DP_SIFT_ROUNDING, 0), w),
+                   x1 = (uint32_t)dp_minf(dp_maxf(b->x1 + DP_SIFT_ROUNDING, 0), w);
+    const uint32_t y0 = (uint32_t)dp_minf(dp_maxf(b->y0 - DP_SIFT_ROUNDING, 0), h),
+                   y1 = (uint32_t)dp_minf(dp_maxf(b->y1 + DP_SIFT_ROUNDING, 0), h);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t tile = x0 / DP_TILE; tile <= x1 / DP_TILE; tile++) {
-            const uint64_t row = pixels[((size_t)(y / DP_TILE) * v->tiles_x + tile) * DP_TILE + y % DP_TILE];
+            const uint64_t row =
+                pixels[((size_t)(y / DP_TILE) * v->tiles_x + tile) * DP_TILE + y % DP_TILE];
             const uint32_t from = tile == x0 / DP_TILE ? x0 % DP_TILE : 0;
             const uint32_t to = tile == x1 / DP_TILE ? x1 % DP_TILE : DP_TILE - 1;
             if (row >> from & (~(uint64_t)0 >> (63 - (to - from)))) return true;
@@ -95,7 +109,8 @@ static bool holds_pixel(const box *b, const dp_chunk_view *v, const uint64_t *pi
 
 static box box_of_corners(const float corners[9], const dp_view *view, int *any, int *all) {
     int outcodes[3];
-    const box at = box_of(place_corner(view, corners, &outcodes[0]), place_corner(view, corners + 3, &outcodes[1]),
+    const box at = box_of(place_corner(view, corners, &outcodes[0]),
+                          place_corner(view, corners + 3, &outcodes[1]),
                           place_corner(view, corners + 6, &outcodes[2]));
     *any = outcodes[0] | outcodes[1] | outcodes[2];
     *all = outcodes[0] & outcodes[1] & outcodes[2];
@@ -105,9 +120,11 @@ static box box_of_corners(const float corners[9], const dp_view *view, int *any,
 uint32_t dp_chunk_pixel(const float corners[9], const dp_chunk_view *view) {
     int any, all;
     const box at = box_of_corners(corners, view->view, &any, &all);
-    const uint32_t x = (uint32_t)dp_minf(dp_maxf(at.x0, 0), (float)(view->tiles_x * DP_TILE - 1)); /* NaN gives 0 */
+    const uint32_t x = (uint32_t)dp_minf(dp_maxf(at.x0, 0),
+                                         (float)(view->tiles_x * DP_TILE - 1)); /* NaN gives 0 */
     const uint32_t y = (uint32_t)dp_minf(dp_maxf(at.y0, 0), (float)(view->tiles_y * DP_TILE - 1));
-    return ((y / DP_TILE * view->tiles_x + x / DP_TILE) * DP_TILE + y % DP_TILE) * DP_TILE + x % DP_TILE;
+    return ((y / DP_TILE * view->tiles_x + x / DP_TILE) * DP_TILE + y % DP_TILE) * DP_TILE +
+           x % DP_TILE;
 }
 
 bool dp_edge_may_be_seen(const float *p, const float *q, const dp_view *view) {
@@ -118,7 +135,8 @@ bool dp_edge_may_be_seen(const float *p, const float *q, const dp_view *view) {
     return !is_outside(&at, view);
 }
 
-static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *triangles, const dp_chunk_view *view, dp_stats *stats) {
+static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *triangles,
+                          const dp_chunk_view *view, dp_stats *stats) {
     float corners[9];
     int any, all;
     dp_triangle_corners(triangles, t, corners);
@@ -130,14 +148,16 @@ static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *trian
     }
     if (all || (!any && is_outside(&at, view->view))) return;
     if (view->wanted) { /* few pixels are: this is the sieve that counts then */
-        const uint8_t state = (any || holds_pixel(&at, view, view->wanted) ? DP_TRIANGLE_COVERS : 0) |
-                              (any || holds_pixel(&at, view, view->crowded) ? DP_TRIANGLE_CROWD : 0);
+        const uint8_t state =
+            (any || holds_pixel(&at, view, view->wanted) ? DP_TRIANGLE_COVERS : 0) |
+            (any || holds_pixel(&at, view, view->crowded) ? DP_TRIANGLE_CROWD : 0);
         if (state && (any || !is_hidden(&at, view))) chunk->state[t] = state;
         return;
     }
     if (!any && is_hidden(&at, view)) return;
     uint8_t facing;
-    if (!dp_triangle_facing(view->view, corners, corners + 3, corners + 6, chunk->normal[t], &facing)) {
+    if (!dp_triangle_facing(view->view, corners, corners + 3, corners + 6, chunk->normal[t],
+                            &facing)) {
         stats->dropped_area++;
         return;
     }
@@ -145,12 +165,16 @@ static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *trian
     if (any || holds_sample(&at, &view->sampling)) chunk->state[t] |= DP_TRIANGLE_COVERS;
 }
 
-void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view, dp_stats *stats) {
+void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view,
+                   dp_stats *stats) {
     chunk->count = triangles->count;
     chunk->unsure_count = 0;
-    if (view->wanted) view->kernels->touch(chunk, triangles, view);
-    else view->kernels->sift(chunk, triangles, view);
-    for (uint32_t i = 0; i < chunk->unsure_count; i++) sift_triangle(chunk, chunk->unsure[i], triangles, view, stats);
+    if (view->wanted)
+        view->kernels->touch(chunk, triangles, view);
+    else
+        view->kernels->sift(chunk, triangles, view);
+    for (uint32_t i = 0; i < chunk->unsure_count; i++)
+        sift_triangle(chunk, chunk->unsure[i], triangles, view, stats);
 }
 
 /* ------- maps of pixels ------- */

@@ -1,13 +1,14 @@
 /* Drawing a source that does not fit into memory.
  *
  *   first reading      chunks -> faces into the picture's depth; edges that matter are kept
- *   more readings      only where the order of triangles is such that too many edges wait: a share each
- *   in between         what was kept is a small mesh: its lines are candidates with sample points
- *   second reading     chunks -> triangles over sample points hide them
+ *   more readings      only where the order of triangles is such that too many edges wait: a share
+ * each in between         what was kept is a small mesh: its lines are candidates with sample
+ * points second reading     chunks -> triangles over sample points hide them
  *
- * Then segments and ink are made as ever. Memory is that of the picture (depth, surface, sample points on
- * lines) and that of one part of the source and of what is kept, which are bounded, whatever the length of
- * the source. With one pass, sample points are hidden by the depth of the picture's samples instead. */
+ * Then segments and ink are made as ever. Memory is that of the picture (depth, surface, sample
+ * points on lines) and that of one part of the source and of what is kept, which are bounded,
+ * whatever the length of the source. With one pass, sample points are hidden by the depth of the
+ * picture's samples instead. */
 #include "stream/draw.h"
 
 #include "base/diag.h"
@@ -15,10 +16,17 @@
 
 #include <string.h>
 
-/* What memory is spent on, bytes: per triangle gathered and drawn from memory (positions, vertices, bins);
- * for a chunk of a part (what it leaves, listed, drawn, in the largest tile of each of two workers); per
- * triangle kept (and its part of the mesh, table and lines). */
-enum { GATHERED = 132, PER_CHUNK = 2 << 20, PER_KEPT = 160, CHUNKS_LEAST = DP_TUNED(1, 2), CHUNKS_MOST = DP_TUNED(64, 2), KEPT_LEAST = 65536 };
+/* What memory is spent on, bytes: per triangle gathered and drawn from memory (positions, vertices,
+ * bins); for a chunk of a part (what it leaves, listed, drawn, in the largest tile of each of two
+ * workers); per triangle kept (and its part of the mesh, table and lines). */
+enum {
+    GATHERED = 132,
+    PER_CHUNK = 2 << 20,
+    PER_KEPT = 160,
+    CHUNKS_LEAST = DP_TUNED(1, 2),
+    CHUNKS_MOST = DP_TUNED(64, 2),
+    KEPT_LEAST = 65536
+};
 
 bool dp_stream_is_large(const dp_source *source, size_t memory) {
     return source->records.read && source->records.count > memory / GATHERED;
@@ -42,10 +50,14 @@ void dp_stream_free(dp_stream_draw *s) {
         dp_free(memory, s->rests[i].kept);
         dp_free(memory, s->rests[i].pixels);
     }
-    for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++) dp_free(memory, s->lines[i].candidates);
+    for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++)
+        dp_free(memory, s->lines[i].candidates);
     dp_kept_free(&s->kept);
-    void *const blocks[] = {s->workers, s->rests, s->corners, s->numbers, s->positions, s->edge_flags, s->polygon_numbers,
-                            s->source_polygons, s->crowd, s->away, s->suspects, s->crowded, s->crowd_counts, s->fans, s->fan_slots, s->fan_filter, s->farthest, s->wanted, s->view.maps.words, s->lines};
+    void *const blocks[] = {s->workers,      s->rests,      s->corners,         s->numbers,
+                            s->positions,    s->edge_flags, s->polygon_numbers, s->source_polygons,
+                            s->crowd,        s->away,       s->suspects,        s->crowded,
+                            s->crowd_counts, s->fans,       s->fan_slots,       s->fan_filter,
+                            s->farthest,     s->wanted,     s->view.maps.words, s->lines};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
     dp_free(memory, s);
 }
@@ -90,17 +102,25 @@ static bool make_picture(dp_stream_draw *s) {
     if (!s->crowded || !s->suspects || !s->away || !s->crowd_counts) return false;
     for (size_t i = 0; i < blocks; i++) s->farthest[i] = DP_DEPTH_EMPTY;
     for (size_t i = 0; i < tiles * f->tile_samples; i++) f->depth[i] = DP_DEPTH_EMPTY;
-    if (f->target.normal) memset(f->target.normal, 0, 3 * sizeof(float) * f->target.width * f->target.height);
+    if (f->target.normal)
+        memset(f->target.normal, 0, 3 * sizeof(float) * f->target.width * f->target.height);
     return true;
 }
 
 static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s, dp_diag *diag) {
     const dp_frame *const f = &c->frame;
     const size_t chunks = c->limit / 2 / PER_CHUNK;
-    s->chunks = chunks < CHUNKS_LEAST ? CHUNKS_LEAST : chunks > CHUNKS_MOST ? CHUNKS_MOST : (uint32_t)chunks;
-    const dp_result result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
+    s->chunks = chunks < CHUNKS_LEAST  ? CHUNKS_LEAST
+                : chunks > CHUNKS_MOST ? CHUNKS_MOST
+                                       : (uint32_t)chunks;
+    const dp_result result =
+        dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
     if (result) return result;
-    s->view = (dp_chunk_view){.view = &f->view, .kernels = f->kernels, .tiles_x = f->tiles_x, .tiles_y = f->tiles_y, .flat_cosine = f->flat_cosine};
+    s->view = (dp_chunk_view){.view = &f->view,
+                              .kernels = f->kernels,
+                              .tiles_x = f->tiles_x,
+                              .tiles_y = f->tiles_y,
+                              .flat_cosine = f->flat_cosine};
     if (!(f->lines & (DP_RIDGE | DP_VALLEY))) s->view.flat_cosine = -1;
     dp_sampling_init(&s->view.sampling, f->target.samples);
     s->kept = (dp_kept){.memory = s->memory, .view = &s->view, .shares = 1};
@@ -108,7 +128,8 @@ static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s
     s->kept.limit = (c->limit > parts ? c->limit - parts : 0) / PER_KEPT;
     if (s->kept.limit < KEPT_LEAST) s->kept.limit = KEPT_LEAST;
     s->crowd_limit = s->kept.limit / 2;
-    if (!make_workers(s) || !make_rests(s) || !make_picture(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
+    if (!make_workers(s) || !make_rests(s) || !make_picture(s))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
     s->view.farthest = s->farthest;
     return DP_OK;
 }
@@ -141,7 +162,8 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
 /* First reading, and more where edges were put off. */
 static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
     dp_context *const c = s->context;
-    s->read_again = c->frame.lines && c->frame.styles[0].passes != 1 && dp_source_rewindable(source);
+    s->read_again =
+        c->frame.lines && c->frame.styles[0].passes != 1 && dp_source_rewindable(source);
     s->done = s->read_again ? 0.6 : 0.95;
     dp_result result = open_stream(c, source, s, diag);
     if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);
@@ -153,7 +175,8 @@ static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag)
     return result;
 }
 
-dp_result dp_stream_read_model(dp_context *context, dp_source *source, dp_stream_draw **stream, dp_diag *diag) {
+dp_result dp_stream_read_model(dp_context *context, dp_source *source, dp_stream_draw **stream,
+                               dp_diag *diag) {
     dp_stream_draw *const s = dp_alloc_zeroed(&context->memory, sizeof *s);
     *stream = s;
     if (!s) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a streamed drawing");
@@ -178,8 +201,10 @@ dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {
     const bool lines = s->context->frame.lines;
     if (!dp_stream_find_lines(s) || !dp_stream_choose_crowded(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
-    if (s->read_again && !want_pixels(s)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the second reading");
-    const dp_result result = s->read_again ? dp_stream_read(s, DP_READ_HIDERS, s->done, 0.95, diag) : DP_OK;
+    if (s->read_again && !want_pixels(s))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the second reading");
+    const dp_result result =
+        s->read_again ? dp_stream_read(s, DP_READ_HIDERS, s->done, 0.95, diag) : DP_OK;
     if (result) return result;
     if (lines && (!dp_stream_find_crossings(s) || !dp_stream_collect(s)))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");

@@ -1,8 +1,9 @@
 /* The tiles of a streamed drawing: the ordinary stages, over what a reading has listed or kept.
  *
- * First reading: each list of triangles is drawn into the depth that stays for the whole picture. Then the triangles that were kept are a small mesh whose edge flags mark the
- * edges that matter; its lines are found by the same edge table and by emergence, and their sample points
- * stay with the tiles. Second reading: every triangle that touches a pixel with sample points is rasterized
+ * First reading: each list of triangles is drawn into the depth that stays for the whole picture.
+ * Then the triangles that were kept are a small mesh whose edge flags mark the edges that matter;
+ * its lines are found by the same edge table and by emergence, and their sample points stay with
+ * the tiles. Second reading: every triangle that touches a pixel with sample points is rasterized
  * onto them, so that what is hidden is exactly what the whole model hides.
  *
  * Invariant: frame->polygons is the list at hand while a list is drawn, and what was kept from
@@ -17,14 +18,18 @@ static const float MARGIN = 0.75f; /* px, as in draw.c */
 bool dp_stream_place_polygons(dp_stream_draw *s) {
     dp_context *const c = s->context;
     dp_frame *const f = &c->frame;
-    if (!dp_reserve(s->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count, sizeof *f->vertices)) return false;
+    if (!dp_reserve(s->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count,
+                    sizeof *f->vertices))
+        return false;
     dp_transform_vertices(f);
     return dp_bin_polygons(f, MARGIN, c->bin_workers);
 }
 
 static bool place_list(dp_stream_draw *s) {
-    s->context->frame.polygons = (dp_polygons){.positions = (const float *)s->corners, .stride = 3 * sizeof(float),
-                                               .vertex_count = 3 * s->covering, .count = s->covering};
+    s->context->frame.polygons = (dp_polygons){.positions = (const float *)s->corners,
+                                               .stride = 3 * sizeof(float),
+                                               .vertex_count = 3 * s->covering,
+                                               .count = s->covering};
     return dp_stream_place_polygons(s);
 }
 
@@ -50,8 +55,10 @@ static void put_normals(const dp_tile_worker *w) {
             const uint32_t winner = w->winner[dp_pixel_lane(&w->sampling, x, y)];
             if (winner == UINT32_MAX) continue;
             const dp_tile_polygon *const p = &w->polygons[winner];
-            const dp_vec3 n = dp_scale(dp_polygon_normal(w->frame, p->id), p->flags & DP_POLYGON_FRONT ? 1 : -1);
-            float *const out = target->normal + 3 * ((size_t)(w->tile_y + y) * target->width + w->tile_x + x);
+            const dp_vec3 n =
+                dp_scale(dp_polygon_normal(w->frame, p->id), p->flags & DP_POLYGON_FRONT ? 1 : -1);
+            float *const out =
+                target->normal + 3 * ((size_t)(w->tile_y + y) * target->width + w->tile_x + x);
             out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z;
         }
 }
@@ -68,7 +75,8 @@ static void draw_faces(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_faces(w);
     w->away = NULL;
     for (size_t y = 0; y < DP_BLOCKS; y++)
-        memcpy(s->farthest + ((size_t)tile * DP_BLOCKS + y) * DP_BLOCKS, &w->farthest[0][0][y + 1][1], DP_BLOCKS * sizeof *s->farthest);
+        memcpy(s->farthest + ((size_t)tile * DP_BLOCKS + y) * DP_BLOCKS,
+               &w->farthest[0][0][y + 1][1], DP_BLOCKS * sizeof *s->farthest);
     if (f->target.normal) put_normals(w);
     if (w->watching) dp_stream_note_suspects(s, w, &s->workers[worker]);
 }
@@ -85,10 +93,13 @@ bool dp_stream_draw_faces(dp_stream_draw *s) {
 bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles, size_t count) {
     const size_t first = s->mesh_count, all = first + count;
     dp_polygons *const polygons = &s->context->frame.polygons;
-    if (all >= UINT32_MAX / 4 || !dp_reserve(s->memory, &s->positions, &s->positions_cap, 9 * all, sizeof *s->positions) ||
+    if (all >= UINT32_MAX / 4 ||
+        !dp_reserve(s->memory, &s->positions, &s->positions_cap, 9 * all, sizeof *s->positions) ||
         !dp_reserve(s->memory, &s->edge_flags, &s->flags_cap, 3 * all, 1) ||
-        !dp_reserve(s->memory, &s->polygon_numbers, &s->numbers_cap, all, sizeof *s->polygon_numbers) ||
-        !dp_reserve(s->memory, &s->source_polygons, &s->source_cap, all, sizeof *s->source_polygons))
+        !dp_reserve(s->memory, &s->polygon_numbers, &s->numbers_cap, all,
+                    sizeof *s->polygon_numbers) ||
+        !dp_reserve(s->memory, &s->source_polygons, &s->source_cap, all,
+                    sizeof *s->source_polygons))
         return false;
     for (size_t i = 0; i < count; i++) {
         const dp_kept_triangle *const t = &triangles[i];
@@ -98,8 +109,12 @@ bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles
         s->source_polygons[first + i] = t->polygon;
     }
     s->mesh_count = (uint32_t)all;
-    *polygons = (dp_polygons){.positions = s->positions, .stride = 3 * sizeof(float), .vertex_count = (uint32_t)(3 * all),
-                              .edge_flags = s->edge_flags, .source_polygon = s->source_polygons, .count = (uint32_t)all};
+    *polygons = (dp_polygons){.positions = s->positions,
+                              .stride = 3 * sizeof(float),
+                              .vertex_count = (uint32_t)(3 * all),
+                              .edge_flags = s->edge_flags,
+                              .source_polygon = s->source_polygons,
+                              .count = (uint32_t)all};
     return true;
 }
 
@@ -117,7 +132,8 @@ static void paint_surface(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_worker *const w = &s->context->tile_workers[worker];
     s->context->frame.tile_pieces[tile] = (dp_tile_pieces){.worker = worker};
     dp_tile_open(w, tile);
-    for (size_t i = 0; i < w->frame->tile_samples; i++) w->winner[i] = w->depth[i] == DP_DEPTH_EMPTY ? UINT32_MAX : 0;
+    for (size_t i = 0; i < w->frame->tile_samples; i++)
+        w->winner[i] = w->depth[i] == DP_DEPTH_EMPTY ? UINT32_MAX : 0;
     dp_tile_surface(w);
 }
 
@@ -136,24 +152,27 @@ static void want_pixels(const dp_tile_lines *lines, uint64_t rows[DP_TILE]) {
 }
 
 static bool store_lines(const dp_stream_draw *s, const dp_tile_worker *w, dp_tile_lines *out) {
-    const size_t head = w->candidate_count * sizeof *w->candidates, tail = w->probe_count * sizeof *w->probes;
+    const size_t head = w->candidate_count * sizeof *w->candidates,
+                 tail = w->probe_count * sizeof *w->probes;
     if (!w->candidate_count) return true;
     uint8_t *const block = dp_alloc(s->memory, head + tail);
     if (!block) return false;
     memcpy(block, w->candidates, head);
     memcpy(block + head, w->probes, tail);
-    *out = (dp_tile_lines){(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head), w->candidate_count, w->probe_count};
+    *out = (dp_tile_lines){(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head),
+                           w->candidate_count, w->probe_count};
     return true;
 }
 
-/* When lines were thinned, an edge known to be a line whose other triangle is not there does not emerge (else the
- * other is hidden, and it does); nor does any other when edges were given up, because then its other triangle may
- * be anywhere. */
+/* When lines were thinned, an edge known to be a line whose other triangle is not there does not
+ * emerge (else the other is hidden, and it does); nor does any other when edges were given up,
+ * because then its other triangle may be anywhere. */
 static void drop_halves(const dp_stream_draw *s, dp_tile_worker *w) {
     uint32_t left = 0;
     for (uint32_t i = 0; i < w->loose_count; i++) {
         const dp_loose_edge l = w->loose[i];
-        const bool alone = s->edge_flags[3 * (size_t)w->polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
+        const bool alone =
+            s->edge_flags[3 * (size_t)w->polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
         if (!(alone ? s->waited_in_vain : s->thinned)) w->loose[left++] = l;
     }
     w->loose_count = left;
@@ -194,8 +213,10 @@ static uint32_t place_in_list(const dp_stream_draw *s, uint32_t number) {
     uint32_t lo = 0, hi = s->covering;
     while (hi - lo > 1) {
         const uint32_t mid = lo + (hi - lo) / 2;
-        if (s->numbers[mid] <= number) lo = mid;
-        else hi = mid;
+        if (s->numbers[mid] <= number)
+            lo = mid;
+        else
+            hi = mid;
     }
     return hi && s->numbers[lo] == number ? lo : UINT32_MAX - 1;
 }
@@ -205,7 +226,8 @@ static void renumber_probes(const dp_stream_draw *s, dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->candidate_count; i++) {
         const dp_candidate *const c = &w->candidates[i];
         const uint32_t a = place_in_list(s, s->polygon_numbers[c->a]);
-        const uint32_t b = c->b == UINT32_MAX ? UINT32_MAX - 1 : place_in_list(s, s->polygon_numbers[c->b]);
+        const uint32_t b =
+            c->b == UINT32_MAX ? UINT32_MAX - 1 : place_in_list(s, s->polygon_numbers[c->b]);
         for (uint32_t k = 0; k < c->k1 - c->k0; k++) {
             dp_probe *const p = &w->probes[c->probe + k];
             p->own_a = a, p->own_b = b;
@@ -225,7 +247,8 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_tile_worker *const w = &s->context->tile_workers[worker];
     dp_tile_lines *const lines = &s->lines[tile];
-    if (!lines->candidate_count || !dp_bins_tile_count(&s->context->frame.polygon_bins, tile)) return;
+    if (!lines->candidate_count || !dp_bins_tile_count(&s->context->frame.polygon_bins, tile))
+        return;
     const bool watching = w->watching;
     w->finds_edges = false;
     dp_tile_open(w, tile);

@@ -1,11 +1,13 @@
 /* Inking marks: strokes with texture and a width that varies, over the surface.
  *
- * A chain is one stroke: of its marks, a pixel belongs to the one whose spine is nearest, which gives it u (along) and v
- * (across); so u runs on through joints without a jump. Chains are laid over each other one by one, classes in the order
- * of plain strokes. Coverage is that of plain strokes (ink.c) times the texture's ink.
+ * A chain is one stroke: of its marks, a pixel belongs to the one whose spine is nearest, which
+ * gives it u (along) and v (across); so u runs on through joints without a jump. Chains are laid
+ * over each other one by one, classes in the order of plain strokes. Coverage is that of plain
+ * strokes (ink.c) times the texture's ink.
  *
- * Marks that lie outside (extruded silhouettes, Hermosilla and Vázquez 2010, 2.3) have v = 0 on the spine and 1 at their width
- * outside. Between two of them lies a sector around their common point, so that there are no gaps at any width. */
+ * Marks that lie outside (extruded silhouettes, Hermosilla and Vázquez 2010, 2.3) have v = 0 on the
+ * spine and 1 at their width outside. Between two of them lies a sector around their common point,
+ * so that there are no gaps at any width. */
 #include "strokes/mark.h"
 
 #include "pipe/blend.h"
@@ -35,8 +37,8 @@ static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects
 }
 
 bool dp_bin_marks(dp_frame *frame) {
-    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->mark_count, frame->tiles_x, frame->tiles_y, place, NULL,
-                        frame, frame->threads, frame->memory);
+    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->mark_count, frame->tiles_x,
+                        frame->tiles_y, place, NULL, frame, frame->threads, frame->memory);
 }
 
 /* Where a pixel lies on a mark. */
@@ -59,7 +61,8 @@ static float overlap(float x, float low, float high) {
 /* False where it is out of the mark's reach. */
 static bool find_spot(const dp_mark *m, float x, float y, spot *s) {
     const dp_point a = m->stroke.a, b = m->stroke.b;
-    const float ex = b.x - a.x, ey = b.y - a.y, length2 = m->length * m->length, reach = m->stroke.half_width + 0.5f;
+    const float ex = b.x - a.x, ey = b.y - a.y, length2 = m->length * m->length,
+                reach = m->stroke.half_width + 0.5f;
     s->along = length2 > 0 ? ((x - a.x) * ex + (y - a.y) * ey) / length2 : 0;
     s->t = clamp01(s->along);
     const float dx = x - a.x - s->t * ex, dy = y - a.y - s->t * ey, distance2 = dx * dx + dy * dy;
@@ -82,7 +85,8 @@ static bool starts(const dp_mark *m) { return m->before[0] == 0 && m->before[1] 
 /* The sector at the joint with the mark before: beyond that one's end, before this one's start. */
 static bool in_joint(const dp_mark *m, float dx, float dy) {
     if (starts(m)) return false;
-    return m->before[0] * dx + m->before[1] * dy >= -0.5f && m->length > 0 && m->middle[0] * dx + m->middle[1] * dy > 0;
+    return m->before[0] * dx + m->before[1] * dy >= -0.5f && m->length > 0 &&
+           m->middle[0] * dx + m->middle[1] * dy > 0;
 }
 
 static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
@@ -103,7 +107,8 @@ static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
         s->v = s->distance / width;
         return;
     }
-    const float ends = dp_minf(clamp01(1.75f - ahead), clamp01(1.75f - past)); /* marks of a chain overlap a little */
+    const float ends = dp_minf(clamp01(1.75f - ahead),
+                               clamp01(1.75f - past)); /* marks of a chain overlap a little */
     s->cover = ends * overlap(out, INSIDE, width);
     s->v = dp_maxf(out, 0) / width;
 }
@@ -114,17 +119,18 @@ static float u_at(const dp_mark *m, const spot *s) {
     return m->arc[0] + (m->arc[1] - m->arc[0]) * along;
 }
 
-/* The distance by which dp_visible_share lets a surface come nearer and still not hide the stroke. Around a line's end no further
- * than at the end itself, or a thin arc of its round end would stand out over what hides the rest of it. And where
- * outlines lie outside, they do not cover what stands out beside a crease that runs under one: less all along. */
+/* The distance by which dp_visible_share lets a surface come nearer and still not hide the stroke.
+ * Around a line's end no further than at the end itself, or a thin arc of its round end would stand
+ * out over what hides the rest of it. And where outlines lie outside, they do not cover what stands
+ * out beside a crease that runs under one: less all along. */
 static float trusted_distance(const brush *b, const dp_mark *m, const spot *s) {
     const bool beyond = (s->along < 0 && starts(m)) || (s->along > 1 && m->ends);
     return (beyond ? dp_minf(s->distance, 1) : s->distance) * (b->outlines_outside ? 0.375f : 1);
 }
 
-/* Share of the pixel's samples over which extruded ink shows: those that fall away behind the outline, by at least an
- * eighth of a pixel size per px. What is merely beside it on the same surface, as around a hidden fold of a
- * single triangle, does not. */
+/* Share of the pixel's samples over which extruded ink shows: those that fall away behind the
+ * outline, by at least an eighth of a pixel size per px. What is merely beside it on the same
+ * surface, as around a hidden fold of a single triangle, does not. */
 static float beyond_share(const brush *b, const dp_mark *m, const spot *s, uint32_t x, uint32_t y) {
     if (!b->depth) return 1;
     const uint32_t samples = b->frame->target.samples;
@@ -146,19 +152,25 @@ static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32
     const bool set = w->row[py] >> px & 1;
     const size_t at = py * DP_TILE + px;
     if (!m->outside && set && s.distance >= w->nearest[at]) return;
-    if (m->outside && !m->core) cover_outside(m, &s, fx, fy);
-    else cover_centred(m, &s);
+    if (m->outside && !m->core)
+        cover_outside(m, &s, fx, fy);
+    else
+        cover_centred(m, &s);
     if (!(s.cover > 0)) return;
     if (m->core) s.v = 0;
     const float rank = m->outside ? s.distance + 1000 * (1 - s.cover) : s.distance;
     if (set && rank >= w->nearest[at]) return;
-    s.cover *= m->outside && !m->core ? beyond_share(b, m, &s, x, y)
-                          : dp_visible_share(b->frame, b->depth, b->x0, b->y0, &m->stroke, x, y, s.t, trusted_distance(b, m, &s));
+    s.cover *= m->outside && !m->core
+                   ? beyond_share(b, m, &s, x, y)
+                   : dp_visible_share(b->frame, b->depth, b->x0, b->y0, &m->stroke, x, y, s.t,
+                                      trusted_distance(b, m, &s));
     if (!(s.cover > 0)) return;
     dp_color color = m->stroke.color;
     if (b->style->texture) {
         const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(m, &s), s.v);
-        s.cover *= t.ink < least_ink(m) ? 0 : t.ink; /* discarded, it is this mark's pixel all the same, no other's */
+        s.cover *= t.ink < least_ink(m)
+                       ? 0
+                       : t.ink; /* discarded, it is this mark's pixel all the same, no other's */
         if (b->style->texture->coloured)
             color = DP_RGB((uint32_t)(t.r + 0.5f), (uint32_t)(t.g + 0.5f), (uint32_t)(t.b + 0.5f));
     }
@@ -175,10 +187,13 @@ static uint32_t clamp_to(float v, uint32_t lo, uint32_t hi) {
 static void cover(const brush *b, const dp_mark *m) {
     const dp_stroke *const k = &m->stroke;
     const float r = k->half_width + 1;
-    const uint32_t y0 = clamp_to(dp_minf(k->a.y, k->b.y) - r, b->y0, b->y1), y1 = clamp_to(dp_maxf(k->a.y, k->b.y) + r + 1, b->y0, b->y1);
-    const uint32_t x0 = clamp_to(dp_minf(k->a.x, k->b.x) - r, b->x0, b->x1), x1 = clamp_to(dp_maxf(k->a.x, k->b.x) + r + 1, b->x0, b->x1);
+    const uint32_t y0 = clamp_to(dp_minf(k->a.y, k->b.y) - r, b->y0, b->y1),
+                   y1 = clamp_to(dp_maxf(k->a.y, k->b.y) + r + 1, b->y0, b->y1);
+    const uint32_t x0 = clamp_to(dp_minf(k->a.x, k->b.x) - r, b->x0, b->x1),
+                   x1 = clamp_to(dp_maxf(k->a.x, k->b.x) + r + 1, b->x0, b->x1);
     const dp_texture *const texture = b->style->texture;
-    const uint32_t level = texture ? dp_texture_level(texture, m->outside ? k->half_width : 2 * k->half_width) : 0;
+    const uint32_t level =
+        texture ? dp_texture_level(texture, m->outside ? k->half_width : 2 * k->half_width) : 0;
     for (uint32_t y = y0; y < y1; y++)
         for (uint32_t x = x0; x < x1; x++) cover_pixel(b, m, level, x, y);
 }
@@ -191,7 +206,8 @@ static void flush(const brush *b, dp_line line) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits), x = b->x0 + px, y = b->y0 + py;
             const size_t at = py * DP_TILE + px;
             if (target->rgba)
-                dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, w->color[at], w->coverage[at]);
+                dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x,
+                         w->color[at], w->coverage[at]);
             if (target->line_class && w->coverage[at] >= 0.5f)
                 target->line_class[(size_t)y * target->width + x] = (uint8_t)(1 + line);
         }
@@ -222,9 +238,15 @@ void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) 
     if (!count) return;
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
-    const brush b = {.frame = frame, .worker = worker, .style = &frame->styles[0].stroke, .outlines_outside = dp_lies_outside(frame),
-                     .depth = frame->tile_pieces[tile].bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
-                     .x0 = x0, .y0 = y0,
+    const brush b = {.frame = frame,
+                     .worker = worker,
+                     .style = &frame->styles[0].stroke,
+                     .outlines_outside = dp_lies_outside(frame),
+                     .depth = frame->tile_pieces[tile].bare
+                                  ? NULL
+                                  : frame->depth + (size_t)tile * frame->tile_samples,
+                     .x0 = x0,
+                     .y0 = y0,
                      .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                      .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);

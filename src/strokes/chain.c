@@ -1,8 +1,10 @@
 /* Chaining segments by equal ends.
  *
- * Data structure: a segment has two ends, 2 i at a and 2 i + 1 at b. A hash table over the ends' bits puts ends that are
- * one node into a list; in each node ends are mated in pairs, straightest first. A chain is then a walk from mate
- * to mate. Ends that are left over are then mated over small gaps, nearest first, found in a grid. Invariant: mate[mate[e]] == e. The order of everything comes from the segments' order, never from the hash. */
+ * Data structure: a segment has two ends, 2 i at a and 2 i + 1 at b. A hash table over the ends'
+ * bits puts ends that are one node into a list; in each node ends are mated in pairs, straightest
+ * first. A chain is then a walk from mate to mate. Ends that are left over are then mated over
+ * small gaps, nearest first, found in a grid. Invariant: mate[mate[e]] == e. The order of
+ * everything comes from the segments' order, never from the hash. */
 #include "strokes/chain.h"
 
 #include <stdlib.h>
@@ -14,7 +16,8 @@ typedef struct chaining {
     const dp_stroke *strokes;
     const dp_chain_rule *rule;
     uint32_t count;
-    uint32_t *slots, *next, *mate, *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
+    uint32_t *slots, *next, *mate,
+        *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
     size_t slot_count;
 } chaining;
 
@@ -41,7 +44,8 @@ static uint32_t node_hash(const chaining *c, uint32_t end) {
     const dp_point p = end_point(c, end);
     uint32_t bits[3];
     memcpy(bits, &p, sizeof bits);
-    uint32_t h = bits[0] * 0x9e3779b1u ^ bits[1] * 0x85ebca77u ^ bits[2] * 0xc2b2ae3du ^ c->strokes[end / 2].line;
+    uint32_t h = bits[0] * 0x9e3779b1u ^ bits[1] * 0x85ebca77u ^ bits[2] * 0xc2b2ae3du ^
+                 c->strokes[end / 2].line;
     h ^= h >> 15, h *= 0x2c1b3c6du;
     return h ^ h >> 13;
 }
@@ -66,7 +70,9 @@ static float straightness(const chaining *c, uint32_t e, uint32_t f) {
     return length > 0 ? (ax * bx + ay * by) / length : 1;
 }
 
-static int8_t side_at(const chaining *c, uint32_t end) { return c->rule->side ? c->rule->side[end / 2] : 0; }
+static int8_t side_at(const chaining *c, uint32_t end) {
+    return c->rule->side ? c->rule->side[end / 2] : 0;
+}
 
 static bool may_join(const chaining *c, uint32_t e, uint32_t f) {
     if (e / 2 == f / 2) return false;
@@ -84,7 +90,9 @@ static void mate_node(const chaining *c, uint32_t first) {
         uint32_t p = NONE, q = NONE;
         for (uint32_t i = 0; i < n; i++)
             for (uint32_t k = i + 1; k < n; k++) {
-                if (c->mate[ends[i]] != NONE || c->mate[ends[k]] != NONE || !may_join(c, ends[i], ends[k])) continue;
+                if (c->mate[ends[i]] != NONE || c->mate[ends[k]] != NONE ||
+                    !may_join(c, ends[i], ends[k]))
+                    continue;
                 const float s = straightness(c, ends[i], ends[k]);
                 if (s > best) best = s, p = ends[i], q = ends[k];
             }
@@ -130,11 +138,13 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
     const dp_point p = end_point(c, e), q = end_point(c, f);
     *distance = hypotf(q.x - p.x, q.y - p.y);
-    return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) && fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
+    return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) &&
+           fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
            may_join(c, e, f);
 }
 
-static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory, dp_chain_store *store, size_t *n) {
+static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory,
+                          dp_chain_store *store, size_t *n) {
     const dp_point p = end_point(c, e);
     const int32_t x = cell_of(c, p.x), y = cell_of(c, p.y);
     for (int32_t k = 0; k < 9; k++) {
@@ -142,7 +152,9 @@ static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *mem
         for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->next[f]) {
             float distance;
             if (f <= e || !may_bridge(c, e, f, &distance)) continue;
-            if (!dp_reserve(memory, &store->bridges, &store->bridges_cap, *n + 1, sizeof *store->bridges)) return false;
+            if (!dp_reserve(memory, &store->bridges, &store->bridges_cap, *n + 1,
+                            sizeof *store->bridges))
+                return false;
             store->bridges[(*n)++] = (bridge){distance, e, f};
         }
     }
@@ -169,14 +181,16 @@ static bool bridge_gaps(const chaining *c, const dp_allocator *memory, dp_chain_
     if (n) qsort(store->bridges, n, sizeof *store->bridges, by_distance);
     for (size_t i = 0; i < n; i++) {
         const uint32_t e = store->bridges[i].e, f = store->bridges[i].f;
-        if (c->mate[e] == NONE && c->mate[f] == NONE && !closes_short(c, e, f)) c->mate[e] = f, c->mate[f] = e;
+        if (c->mate[e] == NONE && c->mate[f] == NONE && !closes_short(c, e, f))
+            c->mate[e] = f, c->mate[f] = e;
     }
     return true;
 }
 
 /* ------- walking ------- */
 
-/* The end at which the chain through a segment begins; that of the segment itself where it is closed. */
+/* The end at which the chain through a segment begins; that of the segment itself where it is
+ * closed. */
 static uint32_t find_start(const chaining *c, uint32_t segment, bool *closed) {
     uint32_t end = 2 * segment; /* going backwards, out of a */
     *closed = false;
@@ -190,7 +204,8 @@ static uint32_t find_start(const chaining *c, uint32_t segment, bool *closed) {
     return end;
 }
 
-static void walk(const chaining *c, uint32_t start, dp_chain_store *store, dp_chain *chain, uint32_t *links) {
+static void walk(const chaining *c, uint32_t start, dp_chain_store *store, dp_chain *chain,
+                 uint32_t *links) {
     uint32_t end = start;
     for (;;) {
         store->links[(*links)++] = (dp_link){end / 2, end & 1};
@@ -202,12 +217,13 @@ static void walk(const chaining *c, uint32_t start, dp_chain_store *store, dp_ch
     }
 }
 
-bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule, const dp_allocator *memory,
-                    dp_chain_store *store) {
+bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule,
+                    const dp_allocator *memory, dp_chain_store *store) {
     chaining c = {.strokes = strokes, .rule = rule, .count = count, .slot_count = 64};
     while (c.slot_count < 4 * (size_t)count) c.slot_count *= 2;
     store->chain_count = 0;
-    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap, c.slot_count + 5 * (size_t)count, sizeof(uint32_t)) ||
+    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap, c.slot_count + 5 * (size_t)count,
+                    sizeof(uint32_t)) ||
         !dp_reserve(memory, &store->links, &store->links_cap, count, sizeof *store->links) ||
         !dp_reserve(memory, &store->chains, &store->chains_cap, count, sizeof *store->chains))
         return false;

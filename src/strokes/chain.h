@@ -18,7 +18,7 @@ typedef struct dp_chain {
 typedef struct dp_chain_store {
     dp_link *links;
     dp_chain *chains;
-    uint32_t *scratch; /* slots, ends by node, mates */
+    uint32_t *scratch;         /* slots, ends by node, mates */
     struct dp_bridge *bridges; /* chain.c */
     size_t links_cap, chains_cap, scratch_cap, bridges_cap;
     uint32_t chain_count;
@@ -26,19 +26,21 @@ typedef struct dp_chain_store {
 
 /* What may be joined. */
 typedef struct dp_chain_rule {
-    float sharpest;     /* cosine of the largest turn at which a chain goes on; with a side: any */
-    float gap;          /* px over which loose ends are joined all the same: outlines of fine meshes are full of holes */
+    float sharpest; /* cosine of the largest turn at which a chain goes on; with a side: any */
+    float gap; /* px over which loose ends are joined all the same: outlines of fine meshes are full
+                  of holes */
     float side_gap;     /* the same for segments with a side, at most `gap` */
     float step;         /* as far in depth d as that, at most */
-    const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must stay on one
-                           side of a chain. 0: it has none. All of a class have one, or none has.
-                           NULL: none at all */
+    const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must
+                           stay on one side of a chain. 0: it has none. All of a class have one, or
+                           none has. NULL: none at all */
 } dp_chain_rule;
 
-/* Chains strokes[count] where ends of one class and colour are equal, bit for bit, then over small gaps. Where more than two meet, the
- * straightest pairs go on. Chains come in the order of their first segments. False when memory is out. */
-bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule, const dp_allocator *memory,
-                    dp_chain_store *store);
+/* Chains strokes[count] where ends of one class and colour are equal, bit for bit, then over small
+ * gaps. Where more than two meet, the straightest pairs go on. Chains come in the order of their
+ * first segments. False when memory is out. */
+bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule,
+                    const dp_allocator *memory, dp_chain_store *store);
 void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory);
 
 #endif

@@ -1,12 +1,14 @@
 /* The hand: from chains of segments to marks.
  *
- * Each chain is walked once per repeat. Its spine is taken up at even distances, smoothed where it is ragged and not
- * where it has a corner, moved off by jitter, run on by overshoot; then each pair of points is a mark, with the width
- * that taper, depth and light leave and with u from the length so far. A closed chain's texture is stretched to fit a
- * whole number of times, so that it has no seam.
+ * Each chain is walked once per repeat. Its spine is taken up at even distances, smoothed where it
+ * is ragged and not where it has a corner, moved off by jitter, run on by overshoot; then each pair
+ * of points is a mark, with the width that taper, depth and light leave and with u from the length
+ * so far. A closed chain's texture is stretched to fit a whole number of times, so that it has no
+ * seam.
  *
- * Errors of the hand are noise over the arc length, seeded by the style's seed, the repeat, and the polygon at which
- * the chain begins: nothing depends on threads or on what else is in the picture. */
+ * Errors of the hand are noise over the arc length, seeded by the style's seed, the repeat, and the
+ * polygon at which the chain begins: nothing depends on threads or on what else is in the picture.
+ */
 #include "strokes/mark.h"
 
 #include "pipe/fringe.h"
@@ -15,12 +17,13 @@
 #include "texture/texture.h"
 
 enum { SMOOTHINGS = 3 };
-static const float GAP = 4;          /* px; smaller holes in an outline are rounding, or a fold of a single triangle */
-static const float CORNER = 0.77f;   /* cosine: sharper turns than 40 degrees are meant, and stay */
-static const float TURN = -0.7f;     /* chains do not go on at turns above 135 degrees */
-static const float BREAK = 0.34f;    /* at corners of more than 70 degrees the pen is lifted */
-static const float SWELL = 0.4f;     /* px of width per px of an extruded outline's length */
-static const float CORE = 0.6f;     /* px, half the width of the edges themselves under extruded ink */
+static const float GAP =
+    4; /* px; smaller holes in an outline are rounding, or a fold of a single triangle */
+static const float CORNER = 0.77f; /* cosine: sharper turns than 40 degrees are meant, and stay */
+static const float TURN = -0.7f;   /* chains do not go on at turns above 135 degrees */
+static const float BREAK = 0.34f;  /* at corners of more than 70 degrees the pen is lifted */
+static const float SWELL = 0.4f;   /* px of width per px of an extruded outline's length */
+static const float CORE = 0.6f; /* px, half the width of the edges themselves under extruded ink */
 static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
 
 typedef struct dp_hand_point {
@@ -38,14 +41,12 @@ void dp_mark_store_free(dp_mark_store *s, const dp_allocator *memory) {
     *s = (dp_mark_store){0};
 }
 
-bool dp_lies_outside(const dp_frame *f) {
-    return f->adjacency && f->styles[0].ink == DP_INK_QUADS;
-}
+bool dp_lies_outside(const dp_frame *f) { return f->adjacency && f->styles[0].ink == DP_INK_QUADS; }
 
 bool dp_is_by_hand(const dp_frame *f) {
     const dp_stroke_style *const s = &f->styles[0].stroke;
-    return dp_lies_outside(f) || s->texture || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 || s->depth > 0 ||
-           s->light > 0 || s->repeats > 1;
+    return dp_lies_outside(f) || s->texture || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
+           s->depth > 0 || s->light > 0 || s->repeats > 1;
 }
 
 /* ------- noise ------- */
@@ -56,7 +57,9 @@ static uint32_t hash(uint32_t a, uint32_t b) {
     return h ^ h >> 15;
 }
 
-static float random_at(uint32_t i, uint32_t seed) { return (float)(hash(i, seed) >> 8) / 8388608.0f - 1; }
+static float random_at(uint32_t i, uint32_t seed) {
+    return (float)(hash(i, seed) >> 8) / 8388608.0f - 1;
+}
 
 /* Smooth, in [-1, 1], about one swing per unit. */
 static float noise(float t, uint32_t seed) {
@@ -72,7 +75,7 @@ typedef struct hand {
     dp_mark_store *store;
     const dp_piece *pieces;
     const dp_stroke_style *style;
-    bool outside; /* the line that is being drawn lies beside its spine */
+    bool outside;            /* the line that is being drawn lies beside its spine */
     float nearest, farthest; /* distances of all lines */
     double nearest_depth;    /* d of the nearest */
 } hand;
@@ -85,7 +88,9 @@ typedef struct run {
     bool closed;
 } run;
 
-static const dp_link *link_at(const run *r, uint32_t i) { return &r->links[(r->first + i) % r->total]; }
+static const dp_link *link_at(const run *r, uint32_t i) {
+    return &r->links[(r->first + i) % r->total];
+}
 static dp_point link_start(const dp_frame *f, const dp_link *l) {
     return l->reversed ? f->strokes[l->segment].b : f->strokes[l->segment].a;
 }
@@ -95,7 +100,8 @@ static dp_point link_end(const dp_frame *f, const dp_link *l) {
 
 static bool add_point(hand *h, size_t *n, dp_point p, uint32_t segment) {
     dp_mark_store *const s = h->store;
-    if (!dp_reserve(h->frame->memory, &s->points, &s->points_cap, *n + 1, sizeof *s->points)) return false;
+    if (!dp_reserve(h->frame->memory, &s->points, &s->points_cap, *n + 1, sizeof *s->points))
+        return false;
     s->points[(*n)++] = (hand_point){p.x, p.y, p.d, 0, segment};
     return true;
 }
@@ -105,8 +111,8 @@ static float cosine(float ax, float ay, float bx, float by) {
     return length > 0 ? (ax * bx + ay * by) / length : 1;
 }
 
-/* Points along the chain, each at least `spacing` from the last and no further than that within a segment: what zigzags
- * within that distance does so no more. Where long segments meet always. */
+/* Points along the chain, each at least `spacing` from the last and no further than that within a
+ * segment: what zigzags within that distance does so no more. Where long segments meet always. */
 static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
     const dp_frame *const f = h->frame;
     dp_point last = {0, 0, 0};
@@ -114,7 +120,8 @@ static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
     for (uint32_t i = 0; i < chain->count; i++) {
         const dp_link *const link = link_at(chain, i);
         const dp_point p = link_start(f, link), q = link_end(f, link);
-        const float dx = q.x - p.x, dy = q.y - p.y, step = hypotf(dx, dy), from_last = hypotf(p.x - last.x, p.y - last.y);
+        const float dx = q.x - p.x, dy = q.y - p.y, step = hypotf(dx, dy),
+                    from_last = hypotf(p.x - last.x, p.y - last.y);
         if (i == 0 || from_last >= (step > 2 * spacing ? spacing / 4 : spacing)) {
             if (!add_point(h, n, p, link->segment)) return false;
             last = p;
@@ -147,7 +154,8 @@ static float measure(hand_point *p, size_t n) {
 static void smooth(hand_point *p, size_t n, bool closed) {
     for (int pass = 0; pass < SMOOTHINGS; pass++) {
         float x = p[0].x, y = p[0].y;
-        const float seam_x = (p[n - 2].x + 2 * x + p[1].x) / 4, seam_y = (p[n - 2].y + 2 * y + p[1].y) / 4;
+        const float seam_x = (p[n - 2].x + 2 * x + p[1].x) / 4,
+                    seam_y = (p[n - 2].y + 2 * y + p[1].y) / 4;
         for (size_t i = 1; i + 1 < n; i++) {
             const float cx = p[i].x, cy = p[i].y, nx = p[i + 1].x, ny = p[i + 1].y;
             if (cosine(cx - x, cy - y, nx - cx, ny - cy) >= CORNER)
@@ -158,7 +166,8 @@ static void smooth(hand_point *p, size_t n, bool closed) {
     }
 }
 
-/* Off the line, square to it: a slow sway and a small tremble. Ends of closed chains stay together. */
+/* Off the line, square to it: a slow sway and a small tremble. Ends of closed chains stay together.
+ */
 static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) {
     if (!(by > 0)) return;
     float x = p[0].x, y = p[0].y;
@@ -167,7 +176,8 @@ static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) 
         const hand_point *const next = &p[i + 1 < n ? i + 1 : i];
         const float dx = next->x - x, dy = next->y - y, step = hypotf(dx, dy);
         const float hold = closed ? dp_minf(1, dp_minf(p[i].arc, length - p[i].arc) / 20) : 1;
-        const float off = by * hold * (0.8f * noise(p[i].arc / 45, seed) + 0.3f * noise(p[i].arc / 11, seed + 1));
+        const float off =
+            by * hold * (0.8f * noise(p[i].arc / 45, seed) + 0.3f * noise(p[i].arc / 11, seed + 1));
         x = p[i].x, y = p[i].y;
         if (step > 0) p[i].x -= dy / step * off, p[i].y += dx / step * off;
     }
@@ -190,7 +200,8 @@ static float light_of(const dp_frame *f, const dp_piece *piece) {
     const dp_vec3 right = dp_unit(dp_v3(v->clip[0][0], v->clip[0][1], v->clip[0][2]));
     const dp_vec3 up = dp_unit(dp_v3(v->clip[1][0], v->clip[1][1], v->clip[1][2]));
     const dp_vec3 side = dp_sub(right, dp_scale(v->forward, dp_dot(right, v->forward)));
-    const dp_vec3 to_light = dp_unit(dp_add(dp_add(dp_scale(dp_unit(side), -0.6), dp_scale(up, 0.7)), dp_scale(v->forward, -0.4)));
+    const dp_vec3 to_light = dp_unit(dp_add(
+        dp_add(dp_scale(dp_unit(side), -0.6), dp_scale(up, 0.7)), dp_scale(v->forward, -0.4)));
     dp_vec3 n = dp_polygon_normal(f, piece->a);
     if (piece->b != UINT32_MAX) n = dp_add(n, dp_polygon_normal(f, piece->b));
     return (float)dp_max(0, dp_dot(dp_unit(n), to_light));
@@ -200,8 +211,10 @@ static void find_distances(hand *h) {
     h->nearest = INFINITY, h->farthest = -INFINITY, h->nearest_depth = (double)DP_DEPTH_EMPTY;
     for (size_t i = 0; i < h->frame->segment_count; i++) {
         const float a = h->frame->segments[i].a[2], b = h->frame->segments[i].b[2];
-        h->nearest = dp_minf(h->nearest, dp_minf(a, b)), h->farthest = dp_maxf(h->farthest, dp_maxf(a, b));
-        h->nearest_depth = dp_max(h->nearest_depth, (double)dp_maxf(h->frame->strokes[i].a.d, h->frame->strokes[i].b.d));
+        h->nearest = dp_minf(h->nearest, dp_minf(a, b)),
+        h->farthest = dp_maxf(h->farthest, dp_maxf(a, b));
+        h->nearest_depth = dp_max(
+            h->nearest_depth, (double)dp_maxf(h->frame->strokes[i].a.d, h->frame->strokes[i].b.d));
     }
 }
 
@@ -215,12 +228,15 @@ static float width_at(const hand *h, const hand_point *p, float length, bool clo
     const dp_stroke_style *const s = h->style;
     float share = 1;
     if (s->taper > 0 && !closed && length > 0) {
-        const float reach = dp_minf(s->taper, length / 2), from_end = dp_minf(p->arc, length - p->arc);
+        const float reach = dp_minf(s->taper, length / 2),
+                    from_end = dp_minf(p->arc, length - p->arc);
         share *= THINNEST + (1 - THINNEST) * ramp(from_end / reach);
     }
     if (s->depth > 0 && h->farthest > h->nearest) {
         const float distance = (float)dp_distance(&h->frame->view, (double)p->d);
-        share *= 1 - s->depth * dp_minf(dp_maxf((distance - h->nearest) / (h->farthest - h->nearest), 0), 1);
+        share *=
+            1 -
+            s->depth * dp_minf(dp_maxf((distance - h->nearest) / (h->farthest - h->nearest), 0), 1);
     }
     if (s->light > 0) share *= 1 - s->light * h->store->lights[p->segment];
     return dp_maxf(share, 0.05f);
@@ -228,53 +244,71 @@ static float width_at(const hand *h, const hand_point *p, float length, bool clo
 
 /* ------- marks ------- */
 
-/* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that begin where the texture
- * does end where it does, so that no dot is cut, for a stretch of an eighth at most. */
+/* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that
+ * begin where the texture does end where it does, so that no dot is cut, for a stretch of an eighth
+ * at most. */
 static float repeats_per_px(const hand *h, float width, float length, bool closed) {
     if (!h->style->texture) return 0;
     const float period = dp_texture_period(h->style->texture, width) * h->style->scale;
-    if (length < (closed ? 0.5f : 4) * period || (!closed && h->style->jitter > 0)) return 1 / period;
+    if (length < (closed ? 0.5f : 4) * period || (!closed && h->style->jitter > 0))
+        return 1 / period;
     return floorf(length / period + 0.5f) / length;
 }
 
 static void set_directions(dp_mark *m, const hand_point *before, bool outside, float side) {
-    const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y, e = hypotf(ex, ey);
+    const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y,
+                e = hypotf(ex, ey);
     m->length = e;
     if (outside && e > 0) m->outward[0] = -ey / e * side, m->outward[1] = ex / e * side;
     if (!before) return;
     const float bx = m->stroke.a.x - before->x, by = m->stroke.a.y - before->y, b = hypotf(bx, by);
     if (b > 0) m->before[0] = bx / b, m->before[1] = by / b;
-    m->middle[0] = m->outward[0] - m->before[1] * side, m->middle[1] = m->outward[1] + m->before[0] * side;
+    m->middle[0] = m->outward[0] - m->before[1] * side,
+    m->middle[1] = m->outward[1] + m->before[0] * side;
 }
 
-/* u by the polar formula at a point, in turns; whole turns are added so that it lies within half a turn of `near`. */
+/* u by the polar formula at a point, in turns; whole turns are added so that it lies within half a
+ * turn of `near`. */
 static float polar_at(const hand *h, dp_point p, float near) {
     const dp_frame *const f = h->frame;
     const double half = f->view.height / 2;
-    const double u = dp_stroke_polar((p.x - f->centre[0]) / half, (f->centre[1] - p.y) / half, (double)h->style->k);
+    const double u = dp_stroke_polar((p.x - f->centre[0]) / half, (f->centre[1] - p.y) / half,
+                                     (double)h->style->k);
     return (float)(u - floor(u - (double)near + 0.5));
 }
 
-/* With its core, extruded ink is as wide as asked, and hardly wider than what it lies along is long: fine meshes are full of folds of a few triangles. */
-static float outside_width(float full, float length) { return dp_maxf(dp_minf(full, 1.5f + SWELL * length) - CORE, 0.25f); }
+/* With its core, extruded ink is as wide as asked, and hardly wider than what it lies along is
+ * long: fine meshes are full of folds of a few triangles. */
+static float outside_width(float full, float length) {
+    return dp_maxf(dp_minf(full, 1.5f + SWELL * length) - CORE, 0.25f);
+}
 
-static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_t id, uint32_t seed) {
+static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_t id,
+                      uint32_t seed) {
     dp_mark_store *const s = h->store;
     const hand_point *const p = s->points;
-    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + n, sizeof *s->marks)) return false;
+    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + n, sizeof *s->marks))
+        return false;
     const dp_link *const head = link_at(chain, 0);
     const dp_stroke *const first = &h->frame->strokes[head->segment];
-    const float full = h->outside ? outside_width(2 * first->half_width, length) : first->half_width;
+    const float full =
+        h->outside ? outside_width(2 * first->half_width, length) : first->half_width;
     const float per_px = repeats_per_px(h, 2 * first->half_width, length, chain->closed);
-    const float start = h->style->jitter > 0 && !chain->closed ? 0.5f + 0.5f * random_at(7, seed) : 0;
+    const float start =
+        h->style->jitter > 0 && !chain->closed ? 0.5f + 0.5f * random_at(7, seed) : 0;
     const bool polar = h->style->texture && h->style->u == DP_STROKE_POLAR;
     const float turns = polar ? dp_polar_repeats(h->frame, h->style, 2 * first->half_width) : 0;
-    const float side = h->outside ? (float)(s->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
+    const float side =
+        h->outside ? (float)(s->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
     for (size_t i = 0; i + 1 < n; i++) {
         const bool closed = chain->closed;
         dp_mark *const m = &s->marks[s->count++];
-        *m = (dp_mark){.stroke = h->frame->strokes[p[i].segment], .chain = id, .outside = h->outside, .ends = i + 2 == n && !chain->closed};
-        m->stroke.a = (dp_point){p[i].x, p[i].y, p[i].d}, m->stroke.b = (dp_point){p[i + 1].x, p[i + 1].y, p[i + 1].d};
+        *m = (dp_mark){.stroke = h->frame->strokes[p[i].segment],
+                       .chain = id,
+                       .outside = h->outside,
+                       .ends = i + 2 == n && !chain->closed};
+        m->stroke.a = (dp_point){p[i].x, p[i].y, p[i].d},
+        m->stroke.b = (dp_point){p[i + 1].x, p[i + 1].y, p[i + 1].d};
         m->half[0] = full * width_at(h, &p[i], length, closed);
         m->half[1] = full * width_at(h, &p[i + 1], length, closed);
         m->stroke.half_width = dp_maxf(m->half[0], m->half[1]);
@@ -298,19 +332,27 @@ static float raw_length(const hand *h, const run *r) {
     return sum;
 }
 
-/* Extruded ink lies beside points taken at a distance; the edges themselves are inked as they are, thinly, so that none is
- * lost between two points or on a surface that hardly falls away. u is that of the marks, by the share of the length. */
+/* Extruded ink lies beside points taken at a distance; the edges themselves are inked as they are,
+ * thinly, so that none is lost between two points or on a surface that hardly falls away. u is that
+ * of the marks, by the share of the length. */
 static bool add_core(hand *h, const run *r, size_t first_mark, uint32_t id) {
     dp_mark_store *const s = h->store;
-    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + r->count, sizeof *s->marks)) return false;
+    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + r->count,
+                    sizeof *s->marks))
+        return false;
     const bool any = s->count > first_mark;
-    const float from = any ? s->marks[first_mark].arc[0] : 0, to = any ? s->marks[s->count - 1].arc[1] : 0;
+    const float from = any ? s->marks[first_mark].arc[0] : 0,
+                to = any ? s->marks[s->count - 1].arc[1] : 0;
     const float total = raw_length(h, r);
     float arc = 0;
     for (uint32_t i = 0; i < r->count && total > 0; i++) {
         const dp_link *const l = link_at(r, i);
         dp_mark *const m = &s->marks[s->count++];
-        *m = (dp_mark){.stroke = h->frame->strokes[l->segment], .chain = id, .outside = true, .core = true, .half = {CORE, CORE}};
+        *m = (dp_mark){.stroke = h->frame->strokes[l->segment],
+                       .chain = id,
+                       .outside = true,
+                       .core = true,
+                       .half = {CORE, CORE}};
         m->stroke.a = link_start(h->frame, l), m->stroke.b = link_end(h->frame, l);
         m->stroke.half_width = CORE;
         m->length = hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
@@ -326,8 +368,10 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
     const dp_link *const head = link_at(chain, 0);
     const dp_piece *const piece = &h->pieces[head->segment];
     const uint32_t seed = hash(hash(s->seed * 8 + repeat, piece->a), piece->edge * 4 + piece->line);
-    const float spacing = dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 4 : 5);
-    const float quarter = dp_maxf(raw_length(h, chain) / 4, 0.25f); /* a small ring is more than a point */
+    const float spacing =
+        dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 4 : 5);
+    const float quarter =
+        dp_maxf(raw_length(h, chain) / 4, 0.25f); /* a small ring is more than a point */
     size_t n;
     if (!take_points(h, chain, dp_minf(spacing, quarter), &n)) return false;
     hand_point *const p = h->store->points;
@@ -336,7 +380,8 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
         smooth(p, n, chain->closed);
         measure(p, n);
         sway(p, n, s->jitter + (repeat ? 0.8f : 0), seed, chain->closed);
-        if (s->overshoot > 0 && !chain->closed) overshoot(p, n, s->overshoot * (repeat ? 1 + 0.5f * random_at(3, seed) : 1));
+        if (s->overshoot > 0 && !chain->closed)
+            overshoot(p, n, s->overshoot * (repeat ? 1 + 0.5f * random_at(3, seed) : 1));
         length = measure(p, n);
     }
     const size_t first = h->store->count;
@@ -346,11 +391,12 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
     return true;
 }
 
-/* Does the pen stop before link i? Where two segments that are long on the screen make a corner. What is short may
- * zigzag as it likes. */
+/* Does the pen stop before link i? Where two segments that are long on the screen make a corner.
+ * What is short may zigzag as it likes. */
 static bool is_cut(const hand *h, const run *r, uint32_t i) {
     const dp_link *const l = link_at(r, i + r->total - 1), *const m = link_at(r, i);
-    const dp_point a = link_start(h->frame, l), b = link_end(h->frame, l), c = link_start(h->frame, m), d = link_end(h->frame, m);
+    const dp_point a = link_start(h->frame, l), b = link_end(h->frame, l),
+                   c = link_start(h->frame, m), d = link_end(h->frame, m);
     const float least = 4 + 2 * h->frame->strokes[m->segment].half_width;
     if (hypotf(b.x - a.x, b.y - a.y) < least || hypotf(d.x - c.x, d.y - c.y) < least) return false;
     return cosine(b.x - a.x, b.y - a.y, d.x - c.x, d.y - c.y) < BREAK;
@@ -359,7 +405,10 @@ static bool is_cut(const hand *h, const run *r, uint32_t i) {
 /* A chain's runs, each as often as the style says. */
 static bool draw_chain(hand *h, const dp_chain *chain, uint32_t *id) {
     h->outside = h->store->sides[h->store->chains.links[chain->first].segment];
-    run r = {.links = h->store->chains.links + chain->first, .total = chain->count, .count = chain->count, .closed = chain->closed};
+    run r = {.links = h->store->chains.links + chain->first,
+             .total = chain->count,
+             .count = chain->count,
+             .closed = chain->closed};
     const uint32_t repeats = h->outside ? 1 : h->style->repeats;
     for (uint32_t i = 0; !h->outside && r.closed && i < r.total; i++)
         if (is_cut(h, &r, i)) r.first = i, r.closed = false;
@@ -379,7 +428,8 @@ static int8_t side_of(const hand *h, size_t i) {
     const dp_stroke *const k = &h->frame->strokes[i];
     double out[2] = {0, 0};
     if (!dp_lies_outside(h->frame) || !(1u << k->line & DP_OUTLINES)) return 0;
-    dp_find_outside(h->frame, h->pieces[i].a, (dp_pointd){k->a.x, k->a.y, 0}, (dp_pointd){k->b.x, k->b.y, 0}, out);
+    dp_find_outside(h->frame, h->pieces[i].a, (dp_pointd){k->a.x, k->a.y, 0},
+                    (dp_pointd){k->b.x, k->b.y, 0}, out);
     return (k->b.x - k->a.x) * out[1] - (k->b.y - k->a.y) * out[0] < 0 ? -1 : 1;
 }
 
@@ -407,9 +457,14 @@ bool dp_make_marks(dp_frame *frame, const dp_piece *pieces, dp_mark_store *store
     store->count = 0;
     if (!look_at_segments(&h)) return false;
     find_distances(&h);
-    const dp_chain_rule rule = {.sharpest = TURN, .side = store->sides, .gap = GAP, .side_gap = gap_outside(frame),
+    const dp_chain_rule rule = {.sharpest = TURN,
+                                .side = store->sides,
+                                .gap = GAP,
+                                .side_gap = gap_outside(frame),
                                 .step = (float)dp_depth_step(&frame->view, h.nearest_depth, 30)};
-    if (!dp_make_chains(frame->strokes, (uint32_t)frame->segment_count, &rule, frame->memory, &store->chains)) return false;
+    if (!dp_make_chains(frame->strokes, (uint32_t)frame->segment_count, &rule, frame->memory,
+                        &store->chains))
+        return false;
     uint32_t id = 0;
     for (uint32_t c = 0; c < store->chains.chain_count; c++)
         if (!draw_chain(&h, &store->chains.chains[c], &id)) return false;

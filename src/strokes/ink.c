@@ -1,15 +1,15 @@
 /* Inking strokes: round-ended capsules with analytic anti-aliasing, over the surface.
  *
- * Coverage of a pixel is the overlap of a one pixel wide box, moved across the stroke, with the stroke's
- * width: exact for straight strokes, and the same on both sides of a joint. Strokes of one class and
- * colour are united by the largest coverage, so that joints of many short segments show no seams; then
- * each class is laid over the picture in the order of dp_layers.
+ * Coverage of a pixel is the overlap of a one pixel wide box, moved across the stroke, with the
+ * stroke's width: exact for straight strokes, and the same on both sides of a joint. Strokes of one
+ * class and colour are united by the largest coverage, so that joints of many short segments show
+ * no seams; then each class is laid over the picture in the order of dp_layers.
  *
- * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke the
- * surface may come nearer (a valley's sides) and still belong to it; and what lies behind the planes of the
- * polygons that meet at the spine does, as a rounded outline does. It is cut so where outlines are drawn, at
- * which it then ends; where they are not, a cut without a line to end at looks like a defect, and strokes
- * end round. */
+ * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke
+ * the surface may come nearer (a valley's sides) and still belong to it; and what lies behind the
+ * planes of the polygons that meet at the spine does, as a rounded outline does. It is cut so where
+ * outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
+ * looks like a defect, and strokes end round. */
 #include "strokes/stroke.h"
 
 #include "kernel/kernels.h"
@@ -20,15 +20,19 @@
 
 /* From the bottom up: where lines cross, outlines lie over creases. */
 const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
-                                              DP_LINE_BORDER, DP_LINE_SILHOUETTE};
+                                          DP_LINE_BORDER, DP_LINE_SILHOUETTE};
 
 dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
     const float r = s->half_width + 1;
     const float x0 = dp_minf(s->a.x, s->b.x) - r, x1 = dp_maxf(s->a.x, s->b.x) + r;
     const float y0 = dp_minf(s->a.y, s->b.y) - r, y1 = dp_maxf(s->a.y, s->b.y) + r;
     if (!(x1 > x0 && y1 > y0)) return (dp_tile_rect){0};
-    return (dp_tile_rect){(int16_t)floorf(x0 / DP_TILE), (int16_t)floorf(y0 / DP_TILE),
-                          (int16_t)(floorf(x1 / DP_TILE) + 1), (int16_t)(floorf(y1 / DP_TILE) + 1), 0, 0};
+    return (dp_tile_rect){(int16_t)floorf(x0 / DP_TILE),
+                          (int16_t)floorf(y0 / DP_TILE),
+                          (int16_t)(floorf(x1 / DP_TILE) + 1),
+                          (int16_t)(floorf(y1 / DP_TILE) + 1),
+                          0,
+                          0};
 }
 
 static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
@@ -52,7 +56,8 @@ static bool touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, u
     (void)worker;
     float t;
     const float half = DP_TILE * 0.5f;
-    const float d = distance_to(s, ((float)tile_x + 0.5f) * DP_TILE, ((float)tile_y + 0.5f) * DP_TILE, &t);
+    const float d =
+        distance_to(s, ((float)tile_x + 0.5f) * DP_TILE, ((float)tile_y + 0.5f) * DP_TILE, &t);
     return d <= half * 1.4143f + s->half_width + 1;
 }
 
@@ -74,7 +79,8 @@ typedef struct tile_ink {
 static float share_behind(const float *depth, uint32_t samples, float limit) {
     if (samples == 1) return *depth <= limit;
     dp_i4 sum = {0, 0, 0, 0};
-    for (uint32_t i = 0; i < samples; i += 4) sum -= *(const dp_f4 *)(const void *)(depth + i) <= dp_splat(limit);
+    for (uint32_t i = 0; i < samples; i += 4)
+        sum -= *(const dp_f4 *)(const void *)(depth + i) <= dp_splat(limit);
     return (float)(sum[0] + sum[1] + sum[2] + sum[3]) / (float)samples;
 }
 
@@ -82,8 +88,8 @@ static const float *depth_of(const float *tile_depth, uint32_t px, uint32_t py, 
     return tile_depth + (size_t)(py * DP_TILE + px) * samples;
 }
 
-float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0, const dp_stroke *s,
-                       uint32_t x, uint32_t y, float t, float distance) {
+float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0,
+                       const dp_stroke *s, uint32_t x, uint32_t y, float t, float distance) {
     if (!tile_depth || !(frame->lines & DP_SILHOUETTE)) return 1;
     const uint32_t samples = frame->target.samples;
     const float limit = dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, t, distance);
@@ -91,20 +97,23 @@ float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t 
 }
 
 /* Pixel i of what was covered, at (px, py) in the tile. */
-static inline void cover_pixel(const tile_ink *ink, uint32_t px, uint32_t py, const dp_coverage_patch *patch, uint32_t i) {
+static inline void cover_pixel(const tile_ink *ink, uint32_t px, uint32_t py,
+                               const dp_coverage_patch *patch, uint32_t i) {
     dp_ink_worker *const w = ink->worker;
     const bool set = w->row[py] >> px & 1;
     float *const held = &w->coverage[py * DP_TILE + px];
     if (set && *held >= patch->share[i]) return;
     const uint32_t samples = ink->frame->target.samples;
     float c = patch->share[i];
-    if (ink->hides) c *= share_behind(depth_of(ink->depth, px, py, samples), samples, patch->limit[i]);
+    if (ink->hides)
+        c *= share_behind(depth_of(ink->depth, px, py, samples), samples, patch->limit[i]);
     if (c <= 0 || (set && *held >= c)) return;
     *held = c;
     w->row[py] |= (uint64_t)1 << px;
 }
 
-/* Columns of row y that the stroke can reach: the part of the spine within r of the row, widened by r. */
+/* Columns of row y that the stroke can reach: the part of the spine within r of the row, widened by
+ * r. */
 static bool row_span(const dp_stroke *s, float y, float r, float *x0, float *x1) {
     const float ey = s->b.y - s->a.y;
     float t0 = 0, t1 = 1;
@@ -129,8 +138,9 @@ static void find_rows(const tile_ink *ink, const dp_stroke *s, uint32_t *y0, uin
     *y1 = clamp_to(dp_maxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
 }
 
-/* Asks for the samples under a stroke, of which most are short: so many pixels of each row, as far apart as a line of the
- * cache at four samples a pixel. They lie scattered, and long ago they were drawn. */
+/* Asks for the samples under a stroke, of which most are short: so many pixels of each row, as far
+ * apart as a line of the cache at four samples a pixel. They lie scattered, and long ago they were
+ * drawn. */
 static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
     enum { APART = 4, MOST = 4 };
     uint32_t y0, y1;
@@ -140,7 +150,8 @@ static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
     const uint32_t from = x0 / APART, to = x1 / APART < from + MOST ? x1 / APART : from + MOST - 1;
     for (uint32_t y = y0; y < y1; y++)
         for (uint32_t k = from; k <= to; k++)
-            __builtin_prefetch(depth_of(ink->depth, k * APART - ink->x0, y - ink->y0, ink->frame->target.samples));
+            __builtin_prefetch(
+                depth_of(ink->depth, k * APART - ink->x0, y - ink->y0, ink->frame->target.samples));
 }
 
 static void cover_rows(const tile_ink *ink, const dp_stroke *s, uint32_t y0, uint32_t y1) {
@@ -148,10 +159,12 @@ static void cover_rows(const tile_ink *ink, const dp_stroke *s, uint32_t y0, uin
     for (uint32_t y = y0; y < y1; y++) {
         float from, to;
         if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;
-        const uint32_t x0 = clamp_to(from, ink->x0, ink->x1), x1 = clamp_to(to + 1, ink->x0, ink->x1);
+        const uint32_t x0 = clamp_to(from, ink->x0, ink->x1),
+                       x1 = clamp_to(to + 1, ink->x0, ink->x1);
         if (x0 >= x1) continue;
         dp_coverage_patch row;
-        for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits; bits &= bits - 1) {
+        for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits;
+             bits &= bits - 1) {
             const uint32_t i = (uint32_t)__builtin_ctzll(bits);
             cover_pixel(ink, x0 + i - ink->x0, y - ink->y0, &row, i);
         }
@@ -171,7 +184,9 @@ static void cover(const tile_ink *ink, const dp_stroke *s) {
     }
     dp_coverage_patch patch;
     const uint64_t columns = (((uint64_t)1 << (x1 - x0)) - 1) * 0x0101010101010101u;
-    for (uint64_t bits = columns & ink->frame->kernels->cover_patch(ink->frame, s, x0, y0, y1 - y0, &patch); bits; bits &= bits - 1) {
+    for (uint64_t bits =
+             columns & ink->frame->kernels->cover_patch(ink->frame, s, x0, y0, y1 - y0, &patch);
+         bits; bits &= bits - 1) {
         const uint32_t i = (uint32_t)__builtin_ctzll(bits);
         cover_pixel(ink, x0 - ink->x0 + i % DP_PATCH, y0 - ink->y0 + i / DP_PATCH, &patch, i);
     }
@@ -185,7 +200,8 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);
             const uint32_t x = ink->x0 + px, y = ink->y0 + py;
             const float c = ink->worker->coverage[py * DP_TILE + px];
-            if (target->rgba) dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, color, c);
+            if (target->rgba)
+                dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, color, c);
             if (target->line_class && c >= 0.5f)
                 target->line_class[(size_t)y * target->width + x] = (uint8_t)(1 + line);
         }
@@ -237,10 +253,12 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
     const bool bare = frame->tile_pieces[tile].bare;
-    const tile_ink ink = {.frame = frame, .worker = worker,
+    const tile_ink ink = {.frame = frame,
+                          .worker = worker,
                           .depth = bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
                           .hides = !bare && frame->lines & DP_SILHOUETTE,
-                          .x0 = x0, .y0 = y0,
+                          .x0 = x0,
+                          .y0 = y0,
                           .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                           .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);

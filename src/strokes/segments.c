@@ -1,9 +1,9 @@
 /* From the tiles' pieces to visible feature segments.
  *
- * A piece is a run of sample points [k0, k1) of an edge's spine. Where a spine crosses a tile border
- * its run continues in the neighbour with the next number: such open pieces are sorted by edge and
- * joined. All others are segments as they are. The order (tile by tile, then the joined ones by polygon)
- * does not depend on threads. */
+ * A piece is a run of sample points [k0, k1) of an edge's spine. Where a spine crosses a tile
+ * border its run continues in the neighbour with the next number: such open pieces are sorted by
+ * edge and joined. All others are segments as they are. The order (tile by tile, then the joined
+ * ones by polygon) does not depend on threads. */
 #include "strokes/mark.h"
 #include "strokes/stroke.h"
 
@@ -37,30 +37,35 @@ static int by_edge(const void *left, const void *right) {
 }
 
 static bool continues(const dp_piece *p, const dp_piece *q) {
-    return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line && p->k1 == q->k0;
+    return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line &&
+           p->k1 == q->k0;
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
-static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers, dp_stroke_store *store,
-                        size_t *count) {
+static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
+                        dp_stroke_store *store, size_t *count) {
     const uint32_t tiles = frame->tiles_x * frame->tiles_y;
     size_t total = 0, closed = 0, open;
     for (uint32_t t = 0; t < tiles; t++) total += frame->tile_pieces[t].count;
-    if (!dp_reserve(frame->memory, &store->pieces, &store->pieces_cap, total, sizeof *store->pieces))
+    if (!dp_reserve(frame->memory, &store->pieces, &store->pieces_cap, total,
+                    sizeof *store->pieces))
         return false;
     open = total;
     for (uint32_t t = 0; t < tiles; t++) {
         const dp_tile_pieces *const list = &frame->tile_pieces[t];
-        const dp_piece *const pieces = list->count ? workers[list->worker].pieces + list->first : NULL;
+        const dp_piece *const pieces =
+            list->count ? workers[list->worker].pieces + list->first : NULL;
         for (size_t i = 0; i < list->count; i++)
             store->pieces[pieces[i].open ? --open : closed++] = pieces[i];
     }
-    if (total > closed) qsort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
+    if (total > closed)
+        qsort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
     size_t last = closed;
     for (size_t i = closed; i < total; i++) {
         if (i > closed && continues(&store->pieces[last - 1], &store->pieces[i]))
             store->pieces[last - 1].k1 = store->pieces[i].k1;
-        else store->pieces[last++] = store->pieces[i];
+        else
+            store->pieces[last++] = store->pieces[i];
     }
     /* chains begin and run by the order of their segments, which must not depend on tiles */
     if (dp_is_by_hand(frame) && last) qsort(store->pieces, last, sizeof *store->pieces, by_edge);
@@ -69,11 +74,14 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers, dp
 }
 
 /* The world point a share u along the spine as seen on the screen. */
-static dp_pointd spine_point(const dp_spine *spine, double u) { return dp_point_mix(spine->a, spine->b, u); }
+static dp_pointd spine_point(const dp_spine *spine, double u) {
+    return dp_point_mix(spine->a, spine->b, u);
+}
 
 static void store_end(const dp_frame *frame, dp_pointd p, float screen[3], float world[3]) {
     const dp_vec3 q = dp_unproject(&frame->view, p);
-    screen[0] = (float)p.x, screen[1] = (float)p.y, screen[2] = (float)dp_distance(&frame->view, p.d);
+    screen[0] = (float)p.x, screen[1] = (float)p.y,
+    screen[2] = (float)dp_distance(&frame->view, p.d);
     world[0] = (float)q.x, world[1] = (float)q.y, world[2] = (float)q.z;
 }
 
@@ -81,8 +89,8 @@ static void store_end(const dp_frame *frame, dp_pointd p, float screen[3], float
 static void screen_plane(const dp_view *view, dp_vec3 at, dp_vec3 n, float plane[3]) {
     const double c = dp_dot(n, at);
     const dp_vec3 o = view->corner, x = view->across, y = view->down;
-    /* perspective: rays from the eye, d = n·ray / (c - n·eye); orthographic: o lies at d = 1 and the
-     * plane is met after (c - n·o) / n·forward */
+    /* perspective: rays from the eye, d = n·ray / (c - n·eye); orthographic: o lies at d = 1 and
+     * the plane is met after (c - n·o) / n·forward */
     const double under = view->perspective ? c - dp_dot(n, view->eye) : dp_dot(n, view->forward);
     const double over = view->perspective ? dp_dot(n, dp_sub(o, view->eye)) : dp_dot(n, o) - c;
     plane[0] = (float)(over / under) + (view->perspective ? 0 : 1);
@@ -96,8 +104,10 @@ typedef struct bones {
     dp_vec3 normal[2]; /* of the piece's polygons */
 } bones;
 
-static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t *va, uint32_t *vb) {
-    const uint32_t first = dp_first_corner(polygons, piece->a), n = dp_corner_count(polygons, piece->a);
+static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t *va,
+                    uint32_t *vb) {
+    const uint32_t first = dp_first_corner(polygons, piece->a),
+                   n = dp_corner_count(polygons, piece->a);
     *va = dp_corner_vertex(polygons, first + piece->edge);
     *vb = dp_corner_vertex(polygons, first + (piece->edge + 1) % n);
 }
@@ -110,7 +120,8 @@ static bones find_bones(const dp_frame *frame, const dp_piece *piece) {
     if (piece->edge != DP_CROSSING) {
         uint32_t va, vb;
         edge_of(polygons, piece, &va, &vb);
-        (void)dp_spine_ends(&frame->view, dp_v3f(dp_vertex_position(polygons, va)), dp_v3f(dp_vertex_position(polygons, vb)), &out.spine);
+        (void)dp_spine_ends(&frame->view, dp_v3f(dp_vertex_position(polygons, va)),
+                            dp_v3f(dp_vertex_position(polygons, vb)), &out.spine);
     } else if (dp_crossing_find(frame, piece->a, piece->b, &a, &b, &normal)) {
         (void)dp_spine_ends(&frame->view, a, b, &out.spine);
     }
@@ -120,7 +131,8 @@ static bones find_bones(const dp_frame *frame, const dp_piece *piece) {
 }
 
 /* The same of up to DP_FOLDS pieces: of edges of triangles, many at once. */
-static void find_many_bones(const dp_frame *frame, const dp_piece *pieces, uint32_t count, dp_fold_batch *f, bones out[DP_FOLDS]) {
+static void find_many_bones(const dp_frame *frame, const dp_piece *pieces, uint32_t count,
+                            dp_fold_batch *f, bones out[DP_FOLDS]) {
     const dp_polygons *const polygons = &frame->polygons;
     bool put[DP_FOLDS];
     for (uint32_t i = 0; i < count; i++) {
@@ -133,8 +145,10 @@ static void find_many_bones(const dp_frame *frame, const dp_piece *pieces, uint3
     }
     frame->kernels->folds(&frame->view, f, count);
     for (uint32_t i = 0; i < count; i++)
-        out[i] = put[i] && f->plain[i] != 0 ? (bones){dp_fold_spine(f, i), {dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i)}}
-                                             : find_bones(frame, &pieces[i]);
+        out[i] = put[i] && f->plain[i] != 0
+                     ? (bones){dp_fold_spine(f, i),
+                               {dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i)}}
+                     : find_bones(frame, &pieces[i]);
 }
 
 static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
@@ -142,25 +156,33 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
     return frame->polygons.source_polygon ? frame->polygons.source_polygon[polygon] : polygon;
 }
 
-static void make_segment(const dp_frame *frame, const dp_piece *piece, const bones *found, dp_segment *segment, dp_stroke *stroke) {
+static void make_segment(const dp_frame *frame, const dp_piece *piece, const bones *found,
+                         dp_segment *segment, dp_stroke *stroke) {
     const dp_style *const style = dp_polygon_style(frame, piece->a);
     const dp_line_style *const line = &style->line[piece->line];
     const dp_pointd a = spine_point(&found->spine, (double)piece->k0 / piece->n);
     const dp_pointd b = spine_point(&found->spine, (double)piece->k1 / piece->n);
-    *segment = (dp_segment){.line = (dp_line)piece->line, .polygon = source_number(frame, piece->a),
-                            .other = source_number(frame, piece->b), .edge = piece->edge,
-                            .width = line->width, .color = line->color};
+    *segment = (dp_segment){.line = (dp_line)piece->line,
+                            .polygon = source_number(frame, piece->a),
+                            .other = source_number(frame, piece->b),
+                            .edge = piece->edge,
+                            .width = line->width,
+                            .color = line->color};
     store_end(frame, a, segment->a, segment->world_a);
     store_end(frame, b, segment->b, segment->world_b);
-    *stroke = (dp_stroke){.a = {(float)a.x, (float)a.y, (float)a.d}, .b = {(float)b.x, (float)b.y, (float)b.d},
-                          .half_width = line->width / 2, .color = line->color, .line = piece->line};
+    *stroke = (dp_stroke){.a = {(float)a.x, (float)a.y, (float)a.d},
+                          .b = {(float)b.x, (float)b.y, (float)b.d},
+                          .half_width = line->width / 2,
+                          .color = line->color,
+                          .line = piece->line};
     const uint32_t polygons[2] = {piece->a, piece->b};
     const dp_vec3 at = dp_unproject(&frame->view, a);
     for (int i = 0; i < 2; i++) {
         stroke->plane[i][0] = NAN;
         if (polygons[i] == UINT32_MAX) continue;
         const bool back = dp_dot(found->normal[i], dp_view_vector(&frame->view, at)) >= 0;
-        if (back && piece->line == DP_LINE_SILHOUETTE) continue; /* it leads towards the eye outside */
+        if (back && piece->line == DP_LINE_SILHOUETTE)
+            continue; /* it leads towards the eye outside */
         screen_plane(&frame->view, at, found->normal[i], stroke->plane[i]);
     }
 }
@@ -183,7 +205,9 @@ static void ask_for_piece(const job *j, size_t piece, ask *ask_for) {
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     const dp_stroke_store *const store = j->store;
-    const size_t first = (size_t)index * BLOCK, end = first + BLOCK < j->frame->segment_count ? first + BLOCK : j->frame->segment_count;
+    const size_t first = (size_t)index * BLOCK, end = first + BLOCK < j->frame->segment_count
+                                                          ? first + BLOCK
+                                                          : j->frame->segment_count;
     dp_fold_batch folds = {0};
     bones found[DP_FOLDS];
     (void)worker;
@@ -194,7 +218,9 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
             ask_for_piece(j, i, dp_ask_for_positions);
         }
         find_many_bones(j->frame, &store->pieces[at], n, &folds, found);
-        for (uint32_t i = 0; i < n; i++) make_segment(j->frame, &store->pieces[at + i], &found[i], &store->segments[at + i], &store->strokes[at + i]);
+        for (uint32_t i = 0; i < n; i++)
+            make_segment(j->frame, &store->pieces[at + i], &found[i], &store->segments[at + i],
+                         &store->strokes[at + i]);
     }
 }
 
@@ -202,8 +228,10 @@ bool dp_make_segments(dp_frame *frame, const dp_tile_worker *workers, dp_stroke_
     size_t count;
     if (!join_pieces(frame, workers, store, &count)) return false;
     if (count > UINT32_MAX ||
-        !dp_reserve(frame->memory, &store->segments, &store->segments_cap, count, sizeof *store->segments) ||
-        !dp_reserve(frame->memory, &store->strokes, &store->strokes_cap, count, sizeof *store->strokes))
+        !dp_reserve(frame->memory, &store->segments, &store->segments_cap, count,
+                    sizeof *store->segments) ||
+        !dp_reserve(frame->memory, &store->strokes, &store->strokes_cap, count,
+                    sizeof *store->strokes))
         return false;
     frame->segments = store->segments;
     frame->strokes = store->strokes;

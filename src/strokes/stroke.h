@@ -10,31 +10,36 @@ typedef struct dp_stroke {
     float half_width;  /* px */
     float plane[2][3]; /* d0, dx, dy of the polygons that meet at the spine; NaN: none */
     dp_color color;
-    uint8_t line;      /* dp_line */
+    uint8_t line; /* dp_line */
 } dp_stroke;
 
-/* How near a surface may come to a stroke without hiding it: depth, at (x, y) on the screen, `distance` px beside the
- * spine's point t. It may be nearer than the spine, in pixel sizes, by
+/* How near a surface may come to a stroke without hiding it: depth, at (x, y) on the screen,
+ * `distance` px beside the spine's point t. It may be nearer than the spine, in pixel sizes, by
  *
  *     2 + 8 distance + sqrt(picture height * distance), the last of outlines alone:
  *
- * sides that rise by up to eight to one, and outlines that curve towards the eye with a radius of up to half the
- * picture (a circle rises by sqrt(2 r x)). And it may lie behind one of the stroke's own polygons, carried on over the
- * pixel; where that is steep, behind its depth at the pixel's nearest part. A NaN for no polygon. */
-static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, float x, float y, float t, float distance) {
-    const float spine = s->a.d + (s->b.d - s->a.d) * t, step = fabsf(spine) * frame->step_scale + frame->step_offset;
-    const float rounded = s->line == DP_LINE_SILHOUETTE ? sqrtf((float)frame->view.height * distance) : 0;
+ * sides that rise by up to eight to one, and outlines that curve towards the eye with a radius of
+ * up to half the picture (a circle rises by sqrt(2 r x)). And it may lie behind one of the stroke's
+ * own polygons, carried on over the pixel; where that is steep, behind its depth at the pixel's
+ * nearest part. A NaN for no polygon. */
+static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, float x, float y,
+                                    float t, float distance) {
+    const float spine = s->a.d + (s->b.d - s->a.d) * t,
+                step = fabsf(spine) * frame->step_scale + frame->step_offset;
+    const float rounded =
+        s->line == DP_LINE_SILHOUETTE ? sqrtf((float)frame->view.height * distance) : 0;
     float limit = spine + step * (2 + 8 * distance + rounded);
     for (int i = 0; i < 2; i++) {
         const float *const p = s->plane[i];
-        const float own = p[0] + p[1] * x + p[2] * y + 0.5f * (fabsf(p[1]) + fabsf(p[2])) + 2 * step;
+        const float own =
+            p[0] + p[1] * x + p[2] * y + 0.5f * (fabsf(p[1]) + fabsf(p[2])) + 2 * step;
         limit = dp_maxf(own, limit);
     }
     return limit;
 }
 
-/* Pixels of a tile beside a stroke, of a row or of DP_PATCH rows of as many: the share of each that it covers, and
- * dp_stroke_limit there. Kernels write whole vectors. */
+/* Pixels of a tile beside a stroke, of a row or of DP_PATCH rows of as many: the share of each that
+ * it covers, and dp_stroke_limit there. Kernels write whole vectors. */
 typedef struct dp_coverage_patch {
     float share[64 + 16], limit[64 + 16];
 } dp_coverage_patch;
@@ -53,7 +58,8 @@ typedef struct dp_stroke_store {
 void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory);
 
 struct dp_tile_worker;
-bool dp_make_segments(dp_frame *frame, const struct dp_tile_worker *workers, dp_stroke_store *store);
+bool dp_make_segments(dp_frame *frame, const struct dp_tile_worker *workers,
+                      dp_stroke_store *store);
 
 /* Strokes to tiles. False when memory is out. */
 bool dp_bin_strokes(dp_frame *frame);
@@ -67,8 +73,8 @@ dp_tile_rect dp_stroke_rect(const dp_stroke *stroke);
 /* Inks one tile over what the target holds already. */
 typedef struct dp_ink_worker {
     float coverage[64 * 64];
-    uint64_t row[64]; /* pixels of `coverage` that are set */
-    float nearest[64 * 64];    /* brush.c: px from the spine; colour */
+    uint64_t row[64];       /* pixels of `coverage` that are set */
+    float nearest[64 * 64]; /* brush.c: px from the spine; colour */
     dp_color color[64 * 64];
     uint32_t *strokes;
     size_t strokes_cap;
@@ -77,10 +83,10 @@ typedef struct dp_ink_worker {
 /* Which strokes a tile holds, into worker->strokes. False when memory is out. */
 bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile, size_t *count);
 
-/* Share of the samples of pixel (x, y) that do not hide the stroke, `distance` px beside its spine's point t.
- * `tile_depth`: the samples of the tile at (x0, y0); NULL: there is no surface. */
-float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0, const dp_stroke *stroke,
-                       uint32_t x, uint32_t y, float t, float distance);
+/* Share of the samples of pixel (x, y) that do not hide the stroke, `distance` px beside its
+ * spine's point t. `tile_depth`: the samples of the tile at (x0, y0); NULL: there is no surface. */
+float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0,
+                       const dp_stroke *stroke, uint32_t x, uint32_t y, float t, float distance);
 
 void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile);
 

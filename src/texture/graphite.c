@@ -1,7 +1,8 @@
 /* The texture of pencil rendering: many strokes along u on grained paper, made by rule.
  *
- * Each stroke is a soft line that wanders a little, drawn together with its image under half a turn: the texture is
- * the same upside down, since the directions that it is laid along have no sign. It repeats in both directions. */
+ * Each stroke is a soft line that wanders a little, drawn together with its image under half a
+ * turn: the texture is the same upside down, since the directions that it is laid along have no
+ * sign. It repeats in both directions. */
 #include "texture/graphite.h"
 
 #include <math.h>
@@ -28,10 +29,12 @@ static void darken(float *values, int32_t x, int32_t y, float ink) {
 
 static void draw_stroke(float *values, uint32_t *seed) {
     const float x0 = random01(seed) * SIZE, y0 = random01(seed) * SIZE;
-    const float length = 70 + 170 * random01(seed), half = 0.7f + 0.9f * random01(seed), press = 0.16f + 0.30f * random01(seed);
+    const float length = 70 + 170 * random01(seed), half = 0.7f + 0.9f * random01(seed),
+                press = 0.16f + 0.30f * random01(seed);
     const float slope = (random01(seed) - 0.5f) * 0.05f, bend = (random01(seed) - 0.5f) * 5;
     for (int32_t i = 0; (float)i < length; i++) {
-        const float t = (float)i / length, ends = 4 * t * (1 - t), fade = ends < 0.4f ? ends / 0.4f : 1;
+        const float t = (float)i / length, ends = 4 * t * (1 - t),
+                    fade = ends < 0.4f ? ends / 0.4f : 1;
         const float y = y0 + slope * (float)i + bend * ends;
         for (int32_t k = (int32_t)floorf(y - half - 1); (float)k <= y + half + 1; k++) {
             const float off = fabsf((float)k + 0.5f - y), in = half + 0.5f - off;
@@ -45,7 +48,8 @@ static void draw_stroke(float *values, uint32_t *seed) {
 static float grain(uint32_t x, uint32_t y) {
     float sum = 0;
     for (uint32_t k = 0; k < 4; k++) {
-        uint32_t h = wrap((int32_t)(x + (k & 1))) * 0x9e3779b1u ^ wrap((int32_t)(y + (k >> 1))) * 0x85ebca77u;
+        uint32_t h = wrap((int32_t)(x + (k & 1))) * 0x9e3779b1u ^
+                     wrap((int32_t)(y + (k >> 1))) * 0x85ebca77u;
         h ^= h >> 15, h *= 0x2c1b3c6du, h ^= h >> 12, h *= 0x297a2d39u, h ^= h >> 15;
         sum += (float)(h >> 8) / 16777216.0f - 0.5f;
     }
@@ -57,11 +61,14 @@ void dp_make_graphite(uint8_t *out, uint32_t tones, float *scratch) {
     for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) scratch[i] = 1;
     uint32_t drawn = 0;
     for (uint32_t tone = 0; tone < tones; tone++, out += (size_t)SIZE * SIZE) {
-        /* one tone is the middle; of several the first is bare and each has as many more as makes it evenly darker */
+        /* one tone is the middle; of several the first is bare and each has as many more as makes
+         * it evenly darker */
         const float share = tones > 1 ? (float)tone / (float)(tones - 1) : 0;
-        const uint32_t wanted = tones > 1 ? (uint32_t)(share * (0.4f + 2.2f * share) * STROKES) : STROKES;
+        const uint32_t wanted =
+            tones > 1 ? (uint32_t)(share * (0.4f + 2.2f * share) * STROKES) : STROKES;
         for (; drawn < wanted; drawn++) draw_stroke(scratch, &seed);
-        for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) out[i] = (uint8_t)(scratch[i] * 255 + 0.5f);
+        for (size_t i = 0; i < (size_t)SIZE * SIZE; i++)
+            out[i] = (uint8_t)(scratch[i] * 255 + 0.5f);
     }
 }
 

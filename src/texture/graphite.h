@@ -6,8 +6,9 @@
 
 enum { DP_GRAPHITE_SIZE = 512 };
 
-/* Brightness [tones][DP_GRAPHITE_SIZE][DP_GRAPHITE_SIZE], strokes along u, the same after half a turn; from bare paper to
- * dark, each with the last one's strokes and more. `scratch` holds as many values as one tone. */
+/* Brightness [tones][DP_GRAPHITE_SIZE][DP_GRAPHITE_SIZE], strokes along u, the same after half a
+ * turn; from bare paper to dark, each with the last one's strokes and more. `scratch` holds as many
+ * values as one tone. */
 void dp_make_graphite(uint8_t *values, uint32_t tones, float *scratch);
 
 /* The paper's tooth: how much more graphite each place takes than the mean, -127 to 127. */

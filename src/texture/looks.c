@@ -1,8 +1,9 @@
 /* Stroke textures made by rule, and what suits each.
  *
- * Each is a function from (u, v) in [0, 1]² to ink in [0, 1], made of value noise that repeats along u, so that a
- * texture has no seam where it meets itself. v = 0.5 is the middle of the stroke. Everything comes from integer hashes
- * of lattice points and the seed: the same numbers on every machine. */
+ * Each is a function from (u, v) in [0, 1]² to ink in [0, 1], made of value noise that repeats
+ * along u, so that a texture has no seam where it meets itself. v = 0.5 is the middle of the
+ * stroke. Everything comes from integer hashes of lattice points and the seed: the same numbers on
+ * every machine. */
 #include <drypoint/strokes.h>
 
 #include "base/diag.h"
@@ -20,7 +21,8 @@ static uint32_t hash(uint32_t x, uint32_t y, uint32_t seed) {
 }
 
 static float lattice(int32_t x, int32_t y, int32_t period, uint32_t seed) {
-    return (float)(hash((uint32_t)((x % period + period) % period), (uint32_t)y, seed) >> 8) / 16777216.0f;
+    return (float)(hash((uint32_t)((x % period + period) % period), (uint32_t)y, seed) >> 8) /
+           16777216.0f;
 }
 
 static float smooth(float t) { return t * t * (3 - 2 * t); }
@@ -30,8 +32,10 @@ static float noise(float u, float v, int32_t columns, float rows, uint32_t seed)
     const float x = u * (float)columns, y = v * rows, fx = floorf(x), fy = floorf(y);
     const int32_t i = (int32_t)fx, j = (int32_t)fy;
     const float ax = smooth(x - fx), ay = smooth(y - fy);
-    const float low = lattice(i, j, columns, seed) * (1 - ax) + lattice(i + 1, j, columns, seed) * ax;
-    const float high = lattice(i, j + 1, columns, seed) * (1 - ax) + lattice(i + 1, j + 1, columns, seed) * ax;
+    const float low =
+        lattice(i, j, columns, seed) * (1 - ax) + lattice(i + 1, j, columns, seed) * ax;
+    const float high =
+        lattice(i, j + 1, columns, seed) * (1 - ax) + lattice(i + 1, j + 1, columns, seed) * ax;
     return low * (1 - ay) + high * ay;
 }
 
@@ -65,12 +69,14 @@ static float charcoal(float u, float v, uint32_t seed) {
     const float grain = 0.5f * noise(u, v, 110, 14, seed) + 0.3f * noise(u, v, 240, 30, seed + 1) +
                         0.2f * noise(u, v, 16, 3, seed + 2);
     const float body = smooth(dp_minf(1.35f * depth_in(v), 1));
-    return 0.92f * ramp(0.62f - 0.42f * body, 0.80f - 0.42f * body, grain) * ramp(0, 0.2f, depth_in(v));
+    return 0.92f * ramp(0.62f - 0.42f * body, 0.80f - 0.42f * body, grain) *
+           ramp(0, 0.2f, depth_in(v));
 }
 
 /* A pen: full ink, a rim that swells a little. */
 static float pen(float u, float v, uint32_t seed) {
-    const float rim = 0.05f + 0.14f * noise(u, v < 0.5f ? 0 : 5, 7, 1, seed) + 0.04f * noise(u, v < 0.5f ? 2 : 9, 29, 1, seed + 1);
+    const float rim = 0.05f + 0.14f * noise(u, v < 0.5f ? 0 : 5, 7, 1, seed) +
+                      0.04f * noise(u, v < 0.5f ? 2 : 9, 29, 1, seed + 1);
     return ramp(rim - 0.03f, rim + 0.05f, depth_in(v));
 }
 
@@ -124,12 +130,13 @@ static const look *find(const char *name, dp_diag *diag) {
 dp_result dp_stroke_look(const char *name, dp_stroke_style *style, dp_diag *diag) {
     const look *const l = find(name, diag);
     if (!l || !style) return DP_ERR_ARGUMENT;
-    style->taper = l->taper, style->jitter = l->jitter, style->overshoot = l->overshoot, style->repeats = l->repeats;
+    style->taper = l->taper, style->jitter = l->jitter, style->overshoot = l->overshoot,
+    style->repeats = l->repeats;
     return DP_OK;
 }
 
-dp_result dp_texture_named(const char *name, uint32_t seed, const dp_allocator *allocator, dp_texture **out,
-                           dp_diag *diag) {
+dp_result dp_texture_named(const char *name, uint32_t seed, const dp_allocator *allocator,
+                           dp_texture **out, dp_diag *diag) {
     if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_texture_named: out is NULL");
     *out = NULL;
     const look *const l = find(name, diag);
@@ -139,11 +146,15 @@ dp_result dp_texture_named(const char *name, uint32_t seed, const dp_allocator *
     if (!pixels) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a texture");
     for (uint32_t y = 0; y < l->height; y++)
         for (uint32_t x = 0; x < l->width; x++) {
-            const float u = ((float)x + 0.5f) / (float)l->width, v = ((float)y + 0.5f) / (float)l->height;
+            const float u = ((float)x + 0.5f) / (float)l->width,
+                        v = ((float)y + 0.5f) / (float)l->height;
             const float ink = dp_minf(dp_maxf(l->make(u, v, seed * 16), 0), 1);
             pixels[2 * ((size_t)y * l->width + x) + 1] = (uint8_t)(ink * 255 + 0.5f);
         }
-    const dp_texture_desc desc = {.pixels = pixels, .width = l->width, .height = l->height, .channels = 2,
+    const dp_texture_desc desc = {.pixels = pixels,
+                                  .width = l->width,
+                                  .height = l->height,
+                                  .channels = 2,
                                   .allocator = allocator};
     const dp_result result = dp_texture_create(&desc, out, diag);
     dp_free(&memory, pixels);

@@ -1,7 +1,7 @@
 /* Stroke textures: taking an image as ink, its pyramid, and looking it up.
  *
- * Data structure: levels of RGBA, ink as alpha; each level is the last one averaged over 2x2 pixels, u wrapping
- * round, colours weighed by ink. Invariant: immutable once made. */
+ * Data structure: levels of RGBA, ink as alpha; each level is the last one averaged over 2x2
+ * pixels, u wrapping round, colours weighed by ink. Invariant: immutable once made. */
 #include "texture/texture.h"
 
 #include "base/diag.h"
@@ -34,9 +34,12 @@ static bool has_alpha(const dp_texture_desc *d) {
 
 /* What, laid on white paper, looks as the pixel: the least ink that can. */
 static void ink_on_white(const uint8_t rgb[3], uint8_t out[4]) {
-    const uint8_t least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : rgb[1] < rgb[2] ? rgb[1] : rgb[2];
+    const uint8_t least = rgb[0] < rgb[1]   ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2])
+                          : rgb[1] < rgb[2] ? rgb[1]
+                                            : rgb[2];
     const int ink = 255 - least;
-    for (int k = 0; k < 3; k++) out[k] = (uint8_t)(ink ? (255 * (rgb[k] - least) + ink / 2) / ink : 0);
+    for (int k = 0; k < 3; k++)
+        out[k] = (uint8_t)(ink ? (255 * (rgb[k] - least) + ink / 2) / ink : 0);
     out[3] = (uint8_t)ink;
 }
 
@@ -52,8 +55,10 @@ static void take_pixels(dp_texture *t, const dp_texture_desc *d) {
             const uint8_t *const in = d->pixels + y * d->stride + (size_t)x * n;
             uint8_t *const out = t->pixels[0] + 4 * ((size_t)y * d->width + x);
             const uint8_t rgb[3] = {in[0], n < 3 ? in[0] : in[1], n < 3 ? in[0] : in[2]};
-            if (alpha) memcpy(out, rgb, 3), out[3] = in[n - 1];
-            else ink_on_white(rgb, out);
+            if (alpha)
+                memcpy(out, rgb, 3), out[3] = in[n - 1];
+            else
+                ink_on_white(rgb, out);
             t->coloured = t->coloured || is_coloured(out);
         }
 }
@@ -75,9 +80,11 @@ static void halve(const dp_texture *t, uint32_t from) {
     const uint8_t *const in = t->pixels[from];
     for (uint32_t y = 0; y < t->height[from + 1]; y++)
         for (uint32_t x = 0; x < t->width[from + 1]; x++) {
-            const uint32_t x0 = 2 * x % w, x1 = (2 * x + 1) % w, y0 = 2 * y, y1 = 2 * y + 1 < h ? 2 * y + 1 : h - 1;
-            const uint8_t *const four[4] = {in + 4 * ((size_t)y0 * w + x0), in + 4 * ((size_t)y0 * w + x1),
-                                            in + 4 * ((size_t)y1 * w + x0), in + 4 * ((size_t)y1 * w + x1)};
+            const uint32_t x0 = 2 * x % w, x1 = (2 * x + 1) % w, y0 = 2 * y,
+                           y1 = 2 * y + 1 < h ? 2 * y + 1 : h - 1;
+            const uint8_t *const four[4] = {
+                in + 4 * ((size_t)y0 * w + x0), in + 4 * ((size_t)y0 * w + x1),
+                in + 4 * ((size_t)y1 * w + x0), in + 4 * ((size_t)y1 * w + x1)};
             average(four, t->pixels[from + 1] + 4 * ((size_t)y * t->width[from + 1] + x));
         }
 }
@@ -103,13 +110,16 @@ static bool add_levels(dp_texture *t) {
 
 dp_result dp_texture_create(const dp_texture_desc *desc, dp_texture **out, dp_diag *diag) {
     if (!desc || !out || !desc->pixels)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_texture_create: no pixels, or nowhere to put the texture");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "dp_texture_create: no pixels, or nowhere to put the texture");
     *out = NULL;
     dp_texture_desc d = *desc;
     if (d.width < 1 || d.height < 1 || d.width > LARGEST || d.height > LARGEST)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "a texture of %u x %u px; each side must be 1 to %d", d.width, d.height, LARGEST);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "a texture of %u x %u px; each side must be 1 to %d",
+                       d.width, d.height, LARGEST);
     if (d.channels < 1 || d.channels > 4)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "a texture with %u channels; it must be 1 to 4", d.channels);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "a texture with %u channels; it must be 1 to 4",
+                       d.channels);
     if (!d.stride) d.stride = (size_t)d.width * d.channels;
     if (d.stride < (size_t)d.width * d.channels)
         return dp_fail(diag, DP_ERR_ARGUMENT, "the texture's stride is less than a row of pixels");
@@ -122,7 +132,8 @@ dp_result dp_texture_create(const dp_texture_desc *desc, dp_texture **out, dp_di
     enough = enough && add_levels(t);
     if (!enough) {
         dp_texture_destroy(t);
-        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a texture of %u x %u px", d.width, d.height);
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a texture of %u x %u px", d.width,
+                       d.height);
     }
     *out = t;
     return DP_OK;
@@ -144,7 +155,8 @@ uint32_t dp_texture_level(const dp_texture *t, float px) {
 
 static void mix_in(dp_texel *sum, const uint8_t *p, float weight) {
     const float ink = weight * (float)p[3];
-    sum->r += ink * (float)p[0], sum->g += ink * (float)p[1], sum->b += ink * (float)p[2], sum->ink += ink;
+    sum->r += ink * (float)p[0], sum->g += ink * (float)p[1], sum->b += ink * (float)p[2],
+        sum->ink += ink;
 }
 
 /* floorf without a call, for what is far from the limits of int. */
@@ -156,7 +168,8 @@ static int32_t floor_of(float x) {
 dp_texel dp_texture_sample(const dp_texture *t, uint32_t level, float u, float v) {
     const int32_t w = (int32_t)t->width[level], h = (int32_t)t->height[level];
     const uint8_t *const pixels = t->pixels[level];
-    const float turns = u > -1e6f && u < 1e6f ? u : 0, x = (turns - (float)floor_of(turns)) * (float)w - 0.5f;
+    const float turns = u > -1e6f && u < 1e6f ? u : 0,
+                x = (turns - (float)floor_of(turns)) * (float)w - 0.5f;
     const float held = v > 0 ? v < 1 ? v : 1 : 0, y = held * (float)h - 0.5f;
     const int32_t ix = floor_of(x), iy = floor_of(y);
     const int32_t x0 = ix < 0 ? w - 1 : ix < w ? ix : 0, x1 = x0 + 1 < w ? x0 + 1 : 0;

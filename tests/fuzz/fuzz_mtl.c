@@ -9,7 +9,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const dp_allocator memory = dp_allocator_resolve(NULL);
     dp_materials materials;
     dp_stream *stream = NULL;
-    if (dp_stream_open_memory(data, size, size & 1 ? 2 * DP_STREAM_AHEAD : DP_STREAM_WINDOW, NULL, &stream, NULL)) return 0;
+    if (dp_stream_open_memory(data, size, size & 1 ? 2 * DP_STREAM_AHEAD : DP_STREAM_WINDOW, NULL,
+                              &stream, NULL))
+        return 0;
     dp_materials_init(&materials, &memory);
     if (!dp_read_mtl(stream, &materials)) abort();
     for (size_t i = 0; i < materials.names.count; i++) {

@@ -1,5 +1,6 @@
-/* One small picture per style, edge detector and mirror, compared with the one that is kept (decoded pixels).
- * DP_GOLDEN_WRITE=1 writes those that are not there; look at them before they are kept. */
+/* One small picture per style, edge detector and mirror, compared with the one that is kept
+ * (decoded pixels). DP_GOLDEN_WRITE=1 writes those that are not there; look at them before they are
+ * kept. */
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
 
@@ -20,20 +21,29 @@ typedef struct golden {
 } golden;
 
 #define QUIET .lines = DP_NO_LINES
-#define TAN DP_RGB(224, 196, 150)
+#define TAN   DP_RGB(224, 196, 150)
 
 static const golden pictures[] = {
-    {"lambert", "bolt", {QUIET, .surface = TAN, .shade = {.shading = DP_SHADING_LAMBERT, .highlight = 0.5f}}},
+    {"lambert",
+     "bolt",
+     {QUIET, .surface = TAN, .shade = {.shading = DP_SHADING_LAMBERT, .highlight = 0.5f}}},
     {"gooch", "bolt", {.surface = TAN, .shade = {.shading = DP_SHADING_GOOCH}}},
     {"toon", "torus", {QUIET, .surface = TAN, .shade = {.shading = DP_SHADING_TOON}}},
-    {"toon-nearest", "torus", {QUIET, .surface = TAN, .shade = {.shading = DP_SHADING_TOON, .nearest = true}}},
+    {"toon-nearest",
+     "torus",
+     {QUIET, .surface = TAN, .shade = {.shading = DP_SHADING_TOON, .nearest = true}}},
     {"hatch", "torus", {QUIET, .shade = {.shading = DP_SHADING_HATCH}}},
-    {"hatch-object", "torus", {QUIET, .shade = {.shading = DP_SHADING_HATCH, .object_space = true}}},
+    {"hatch-object",
+     "torus",
+     {QUIET, .shade = {.shading = DP_SHADING_HATCH, .object_space = true}}},
     {"halftone", "torus", {QUIET, .shade = {.shading = DP_SHADING_HALFTONE, .stroke_scale = 0.5f}}},
     {"paper", "bracket", {.paper = TAN, .shade = {.shading = DP_SHADING_PAPER}}},
     {"map-diagonal", "bracket", {QUIET, .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL}}},
     {"map-c1", "bracket", {QUIET, .edge_map = {.detector = DP_EDGE_MAP_C1}}},
-    {"map-printed", "bracket", {QUIET, .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL, .as_printed = true, .eight_bits = true}}},
+    {"map-printed",
+     "bracket",
+     {QUIET,
+      .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL, .as_printed = true, .eight_bits = true}}},
     {"map-both",
      "bolt",
      {.lines = DP_SILHOUETTE,
@@ -44,7 +54,12 @@ static const golden pictures[] = {
      {.surface = TAN,
       .shade = {.shading = DP_SHADING_TOON},
       .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL},
-      .mirror = {.normal = {0, 1, 0}, .offset = -1, .size = 3, .tint = DP_RGB(120, 160, 200), .tint_share = 0.2f, .fade = 2}}},
+      .mirror = {.normal = {0, 1, 0},
+                 .offset = -1,
+                 .size = 3,
+                 .tint = DP_RGB(120, 160, 200),
+                 .tint_share = 0.2f,
+                 .fade = 2}}},
 };
 
 static void draw(const golden *g, uint8_t *rgba) {
@@ -61,7 +76,8 @@ static void draw(const golden *g, uint8_t *rgba) {
     dp_context_destroy(context);
 }
 
-/* Another machine's sines may round otherwise: a pixel in two thousand may be off, others by a grey level. */
+/* Another machine's sines may round otherwise: a pixel in two thousand may be off, others by a grey
+ * level. */
 static void compare(const char *name, const uint8_t *rgba, const uint8_t *kept) {
     int off = 0;
     for (int i = 0; i < W * H; i++) {

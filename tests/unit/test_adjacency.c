@@ -12,9 +12,14 @@
 
 #include <cmocka.h>
 
-static dp_batch batch_of(const float *positions, size_t vertices, const uint32_t *indices, size_t triangles) {
-    return (dp_batch){.positions = positions, .vertex_count = vertices, .indices = indices,
-                      .corner_count = 3 * triangles, .polygon_count = triangles, .stable = true};
+static dp_batch batch_of(const float *positions, size_t vertices, const uint32_t *indices,
+                         size_t triangles) {
+    return (dp_batch){.positions = positions,
+                      .vertex_count = vertices,
+                      .indices = indices,
+                      .corner_count = 3 * triangles,
+                      .polygon_count = triangles,
+                      .stable = true};
 }
 
 static void expect_six(const uint32_t *six, const uint32_t expected[6]) {
@@ -25,7 +30,8 @@ static void expect_six(const uint32_t *six, const uint32_t expected[6]) {
 /* Figure 2.2: corners at 0, 2, 4, what lies across the edges between them at 1, 3, 5. */
 static void test_six_indices_are_sorted_as_in_figure_2_2(void **state) {
     (void)state;
-    static const float p[6][3] = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, -2, 0}, {3, 2, 0}, {-1, 2, 0}};
+    static const float p[6][3] = {{0, 0, 0},  {2, 0, 0}, {1, 2, 0},
+                                  {1, -2, 0}, {3, 2, 0}, {-1, 2, 0}};
     static const uint32_t t[12] = {0, 1, 2, 1, 0, 3, 2, 1, 4, 0, 2, 5};
     uint32_t six[24];
     const dp_batch batch = batch_of(p[0], 6, t, 4);
@@ -59,7 +65,8 @@ static void test_wrong_calls_and_bad_indices(void **state) {
     assert_int_equal(dp_adjacency_indices(NULL, NULL, six, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_adjacency_indices(&batch, NULL, NULL, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_OK);
-    expect_six(six, (const uint32_t[6]){0, 2, 1, 0, 2, 1}); /* the broken one is nobody's neighbour */
+    expect_six(six,
+               (const uint32_t[6]){0, 2, 1, 0, 2, 1}); /* the broken one is nobody's neighbour */
     batch.firsts = firsts, batch.polygon_count = 1;
     assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_ERR_ARGUMENT);
 }
@@ -73,15 +80,20 @@ typedef struct made {
     bool built;
 } made;
 
-static void make(made *m, const float *positions, uint32_t vertices, const uint32_t *corners, uint32_t count,
-                 const uint32_t *firsts) {
+static void make(made *m, const float *positions, uint32_t vertices, const uint32_t *corners,
+                 uint32_t count, const uint32_t *firsts) {
     if (!m->threads) {
         m->memory = dp_allocator_resolve(NULL);
         m->threads = dp_threads_create(2, NULL, NULL, &m->memory);
     }
-    m->polygons = (dp_polygons){.positions = positions, .stride = 12, .vertex_count = vertices, .corners = corners,
-                                .firsts = firsts, .count = count};
-    assert_true(dp_adjacency_update(&m->adjacency, &m->polygons, m->threads, &m->memory, &m->built));
+    m->polygons = (dp_polygons){.positions = positions,
+                                .stride = 12,
+                                .vertex_count = vertices,
+                                .corners = corners,
+                                .firsts = firsts,
+                                .count = count};
+    assert_true(
+        dp_adjacency_update(&m->adjacency, &m->polygons, m->threads, &m->memory, &m->built));
     for (uint32_t c = 0; c < m->adjacency.corners; c++) { /* the invariant */
         const uint32_t across = m->adjacency.across[c];
         if (!dp_is_across(across)) continue;
@@ -99,8 +111,10 @@ static void unmake(made *m) {
 /* Two wedges that touch along z: the four pages' fronts look at each other in pairs, or away. */
 static void test_four_pages_are_paired_by_the_wedges_between_them(void **state) {
     (void)state;
-    static const float p[6][3] = {{0, 0, 0}, {0, 0, 1}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
-    /* front of page 0 (at 45 degrees) looks to growing angles, of page 1 (at 135) to falling ones, and so on */
+    static const float p[6][3] = {{0, 0, 0},  {0, 0, 1},   {1, 1, 0},
+                                  {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
+    /* front of page 0 (at 45 degrees) looks to growing angles, of page 1 (at 135) to falling ones,
+     * and so on */
     static const uint32_t t[12] = {0, 1, 2, 1, 0, 3, 0, 1, 4, 1, 0, 5};
     made m = {0};
     make(&m, p[0], 6, t, 4, NULL);
@@ -145,7 +159,8 @@ static void test_polygons_have_neighbours_too(void **state) {
     unmake(&m);
 }
 
-/* Positions may change without a new topology; indices may not, nor may vertices part that were one place. */
+/* Positions may change without a new topology; indices may not, nor may vertices part that were one
+ * place. */
 static void test_it_is_built_once_per_topology(void **state) {
     (void)state;
     float p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -169,9 +184,10 @@ static void test_it_is_built_once_per_topology(void **state) {
 
 /* ------- the geometry stage ------- */
 
-static void expect_point(const dp_fringe_point *p, double x, double y, double tx, double ty, double v) {
-    if (fabs(p->at.x - x) > 1e-9 || fabs(p->at.y - y) > 1e-9 || fabs(p->tx - tx) > 1e-9 || fabs(p->ty - ty) > 1e-9 ||
-        p->v != v)
+static void expect_point(const dp_fringe_point *p, double x, double y, double tx, double ty,
+                         double v) {
+    if (fabs(p->at.x - x) > 1e-9 || fabs(p->at.y - y) > 1e-9 || fabs(p->tx - tx) > 1e-9 ||
+        fabs(p->ty - ty) > 1e-9 || p->v != v)
         fail_msg("(%g, %g) with (%g, %g, %g)", p->at.x, p->at.y, p->tx, p->ty, p->v);
 }
 
@@ -179,8 +195,11 @@ static void expect_point(const dp_fringe_point *p, double x, double y, double tx
 static void test_extrusion_and_its_texture_coordinates(void **state) {
     (void)state;
     const double s = sqrt(0.5);
-    const dp_silhouette_edge edge = {.a = {100, 50, 1}, .b = {110, 50, 2}, .outward = {0.3, -2},
-                                     .normal_a = {-s, -s}, .normal_b = {s, -s}};
+    const dp_silhouette_edge edge = {.a = {100, 50, 1},
+                                     .b = {110, 50, 2},
+                                     .outward = {0.3, -2},
+                                     .normal_a = {-s, -s},
+                                     .normal_b = {s, -s}};
     dp_fringe_point p[DP_FRINGE_POINTS];
     assert_true(dp_extrude(&edge, 5, p));
     const double corner = 3.826834323650898, t = 10 * corner / (10 + 2 * corner);
@@ -195,7 +214,8 @@ static void test_extrusion_and_its_texture_coordinates(void **state) {
 
 static void test_a_normal_against_the_extrusion_is_turned_round(void **state) {
     (void)state;
-    const dp_silhouette_edge edge = {.a = {0, 0, 1}, .b = {10, 0, 1}, .outward = {0, 1}, .normal_a = {0.6, -0.8}};
+    const dp_silhouette_edge edge = {
+        .a = {0, 0, 1}, .b = {10, 0, 1}, .outward = {0, 1}, .normal_a = {0.6, -0.8}};
     dp_fringe_point p[DP_FRINGE_POINTS];
     assert_true(dp_extrude(&edge, 10, p));
     assert_true(fabs(p[0].at.x + 6) < 1e-9 && fabs(p[0].at.y - 8) < 1e-9);
@@ -207,10 +227,16 @@ static void test_a_normal_against_the_extrusion_is_turned_round(void **state) {
 /* u = alpha / 2 pi + k d. */
 static void test_polar_coordinates_by_hand(void **state) {
     (void)state;
-    static const double cases[][4] = {{1, 0, 0, 0}, {0, 2, 0, 0.25}, {-3, 0, 0, 0.5}, {0, -1, 0, 0.75},
-                                      {1, 1, 0, 0.125}, {1, -1, 0, 0.875}, {3, 4, 0.1, 0.14758361765043326 + 0.5}};
+    static const double cases[][4] = {{1, 0, 0, 0},
+                                      {0, 2, 0, 0.25},
+                                      {-3, 0, 0, 0.5},
+                                      {0, -1, 0, 0.75},
+                                      {1, 1, 0, 0.125},
+                                      {1, -1, 0, 0.875},
+                                      {3, 4, 0.1, 0.14758361765043326 + 0.5}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_true(fabs(dp_stroke_polar(cases[i][0], cases[i][1], cases[i][2]) - cases[i][3]) < 1e-12);
+        assert_true(fabs(dp_stroke_polar(cases[i][0], cases[i][1], cases[i][2]) - cases[i][3]) <
+                    1e-12);
 }
 
 /* ------- pictures ------- */
@@ -218,7 +244,8 @@ static void test_polar_coordinates_by_hand(void **state) {
 enum { WIDTH = 320, HEIGHT = 240 };
 static uint8_t pictures[2][HEIGHT][WIDTH][4];
 
-static void draw(const char *shape, const dp_style *style, uint32_t threads, uint8_t *rgba, dp_stats *stats) {
+static void draw(const char *shape, const dp_style *style, uint32_t threads, uint8_t *rgba,
+                 dp_stats *stats) {
     const dp_context_desc desc = {.threads = threads};
     dp_context *context = NULL;
     dp_source *source = NULL;
@@ -228,14 +255,16 @@ static void draw(const char *shape, const dp_style *style, uint32_t threads, uin
     assert_int_equal(dp_source_from_shape(&(dp_shape){.name = shape}, &source, NULL), DP_OK);
     dp_camera_fit(&camera, &(dp_fit){.min = {-1, -1, -1}, .max = {1, 1, 1}});
     const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};
-    if (dp_draw(context, source, &camera, style, &target, &diag)) fail_msg("%s: %s", shape, diag.message);
+    if (dp_draw(context, source, &camera, style, &target, &diag))
+        fail_msg("%s: %s", shape, diag.message);
     if (stats) dp_stats_of(context, stats);
     dp_source_destroy(source);
     dp_context_destroy(context);
 }
 
 static void expect_same(const char *what) {
-    if (memcmp(pictures[0], pictures[1], sizeof pictures[0])) fail_msg("%s: the pictures differ", what);
+    if (memcmp(pictures[0], pictures[1], sizeof pictures[0]))
+        fail_msg("%s: the pictures differ", what);
 }
 
 static void test_strokes_are_those_that_emerge(void **state) {
@@ -257,8 +286,12 @@ static void test_one_pass_draws_what_two_passes_draw(void **state) {
     dp_texture *texture = NULL;
     assert_int_equal(dp_texture_named("charcoal", 3, NULL, &texture, NULL), DP_OK);
     for (int i = 0; i < 2; i++) {
-        dp_style style = {.edges = DP_EDGES_ADJACENCY, .ink = DP_INK_QUADS, .method = DP_METHOD_PAPER, .passes = 1,
-                          .line = {{.width = 14}}, .surface = DP_RGB(200, 220, 240)};
+        dp_style style = {.edges = DP_EDGES_ADJACENCY,
+                          .ink = DP_INK_QUADS,
+                          .method = DP_METHOD_PAPER,
+                          .passes = 1,
+                          .line = {{.width = 14}},
+                          .surface = DP_RGB(200, 220, 240)};
         if (i) style.stroke.texture = texture;
         draw("torus", &style, 1, pictures[0][0][0], NULL);
         style.passes = 2;

@@ -577,7 +577,8 @@ static void later_frames_allocate_nothing(void **state) {
         assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
         assert_true(count > 0);
         count = 0;
-        for (int frame = 0; frame < 3; frame++) assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
+        for (int frame = 0; frame < 3; frame++)
+            assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
         assert_int_equal(count, 0);
         dp_context_destroy(context);
         dp_source_destroy(source);

@@ -31,11 +31,15 @@ static dp_polygons patch(surface *at, uint32_t n) {
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t k = 0; k < n; k++) {
             const uint32_t a = i * (n + 1) + k, b = a + n + 1;
-            const uint32_t even[6] = {a, b, b + 1, a, b + 1, a + 1}, odd[6] = {a, b, a + 1, b, b + 1, a + 1};
+            const uint32_t even[6] = {a, b, b + 1, a, b + 1, a + 1},
+                           odd[6] = {a, b, a + 1, b, b + 1, a + 1};
             memcpy(corners + c, (i + k) % 2 ? odd : even, sizeof even);
             c += 6;
         }
-    return (dp_polygons){.positions = points[0], .stride = 12, .vertex_count = (n + 1) * (n + 1), .corners = corners,
+    return (dp_polygons){.positions = points[0],
+                         .stride = 12,
+                         .vertex_count = (n + 1) * (n + 1),
+                         .corners = corners,
                          .count = 2 * n * n};
 }
 
@@ -48,7 +52,9 @@ static dp_vec3 sphere_at(double s, double t) {
     const double a = 1.5 * (s - 0.5), b = 1.5 * (t - 0.5);
     return dp_scale(dp_v3(sin(a) * cos(b), sin(b), cos(a) * cos(b)), 3);
 }
-static dp_vec3 cylinder_at(double s, double t) { return dp_v3(2 * sin(3 * s), 4 * t, 2 * cos(3 * s)); }
+static dp_vec3 cylinder_at(double s, double t) {
+    return dp_v3(2 * sin(3 * s), 4 * t, 2 * cos(3 * s));
+}
 static dp_vec3 torus_at(double s, double t) {
     const double a = s < 1 ? 2 * pi * s : 0, b = t < 1 ? 2 * pi * t : 0, r = 3 + cos(b);
     return dp_v3(r * cos(a), r * sin(a), sin(b));
@@ -58,8 +64,10 @@ static dp_vec3 saddle_at(double s, double t) {
     return dp_v3(x, y, (x * x - 0.5 * y * y) / 2);
 }
 
-static void expect(double value, double expected, double tolerance, const char *what, uint32_t i, uint32_t k) {
-    if (!(fabs(value - expected) <= tolerance)) fail_msg("%s at %u, %u: %g, not %g", what, i, k, value, expected);
+static void expect(double value, double expected, double tolerance, const char *what, uint32_t i,
+                   uint32_t k) {
+    if (!(fabs(value - expected) <= tolerance))
+        fail_msg("%s at %u, %u: %g, not %g", what, i, k, value, expected);
 }
 
 static void test_sphere(void **state) {
@@ -121,7 +129,8 @@ static void test_saddle(void **state) {
     const dp_polygons p = patch(saddle_at, 40);
     find(&p);
     const dp_curvature *const c = &found[20 * 41 + 20];
-    expect((double)c->least, 0.5, 0.01, "least", 20, 20); /* fronts look up: the hollow way is negative */
+    expect((double)c->least, 0.5, 0.01, "least", 20,
+           20); /* fronts look up: the hollow way is negative */
     expect((double)c->most, -1, 0.01, "most", 20, 20);
     expect(fabs((double)c->along[1]), 1, 0.001, "along y", 20, 20);
 }
@@ -145,7 +154,8 @@ static void unbend(bends *b) {
     dp_threads_destroy(b->threads);
 }
 
-/* Everywhere on a sphere the surface bends alike: level lines. With noise, too, neighbours agree. */
+/* Everywhere on a sphere the surface bends alike: level lines. With noise, too, neighbours agree.
+ */
 static void test_umbilics_and_noise_get_a_steady_direction(void **state) {
     (void)state;
     const uint32_t n = 40;
@@ -153,7 +163,8 @@ static void test_umbilics_and_noise_get_a_steady_direction(void **state) {
     bends b;
     memset(&b, 0, sizeof b);
     bend(&b, &p);
-    for (uint32_t i = 15; i + 15 <= n; i++) /* what the patch's border does to normals has not spread to here */
+    for (uint32_t i = 15; i + 15 <= n;
+         i++) /* what the patch's border does to normals has not spread to here */
         for (uint32_t k = 15; k + 15 <= n; k++)
             expect(fabs((double)b.store.along[i * (n + 1) + k][1]), 0, 0.25, "height", i, k);
     uint32_t seed = 1;
@@ -166,7 +177,8 @@ static void test_umbilics_and_noise_get_a_steady_direction(void **state) {
     double sum = 0;
     for (uint32_t i = 3; i + 3 <= n; i++)
         for (uint32_t k = 3; k + 3 <= n; k++) {
-            const dp_vec3 d = dp_v3f(b.store.along[i * (n + 1) + k]), e = dp_v3f(b.store.along[i * (n + 1) + k + 1]);
+            const dp_vec3 d = dp_v3f(b.store.along[i * (n + 1) + k]),
+                          e = dp_v3f(b.store.along[i * (n + 1) + k + 1]);
             sum += fabs(dp_dot(d, e));
         }
     assert_true(sum / ((n - 5) * (n - 5)) > 0.9);
@@ -195,7 +207,8 @@ static void test_broken_meshes_are_survived(void **state) {
     (void)state;
     static const float few[4][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, NAN, 1}};
     static const uint32_t t[12] = {0, 1, 2, 0, 0, 1, 0, 1, 99, 0, 1, 3};
-    const dp_polygons p = {.positions = few[0], .stride = 12, .vertex_count = 4, .corners = t, .count = 4};
+    const dp_polygons p = {
+        .positions = few[0], .stride = 12, .vertex_count = 4, .corners = t, .count = 4};
     bends b;
     memset(&b, 0, sizeof b);
     find(&p);

@@ -1,4 +1,5 @@
-/* The same input gives the same bytes: for any number of threads, again, in another context, with any kernels. */
+/* The same input gives the same bytes: for any number of threads, again, in another context, with
+ * any kernels. */
 #include "kernel/kernels.h"
 
 #include <drypoint/drypoint.h>
@@ -74,8 +75,10 @@ static void expect_same(const result *a, const result *b, const char *what, cons
         fail_msg("%s, %s: other depth", what, how);
     if (memcmp(a->normal, b->normal, sizeof a->normal) != 0)
         fail_msg("%s, %s: other normals", what, how);
-    if (memcmp(a->eye_normal, b->eye_normal, sizeof a->eye_normal) || memcmp(a->id, b->id, sizeof a->id) ||
-        memcmp(a->distance, b->distance, sizeof a->distance) || memcmp(a->edge_map, b->edge_map, sizeof a->edge_map))
+    if (memcmp(a->eye_normal, b->eye_normal, sizeof a->eye_normal) ||
+        memcmp(a->id, b->id, sizeof a->id) ||
+        memcmp(a->distance, b->distance, sizeof a->distance) ||
+        memcmp(a->edge_map, b->edge_map, sizeof a->edge_map))
         fail_msg("%s, %s: another G-buffer", what, how);
     if (a->segment_count != b->segment_count)
         fail_msg("%s, %s: %zu segments, not %zu", what, how, b->segment_count, a->segment_count);
@@ -186,7 +189,8 @@ static void contexts_remember_nothing(void **state) {
 static void stride_leaves_the_rest_alone(void **state) {
     enum { STRIDE = 4 * WIDTH + 28 };
     static uint8_t wide[STRIDE * HEIGHT];
-    static const dp_style styles[] = {{0}, {.shade = {.shading = DP_SHADING_TOON}, .edge_map = {.detector = DP_EDGE_MAP_C1}}};
+    static const dp_style styles[] = {
+        {0}, {.shade = {.shading = DP_SHADING_TOON}, .edge_map = {.detector = DP_EDGE_MAP_C1}}};
     dp_source *source = new_shape("gear", 0);
     const dp_camera camera = fitted(source);
     dp_context *context = new_context(2);
@@ -207,7 +211,8 @@ static void stride_leaves_the_rest_alone(void **state) {
 }
 
 /* Plain C and vectors of any width, in perspective and without, with lines and without. */
-static void check_kernels(dp_source *source, const dp_camera *camera, const dp_style *style, uint32_t samples, const char *what) {
+static void check_kernels(dp_source *source, const dp_camera *camera, const dp_style *style,
+                          uint32_t samples, const char *what) {
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(list);
     for (uint32_t i = 0; i < count; i++) {
@@ -223,19 +228,24 @@ static void check_kernels(dp_source *source, const dp_camera *camera, const dp_s
 
 static void every_kernel(void **state) {
     static const uint32_t samples[] = {1, 4, 8, 16};
-    const dp_style styles[] = {{0}, {.lines = DP_NO_LINES}, {.ink = DP_INK_QUADS}, {.ink = DP_INK_QUADS, .method = DP_METHOD_PAPER}};
+    const dp_style styles[] = {{0},
+                               {.lines = DP_NO_LINES},
+                               {.ink = DP_INK_QUADS},
+                               {.ink = DP_INK_QUADS, .method = DP_METHOD_PAPER}};
     (void)state;
     for (uint32_t i = 0; i < dp_shape_count(); i++) {
         dp_source *const source = new_shape(dp_shape_name(i), 20000);
         for (uint32_t k = 0; k < 12; k++) {
-            const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k / 4 == 1, .zoom = k / 4 == 2 ? 30 : 1});
+            const dp_camera camera = fitted_as(
+                source, (dp_fit){.orthographic = k / 4 == 1, .zoom = k / 4 == 2 ? 30 : 1});
             check_kernels(source, &camera, &styles[k % 4], samples[(i + k) % 4], dp_shape_name(i));
         }
         dp_source_destroy(source);
     }
 }
 
-/* Every look and both detectors: any kernels, any number of threads, in a context that drew other looks before. */
+/* Every look and both detectors: any kernels, any number of threads, in a context that drew other
+ * looks before. */
 static void every_look(void **state) {
     static const char *const names[] = {"bolt", "boxes", "torus"};
     static const uint32_t samples[] = {4, 1, 8, 16};
@@ -244,14 +254,16 @@ static void every_look(void **state) {
     for (uint32_t i = 0; i < 3; i++) {
         dp_source *const source = new_shape(names[i], 20000);
         for (uint32_t k = 0; k < 2 * DP_SHADING_COUNT; k++) {
-            const dp_camera camera = fitted_as(source, (dp_fit){.orthographic = k % 4 == 1, .zoom = k % 4 == 2 ? 6 : 1});
-            const dp_style style = {.lines = k % 3 ? DP_NO_LINES : DP_ALL_LINES,
-                                    .ink = k % 6 == 3 ? DP_INK_QUADS : DP_INK_STROKES,
-                                    .shade = {.shading = (dp_shading)(k / 2),
-                                              .object_space = k % 2,
-                                              .highlight = k % 4 == 3 ? 0.4f : 0,
-                                              .normals = k % 5 == 4 ? DP_NORMALS_FACET : DP_NORMALS_MODEL},
-                                    .edge_map = {.detector = (dp_edge_detector)((k + i) % 3)}};
+            const dp_camera camera =
+                fitted_as(source, (dp_fit){.orthographic = k % 4 == 1, .zoom = k % 4 == 2 ? 6 : 1});
+            const dp_style style = {
+                .lines = k % 3 ? DP_NO_LINES : DP_ALL_LINES,
+                .ink = k % 6 == 3 ? DP_INK_QUADS : DP_INK_STROKES,
+                .shade = {.shading = (dp_shading)(k / 2),
+                          .object_space = k % 2,
+                          .highlight = k % 4 == 3 ? 0.4f : 0,
+                          .normals = k % 5 == 4 ? DP_NORMALS_FACET : DP_NORMALS_MODEL},
+                .edge_map = {.detector = (dp_edge_detector)((k + i) % 3)}};
             check_kernels(source, &camera, &style, samples[(k / 2 + i) % 4], names[i]);
             draw(used, source, &camera, &style, samples[(k / 2 + i) % 4], &results[1]);
             expect_same(&results[0], &results[1], names[i], "after other drawings");

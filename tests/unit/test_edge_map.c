@@ -1,4 +1,5 @@
-/* gbuffer: the detectors by hand on 5 x 5 pixels, and the G-buffer and edge map of whole pictures. */
+/* gbuffer: the detectors by hand on 5 x 5 pixels, and the G-buffer and edge map of whole pictures.
+ */
 #include "gbuffer/detect.h"
 #include "gbuffer/gbuffer.h"
 #include "kernel/kernels.h"
@@ -24,7 +25,8 @@ static dp_rows rows_at(float (*plane)[SIDE], int x, int y, int r) {
 }
 
 static void assert_near(float value, double expected) {
-    if (!(fabs((double)value - expected) < 1e-6)) fail_msg("%.9g is not %.9g", (double)value, expected);
+    if (!(fabs((double)value - expected) < 1e-6))
+        fail_msg("%.9g is not %.9g", (double)value, expected);
 }
 
 static void diagonal_normals_are_the_mean_of_two_cosines(void **state) {
@@ -32,15 +34,18 @@ static void diagonal_normals_are_the_mean_of_two_cosines(void **state) {
     float nx[SIDE][SIDE] = {{0}}, ny[SIDE][SIDE] = {{0}}, nz[SIDE][SIDE], i_n[3];
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) nz[y][x] = 1;
-    detectors->diagonal_normals(rows_at(nx, 1, 2, 1), rows_at(ny, 1, 2, 1), rows_at(nz, 1, 2, 1), 1, 3, i_n);
+    detectors->diagonal_normals(rows_at(nx, 1, 2, 1), rows_at(ny, 1, 2, 1), rows_at(nz, 1, 2, 1), 1,
+                                3, i_n);
     for (int i = 0; i < 3; i++) assert_near(i_n[i], 1); /* all agree */
     /* A of (2, 2) is (1, 1): turned by 60 degrees; F is (1, 3): turned right round */
     nx[1][1] = sqrtf(0.75f), nz[1][1] = 0.5f, nz[3][1] = -1;
-    detectors->diagonal_normals(rows_at(nx, 2, 2, 1), rows_at(ny, 2, 2, 1), rows_at(nz, 2, 2, 1), 1, 1, i_n);
+    detectors->diagonal_normals(rows_at(nx, 2, 2, 1), rows_at(ny, 2, 2, 1), rows_at(nz, 2, 2, 1), 1,
+                                1, i_n);
     assert_near(i_n[0], 0.5 * (0.5 - 1));
     /* two px away: A is (0, 0) */
     nz[0][0] = 0, ny[0][0] = 1;
-    detectors->diagonal_normals(rows_at(nx, 2, 2, 2), rows_at(ny, 2, 2, 2), rows_at(nz, 2, 2, 2), 2, 1, i_n);
+    detectors->diagonal_normals(rows_at(nx, 2, 2, 2), rows_at(ny, 2, 2, 2), rows_at(nz, 2, 2, 2), 2,
+                                1, i_n);
     assert_near(i_n[0], 0.5 * (0 + 1));
 }
 
@@ -70,7 +75,8 @@ static void c1_adds_eight_differences_in_three_passes(void **state) {
     (void)state;
     float z[SIDE][SIDE] = {{0}}, i_z[1] = {0};
     const dp_depth_measure m = {.scale = 0.5f, .both_sides = true};
-    static const float parts[3] = {0.5f, 0.5f, 0.5f}; /* each pass, with all its neighbours a whole step away */
+    static const float parts[3] = {0.5f, 0.5f,
+                                   0.5f}; /* each pass, with all its neighbours a whole step away */
     z[2][2] = 2;
     for (int pass = 0; pass < 3; pass++) {
         const float before = i_z[0];
@@ -84,7 +90,8 @@ static void c1_adds_eight_differences_in_three_passes(void **state) {
             memset(z, 0, sizeof z);
             if (x != 1 || y != 1) z[1 + y][1 + x] = -0.5f; /* a quarter of a step */
             i_z[0] = 0;
-            for (int pass = 0; pass < 3; pass++) detectors->c1_printed(rows_at(z, 2, 2, 1), &m, pass, 1, 1, i_z);
+            for (int pass = 0; pass < 3; pass++)
+                detectors->c1_printed(rows_at(z, 2, 2, 1), &m, pass, 1, 1, i_z);
             assert_near(i_z[0], weights[y][x] / 8 / 4);
         }
 }
@@ -94,7 +101,8 @@ static void slopes_are_no_steps(void **state) {
     float z[SIDE][SIDE], zero[SIDE][SIDE] = {{0}}, i_n[1], i_z[1];
     const dp_depth_measure m = {.scale = 1}; /* orthographic, 1 px per unit */
     for (int y = 0; y < SIDE; y++)
-        for (int x = 0; x < SIDE; x++) z[y][x] = 100 * (float)x - 30 * (float)y; /* as steep as can be seen */
+        for (int x = 0; x < SIDE; x++)
+            z[y][x] = 100 * (float)x - 30 * (float)y; /* as steep as can be seen */
     const dp_rows n = rows_at(zero, 2, 2, 1);
     detectors->diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
     assert_near(i_z[0], 1);
@@ -103,7 +111,8 @@ static void slopes_are_no_steps(void **state) {
         for (int x = 0; x < SIDE; x++) z[y][x] = x > 2 ? -0.5f : 0;
     detectors->diagonal_scaled(n, n, n, rows_at(z, 2, 2, 1), &m, 1, 1, i_n, i_z);
     assert_near(i_z[0], 0.875 * 0.875 * 0.875 * 0.875); /* 3/2 of a half, less 1/2: a quarter */
-    detectors->diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &m, 1, 1, i_n, i_z); /* the further one has not */
+    detectors->diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &m, 1, 1, i_n,
+                               i_z); /* the further one has not */
     assert_near(i_z[0], 1);
     const dp_depth_measure both = {.scale = 1, .both_sides = true};
     detectors->diagonal_scaled(n, n, n, rows_at(z, 3, 2, 1), &both, 1, 1, i_n, i_z);
@@ -111,10 +120,12 @@ static void slopes_are_no_steps(void **state) {
     /* a quarter of a step: normals (here 0: at right angles) count three quarters */
     assert_near(i_n[0], 1 - 0.5 * (0.75 + 0.75));
     float slope[1] = {0}, sum[1] = {0};
-    for (int pass = 0; pass < 3; pass++) detectors->c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
+    for (int pass = 0; pass < 3; pass++)
+        detectors->c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
     assert_near(sum[0], 0.5 * 4 / 8);
     slope[0] = 0.25f, sum[0] = 0;
-    for (int pass = 0; pass < 3; pass++) detectors->c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
+    for (int pass = 0; pass < 3; pass++)
+        detectors->c1_scaled(rows_at(z, 2, 2, 1), slope, &m, pass, 1, 1, sum);
     assert_near(sum[0], 0.25 * 4 / 8);
 }
 
@@ -129,20 +140,27 @@ static void wider_vectors_give_the_same_bits(void **state) {
         for (int y = 0; y < 9; y++)
             for (int x = 0; x < ROW; x++) {
                 seed = seed * 1664525u + 1013904223u;
-                planes[p][y][x] = (float)(seed >> 8) / (1 << 24) * (p < 3 ? 2 : 9) - (p < 3 ? 1 : 0);
+                planes[p][y][x] =
+                    (float)(seed >> 8) / (1 << 24) * (p < 3 ? 2 : 9) - (p < 3 ? 1 : 0);
                 if (p == 3 && seed % 13 == 0) planes[p][y][x] = DP_FAR;
             }
     for (uint32_t k = 0, n = dp_kernels_list(list); k < n; k++) {
-        const dp_detectors *const wide = dp_detectors_for(list[k]->lanes), *const base = &dp_detectors_plain;
+        const dp_detectors *const wide = dp_detectors_for(list[k]->lanes), *const base =
+                                                                               &dp_detectors_plain;
         for (int r = 1; r <= 4; r++)
             for (int mode = 0; mode < 4; mode++) {
-                const dp_depth_measure m = {.scale = 0.7f, .perspective = mode & 1, .both_sides = mode & 2};
+                const dp_depth_measure m = {
+                    .scale = 0.7f, .perspective = mode & 1, .both_sides = mode & 2};
                 const dp_rays rays = {mode & 1, 20, 30, 40, 50};
                 dp_rows rows[4];
                 float a[2][LENGTH] = {{0}}, b[2][LENGTH] = {{0}};
-                for (int p = 0; p < 4; p++) rows[p] = (dp_rows){&planes[p][4 - r][4], &planes[p][4][4], &planes[p][4 + r][4]};
-                base->diagonal_scaled(rows[0], rows[1], rows[2], rows[3], &m, r, LENGTH, a[0], a[1]);
-                wide->diagonal_scaled(rows[0], rows[1], rows[2], rows[3], &m, r, LENGTH, b[0], b[1]);
+                for (int p = 0; p < 4; p++)
+                    rows[p] =
+                        (dp_rows){&planes[p][4 - r][4], &planes[p][4][4], &planes[p][4 + r][4]};
+                base->diagonal_scaled(rows[0], rows[1], rows[2], rows[3], &m, r, LENGTH, a[0],
+                                      a[1]);
+                wide->diagonal_scaled(rows[0], rows[1], rows[2], rows[3], &m, r, LENGTH, b[0],
+                                      b[1]);
                 assert_memory_equal(a, b, sizeof a);
                 base->diagonal_normals(rows[0], rows[1], rows[2], r, LENGTH, a[0]);
                 wide->diagonal_normals(rows[0], rows[1], rows[2], r, LENGTH, b[0]);
@@ -172,15 +190,20 @@ typedef struct planes {
     uint16_t id[H][W];
 } planes;
 
-static dp_result draw_planes(uint32_t threads, const dp_batch *batch, const dp_camera *camera, const dp_style *style,
-                             planes *out, dp_diag *diag) {
+static dp_result draw_planes(uint32_t threads, const dp_batch *batch, const dp_camera *camera,
+                             const dp_style *style, planes *out, dp_diag *diag) {
     const dp_context_desc desc = {.threads = threads};
     dp_context *context = NULL;
     dp_source *source = NULL;
     assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
     assert_int_equal(dp_source_from_arrays(batch, NULL, &source, NULL), DP_OK);
-    const dp_target target = {.width = W, .height = H, .rgba = out->rgba[0][0], .eye_normal = out->normal[0][0],
-                              .distance = out->distance[0], .id = out->id[0], .edge_map = out->map[0][0]};
+    const dp_target target = {.width = W,
+                              .height = H,
+                              .rgba = out->rgba[0][0],
+                              .eye_normal = out->normal[0][0],
+                              .distance = out->distance[0],
+                              .id = out->id[0],
+                              .edge_map = out->map[0][0]};
     memset(out, 0xcd, sizeof *out);
     dp_result result = dp_draw(context, source, camera, style, &target, diag);
     if (!result) { /* again: what stays from frame to frame makes no difference */
@@ -194,7 +217,8 @@ static dp_result draw_planes(uint32_t threads, const dp_batch *batch, const dp_c
     return result;
 }
 
-static const dp_style with_map = {.lines = DP_NO_LINES, .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL}};
+static const dp_style with_map = {.lines = DP_NO_LINES,
+                                  .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL}};
 
 /* A box before a wall, both face on; (0, 0) is the picture's middle. */
 static void make_box(scene *s) {
@@ -219,7 +243,8 @@ static void a_box_face_on(void **state) {
             const bool rim = in && (x == left || x == right - 1 || y == top || y == bottom - 1);
             assert_int_equal(p.id[y][x], in);
             assert_true(in ? p.distance[y][x] == z : isinf(p.distance[y][x]));
-            assert_true(p.normal[y][x][0] == 0 && p.normal[y][x][1] == 0 && p.normal[y][x][2] == (in ? 1.0f : 0));
+            assert_true(p.normal[y][x][0] == 0 && p.normal[y][x][1] == 0 &&
+                        p.normal[y][x][2] == (in ? 1.0f : 0));
             assert_int_equal(p.map[y][x][0], 255); /* no inner edges */
             assert_int_equal(p.map[y][x][3], rim ? 0 : 255);
             assert_int_equal(p.rgba[y][x][0], rim ? 0 : 255);
@@ -257,7 +282,8 @@ static void distance_is_linear_whatever_near_and_far_are(void **state) {
     assert_true(seen > 30);
 }
 
-/* Grazing surfaces and far ones: no edges but the outline. As printed the floor's far end has some. */
+/* Grazing surfaces and far ones: no edges but the outline. As printed the floor's far end has some.
+ */
 static void slopes_make_no_false_edges(void **state) {
     (void)state;
     static scene s;
@@ -273,12 +299,16 @@ static void slopes_make_no_false_edges(void **state) {
         assert_int_equal(draw_planes(1, &batch, &camera, &style, &p, NULL), DP_OK);
         for (int y = 2; y < H - 2; y++)
             for (int x = 0; x < W; x++)
-                if (p.id[y - 2][x] && p.id[y + 2][x] && (p.map[y][x][0] != 255 || p.map[y][x][3] != 255)) fail_msg("detector %d, (%d, %d): %d %d, distance %g", detector, x, y, p.map[y][x][0], p.map[y][x][3], (double)p.distance[y][x]);
+                if (p.id[y - 2][x] && p.id[y + 2][x] &&
+                    (p.map[y][x][0] != 255 || p.map[y][x][3] != 255))
+                    fail_msg("detector %d, (%d, %d): %d %d, distance %g", detector, x, y,
+                             p.map[y][x][0], p.map[y][x][3], (double)p.distance[y][x]);
         style.edge_map.as_printed = true;
         assert_int_equal(draw_planes(1, &batch, &camera, &style, &p, NULL), DP_OK);
         int false_edges = 0;
         for (int y = 2; y < H - 2; y++)
-            for (int x = 0; x < W; x++) false_edges += p.id[y - 2][x] && p.id[y + 2][x] && p.map[y][x][3] < 250;
+            for (int x = 0; x < W; x++)
+                false_edges += p.id[y - 2][x] && p.id[y + 2][x] && p.map[y][x][3] < 250;
         assert_true(false_edges > 100);
     }
 }
@@ -297,7 +327,8 @@ static void creases_are_inner_edges(void **state) {
         assert_int_equal(draw_planes(1, &batch, &camera, &style, &p, NULL), DP_OK);
         int inner = 0;
         for (int x = W / 2 - 2; x < W / 2 + 2; x++) inner += p.map[H / 2][x][0] < 128;
-        assert_int_equal(inner, dihedral <= 140 ? 2 : 0); /* folds of 40 degrees are past half their strength */
+        assert_int_equal(
+            inner, dihedral <= 140 ? 2 : 0); /* folds of 40 degrees are past half their strength */
         for (int x = W / 2 + 4; x < W / 2 + 9; x++) assert_int_equal(p.map[H / 2][x][0], 255);
     }
 }
@@ -315,17 +346,22 @@ static void eight_bits_are_coarse(void **state) {
     style.edge_map.eight_bits = true;
     assert_int_equal(draw_planes(2, &batch, &camera, &style, &p, NULL), DP_OK);
     int steps = 0;
-    for (int x = W / 2 - 80; x < W / 2 + 80; x++) steps += p.distance[H / 2][x] != p.distance[H / 2][x + 1];
-    assert_true(steps > 100 && steps <= 160); /* 255 steps over 180 px: not every px has a new one … */
+    for (int x = W / 2 - 80; x < W / 2 + 80; x++)
+        steps += p.distance[H / 2][x] != p.distance[H / 2][x + 1];
+    assert_true(steps > 100 &&
+                steps <= 160); /* 255 steps over 180 px: not every px has a new one … */
     const float step = 180.0f / 255, first = p.distance[H / 2][W / 2];
-    for (int x = W / 2 - 80; x < W / 2 + 80; x++) { /* … and all lie on the lattice of near and far */
+    for (int x = W / 2 - 80; x < W / 2 + 80;
+         x++) { /* … and all lie on the lattice of near and far */
         const float off = (p.distance[H / 2][x] - first) / step;
         assert_true(fabsf(off - roundf(off)) < 1e-3f);
     }
-    assert_true(fabsf(p.normal[H / 2][W / 2][0] * 127.5f + 127.5f - roundf(p.normal[H / 2][W / 2][0] * 127.5f + 127.5f)) < 1e-3f);
+    assert_true(fabsf(p.normal[H / 2][W / 2][0] * 127.5f + 127.5f -
+                      roundf(p.normal[H / 2][W / 2][0] * 127.5f + 127.5f)) < 1e-3f);
 }
 
-/* Two squares in one plane, of two groups: only their border is an edge; of one that is not enhanced, none. */
+/* Two squares in one plane, of two groups: only their border is an edge; of one that is not
+ * enhanced, none. */
 static void groups_meet_in_profile_edges(void **state) {
     (void)state;
     static scene s;
@@ -342,7 +378,8 @@ static void groups_meet_in_profile_edges(void **state) {
     dp_style style = with_map;
     assert_int_equal(draw_planes(1, &batch, &camera, &style, &p, NULL), DP_OK);
     assert_true(p.id[H / 2][W / 2 - 1] == 5 && p.id[H / 2][W / 2] == 8);
-    assert_true(p.map[H / 2][W / 2 - 1][3] == 255 && p.map[H / 2][W / 2][3] == 0); /* the larger number's side */
+    assert_true(p.map[H / 2][W / 2 - 1][3] == 255 &&
+                p.map[H / 2][W / 2][3] == 0); /* the larger number's side */
     style.edge_map.no_groups = true;
     assert_int_equal(draw_planes(1, &batch, &camera, &style, &p, NULL), DP_OK);
     assert_int_equal(p.map[H / 2][W / 2][3], 255);
@@ -373,7 +410,8 @@ static void bad_normals_make_sound_pictures(void **state) {
     const dp_camera camera = scene_camera(40, 60, 90, 0, 0, 0);
     static float normals[SCENE_CORNERS][3], turned[SCENE_CORNERS][3];
     for (size_t c = 0; c < s.corners; c++) {
-        static const float bad[5][3] = {{NAN, 0, 0}, {0, 0, 0}, {INFINITY, 1, 0}, {1e30f, -1e30f, 1e30f}, {1e-30f, 0, 1e-38f}};
+        static const float bad[5][3] = {
+            {NAN, 0, 0}, {0, 0, 0}, {INFINITY, 1, 0}, {1e30f, -1e30f, 1e30f}, {1e-30f, 0, 1e-38f}};
         memcpy(normals[c], bad[c % 5], sizeof *normals);
     }
     batch.normals = (dp_attribute){.values = normals[0], .count = s.corners};
@@ -388,7 +426,9 @@ static void bad_normals_make_sound_pictures(void **state) {
     /* normals that contradict the winding, of any length: as if they did not */
     for (size_t f = 0; f < s.polygons; f++)
         for (uint32_t c = s.firsts[f]; c < s.firsts[f + 1]; c++) {
-            const float *const a = s.positions[s.firsts[f]], *const b = s.positions[s.firsts[f] + 1], *const d = s.positions[s.firsts[f] + 2];
+            const float *const a = s.positions[s.firsts[f]],
+                               *const b = s.positions[s.firsts[f] + 1],
+                               *const d = s.positions[s.firsts[f] + 2];
             float n[3];
             for (int k = 0; k < 3; k++) {
                 const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -401,7 +441,8 @@ static void bad_normals_make_sound_pictures(void **state) {
     assert_int_equal(draw_planes(2, &batch, &camera, &with_map, &p, NULL), DP_OK);
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++)
-            for (int k = 0; k < 3; k++) assert_true(fabsf(p.normal[y][x][k] - sound.normal[y][x][k]) < 1e-5f);
+            for (int k = 0; k < 3; k++)
+                assert_true(fabsf(p.normal[y][x][k] - sound.normal[y][x][k]) < 1e-5f);
     assert_finite(&p);
 }
 
@@ -410,7 +451,8 @@ static void clipped_polygons_have_their_normals(void **state) {
     static scene s;
     static planes p;
     memset(&s, 0, sizeof s);
-    const float floor[4][3] = {{-1e4f, -6, 1e4f}, {1e4f, -6, 1e4f}, {1e4f, -6, -1e4f}, {-1e4f, -6, -1e4f}};
+    const float floor[4][3] = {
+        {-1e4f, -6, 1e4f}, {1e4f, -6, 1e4f}, {1e4f, -6, -1e4f}, {-1e4f, -6, -1e4f}};
     scene_polygon(&s, 4, floor);
     dp_batch batch = scene_batch(&s);
     static const float normals[4][3] = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
@@ -422,7 +464,8 @@ static void clipped_polygons_have_their_normals(void **state) {
     for (int y = 0; y < H; y++) {
         if (!p.id[y][10]) continue;
         for (int x = 1; x < W; x++)
-            for (int k = 0; k < 3; k++) assert_true(fabsf(p.normal[y][x][k] - p.normal[y][0][k]) < 1e-4f);
+            for (int k = 0; k < 3; k++)
+                assert_true(fabsf(p.normal[y][x][k] - p.normal[y][0][k]) < 1e-4f);
         seen++;
     }
     assert_true(seen > H / 2);
@@ -433,11 +476,16 @@ static void absurd_numbers_are_refused(void **state) {
     static const struct {
         size_t at;
         float value;
-    } bad[] = {{offsetof(dp_style, edge_map.inner_angle), -1},       {offsetof(dp_style, edge_map.inner_angle), NAN},
-               {offsetof(dp_style, edge_map.inner_angle), 200},      {offsetof(dp_style, edge_map.profile_depth), INFINITY},
-               {offsetof(dp_style, edge_map.profile_softness), -1},  {offsetof(dp_style, edge_map.inner_softness), 3},
-               {offsetof(dp_style, shade.crease_angle), 181},        {offsetof(dp_style, shade.highlight), 2},
-               {offsetof(dp_style, shade.stroke_scale), -1},         {offsetof(dp_style, shade.light), NAN},
+    } bad[] = {{offsetof(dp_style, edge_map.inner_angle), -1},
+               {offsetof(dp_style, edge_map.inner_angle), NAN},
+               {offsetof(dp_style, edge_map.inner_angle), 200},
+               {offsetof(dp_style, edge_map.profile_depth), INFINITY},
+               {offsetof(dp_style, edge_map.profile_softness), -1},
+               {offsetof(dp_style, edge_map.inner_softness), 3},
+               {offsetof(dp_style, shade.crease_angle), 181},
+               {offsetof(dp_style, shade.highlight), 2},
+               {offsetof(dp_style, shade.stroke_scale), -1},
+               {offsetof(dp_style, shade.light), NAN},
                {offsetof(dp_style, shade.gooch_alpha), -0.1f}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         dp_style style = {0}, resolved;
@@ -450,8 +498,10 @@ static void absurd_numbers_are_refused(void **state) {
     assert_int_equal(dp_style_resolve(&style, &resolved, NULL), DP_ERR_ARGUMENT);
     const dp_style fine = {0};
     assert_int_equal(dp_style_resolve(&fine, &resolved, NULL), DP_OK);
-    assert_int_equal(dp_style_resolve(&resolved, &style, NULL), DP_OK); /* stays so when resolved twice */
-    assert_true(style.edge_map.inner_angle == resolved.edge_map.inner_angle && style.shade.crease_angle == 40);
+    assert_int_equal(dp_style_resolve(&resolved, &style, NULL),
+                     DP_OK); /* stays so when resolved twice */
+    assert_true(style.edge_map.inner_angle == resolved.edge_map.inner_angle &&
+                style.shade.crease_angle == 40);
 }
 
 static void threads_make_no_difference(void **state) {
@@ -464,8 +514,12 @@ static void threads_make_no_difference(void **state) {
     const dp_batch batch = scene_batch(&s);
     const dp_camera camera = scene_camera(50, 40, 90, 0, 0, 0);
     for (int shading = 0; shading < DP_SHADING_COUNT; shading++) {
-        dp_style style = {.shade = {.shading = (dp_shading)shading, .highlight = 0.5f, .object_space = shading % 2},
-                          .edge_map = {.detector = shading % 2 ? DP_EDGE_MAP_C1 : DP_EDGE_MAP_DIAGONAL, .radius = 1 + (uint32_t)shading % 4}};
+        dp_style style = {
+            .shade = {.shading = (dp_shading)shading,
+                      .highlight = 0.5f,
+                      .object_space = shading % 2},
+            .edge_map = {.detector = shading % 2 ? DP_EDGE_MAP_C1 : DP_EDGE_MAP_DIAGONAL,
+                         .radius = 1 + (uint32_t)shading % 4}};
         assert_int_equal(draw_planes(1, &batch, &camera, &style, &one, NULL), DP_OK);
         assert_int_equal(draw_planes(7, &batch, &camera, &style, &many, NULL), DP_OK);
         assert_memory_equal(&one, &many, sizeof one);

@@ -1,5 +1,6 @@
-/* pipe/edge_table.c: edges that the table takes for one at first, as their keys have what it compares in common, are
- * told apart, and edges around flat vertices are not listed at all, by kernels of any width. */
+/* pipe/edge_table.c: edges that the table takes for one at first, as their keys have what it
+ * compares in common, are told apart, and edges around flat vertices are not listed at all, by
+ * kernels of any width. */
 #include "base/hostile.h"
 #include "kernel/kernels.h"
 #include "pipe/edge_table.h"
@@ -25,8 +26,11 @@ typedef struct scene {
 static void add_triangle(scene *s, uint32_t a, uint32_t b, uint32_t c) {
     dp_tile_worker *const w = &s->worker;
     const uint32_t key[3] = {a, b, c}, t = s->count++;
-    w->polygons[t] = (dp_tile_polygon){.id = t, .point = 3 * t, .points = 3,
-                                       .flags = DP_POLYGON_FRONT | DP_POLYGON_TOUCHES | DP_POLYGON_NEAR * 7};
+    w->polygons[t] =
+        (dp_tile_polygon){.id = t,
+                          .point = 3 * t,
+                          .points = 3,
+                          .flags = DP_POLYGON_FRONT | DP_POLYGON_TOUCHES | DP_POLYGON_NEAR * 7};
     for (uint32_t k = 0; k < 3; k++) {
         w->points[3 * t + k] = (dp_vertex){.x = (float)k, .y = (float)(k * k), .key = key[k]};
         w->keys[k * w->keys_stride + t] = key[k];
@@ -39,12 +43,16 @@ static void begin(scene *s, const dp_kernels *kernels) {
     static const float positions[3 * MOST][3];
     dp_tile_worker *const w = &s->worker;
     *s = (scene){.frame = {.kernels = kernels, .flat_cosine = 2}};
-    s->frame.polygons = (dp_polygons){.positions = positions[0], .stride = sizeof *positions, .vertex_count = 3 * MOST, .count = MOST};
+    s->frame.polygons = (dp_polygons){.positions = positions[0],
+                                      .stride = sizeof *positions,
+                                      .vertex_count = 3 * MOST,
+                                      .count = MOST};
     s->frame.vertices = s->vertices;
     w->frame = &s->frame;
     w->memory = dp_allocator_resolve(NULL);
     w->keys_stride = MOST + DP_SEEN_ROOM;
-    assert_true(DP_WORKER_RESERVE(w, polygons, polygons_cap, (size_t)MOST) && DP_WORKER_RESERVE(w, points, points_cap, (size_t)3 * MOST) &&
+    assert_true(DP_WORKER_RESERVE(w, polygons, polygons_cap, (size_t)MOST) &&
+                DP_WORKER_RESERVE(w, points, points_cap, (size_t)3 * MOST) &&
                 DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)MOST + 16) &&
                 DP_WORKER_RESERVE(w, keys, keys_cap, 3 * (size_t)w->keys_stride));
 }
@@ -58,7 +66,8 @@ static void fill(scene *s) {
 
 /* The partner of an edge; UINT32_MAX: none. Fails where the edge has not been told of. */
 static uint32_t partner_of(const scene *s, uint32_t polygon, uint32_t edge, bool more) {
-    for (uint32_t n = dp_edge_table_next(&s->worker, 0); n != UINT32_MAX; n = dp_edge_table_next(&s->worker, n + 1)) {
+    for (uint32_t n = dp_edge_table_next(&s->worker, 0); n != UINT32_MAX;
+         n = dp_edge_table_next(&s->worker, n + 1)) {
         const dp_edge_entry e = dp_edge_table_entry(&s->worker, n);
         if (e.a != polygon || e.edge_a != edge) continue;
         assert_int_equal(e.more != 0, more);
@@ -112,12 +121,15 @@ static void same_way(scene *s) {
 /* The key of vertex `i`: where umbrellas lie apart. */
 static uint32_t spread_key(uint32_t i) { return (i + 1) * 0x9e3779b1u; }
 
-static void begin_calm(scene *s) { s->frame.calm_spread = 0.25f * DP_UMBRELLA_ONE * DP_UMBRELLA_ONE; }
+static void begin_calm(scene *s) {
+    s->frame.calm_spread = 0.25f * DP_UMBRELLA_ONE * DP_UMBRELLA_ONE;
+}
 
 /* Around vertex 0, vertices 1 to 6 in a ring; all flat. Vertices of the ring are open. */
 static void add_umbrella(scene *s, uint32_t triangles) {
     begin_calm(s);
-    for (uint32_t i = 0; i < triangles; i++) add_triangle(s, spread_key(0), spread_key(1 + i), spread_key(1 + (i + 1) % 6));
+    for (uint32_t i = 0; i < triangles; i++)
+        add_triangle(s, spread_key(0), spread_key(1 + i), spread_key(1 + (i + 1) % 6));
 }
 
 static void set_normal(scene *s, uint32_t triangle, float x, float kind) {
@@ -131,7 +143,9 @@ static uint32_t count_spokes(scene *s) {
     const dp_edge_list *const list = &s->worker.edges;
     s->worker.polygon_count = s->count;
     assert_true(dp_tile_see(&s->worker, false) && dp_edge_table_list(&s->worker));
-    for (uint32_t i = 0; i < list->count; i++) spokes += list->from[i] == spread_key(0) || (list->from[i] ^ list->name[i]) == spread_key(0);
+    for (uint32_t i = 0; i < list->count; i++)
+        spokes +=
+            list->from[i] == spread_key(0) || (list->from[i] ^ list->name[i]) == spread_key(0);
     return spokes;
 }
 
@@ -164,7 +178,8 @@ static void bent(scene *s) {
     assert_int_equal(count_spokes(s), 12);
 }
 
-/* Whose normal is unknown is bent, and its normal is asked for; one that is rough is asked for only where edges are listed. */
+/* Whose normal is unknown is bent, and its normal is asked for; one that is rough is asked for only
+ * where edges are listed. */
 static void unknown(scene *s) {
     add_umbrella(s, 6);
     set_normal(s, 2, 0, DP_UNKNOWN);
@@ -225,7 +240,9 @@ static void for_all_kernels(void **state) {
 }
 
 int main(void) {
-    static trial trials[] = {{tells_apart}, {pairs_apart}, {fans_apart}, {same_way}, {calm}, {open_umbrella}, {bent}, {unknown}, {wound_wrongly}, {clipped}, {same_slot}};
+    static trial trials[] = {{tells_apart},   {pairs_apart},   {fans_apart}, {same_way},
+                             {calm},          {open_umbrella}, {bent},       {unknown},
+                             {wound_wrongly}, {clipped},       {same_slot}};
     const struct CMUnitTest tests[] = {
         {"edges of one name are told apart", for_all_kernels, NULL, NULL, &trials[0]},
         {"pairs of one name are told apart", for_all_kernels, NULL, NULL, &trials[1]},

@@ -28,7 +28,8 @@ static dp_view view_of(bool perspective) {
     assert_int_equal(dp_camera_look_at(&camera, eye, target, up), DP_OK);
     const double fov = 2 * atan(1.0) * 180 / PI; /* 20 units at distance 10 */
     assert_int_equal(perspective ? dp_camera_perspective(&camera, fov, 1, 0.1, 100)
-                                 : dp_camera_orthographic(&camera, 20, 1, 0.1, 100), DP_OK);
+                                 : dp_camera_orthographic(&camera, 20, 1, 0.1, 100),
+                     DP_OK);
     assert_int_equal(dp_view_init(&view, &camera, SIZE, SIZE, NULL), DP_OK);
     return view;
 }
@@ -48,11 +49,16 @@ static void set_polygon(polygon *p, bool perspective, const double (*corners)[3]
         p->clip[i] = dp_to_clip(&p->view, p->world[i]);
     }
     for (uint32_t i = 2; i < n; i++)
-        sum = dp_add(sum, dp_cross(dp_sub(p->world[i - 1], p->world[0]), dp_sub(p->world[i], p->world[0])));
+        sum = dp_add(
+            sum, dp_cross(dp_sub(p->world[i - 1], p->world[0]), dp_sub(p->world[i], p->world[0])));
     const dp_vec3 normal = dp_unit(sum);
-    p->primitive = (dp_primitive){.view = &p->view, .n = n, .world = p->world, .clip = p->clip,
-                                  .normal = normal,
-                                  .front = dp_dot(normal, dp_view_vector(&p->view, p->world[0])) < 0};
+    p->primitive =
+        (dp_primitive){.view = &p->view,
+                       .n = n,
+                       .world = p->world,
+                       .clip = p->clip,
+                       .normal = normal,
+                       .front = dp_dot(normal, dp_view_vector(&p->view, p->world[0])) < 0};
 }
 
 /* A unit square in the plane z = 0, edge 0 along its bottom (front) or turned over (back). */
@@ -116,7 +122,8 @@ static void silhouette_is_a_band_beside_the_edge(void **state) {
         const dp_pen pen = pen_at(DP_METHOD_EXACT, 140);
         set_polygon(&p, perspective, behind, 4);
         assert_false(p.primitive.front);
-        /* edge 3 runs from (1, 0) to (0, 0): the fin lies below it, 6 px wide, in the plane z = 0 */
+        /* edge 3 runs from (1, 0) to (0, 0): the fin lies below it, 6 px wide, in the plane z = 0
+         */
         const uint32_t count = dp_shade_silhouette(&p.primitive, 3, &pen, out);
         assert_true(count >= 1 && out[0].count == 4);
         assert_point(out[0].points[0], 220, 200);
@@ -143,7 +150,8 @@ static void only_the_right_facing_adds(void **state) {
     set_polygon(&front, true, facing, 4);
     set_polygon(&back, true, behind, 4);
     for (int method = DP_METHOD_EXACT; method <= DP_METHOD_PAPER; method++) {
-        const dp_pen ridge = pen_at((dp_method)method, 140), valley = pen_at((dp_method)method, 220);
+        const dp_pen ridge = pen_at((dp_method)method, 140),
+                     valley = pen_at((dp_method)method, 220);
         assert_int_equal(dp_shade_silhouette(&front.primitive, 0, &ridge, out), 0);
         assert_true(dp_shade_silhouette(&back.primitive, 0, &ridge, out) > 0);
         assert_true(dp_shade_ridge(&front.primitive, 0, &ridge, out) > 0);
@@ -215,7 +223,8 @@ static void edge_on_polygons_stay_bounded(void **state) {
     const dp_pen pen = pen_at(DP_METHOD_EXACT, 140);
     const uint32_t near_edge = 3, far_edge = 1, eye_edge = 0;
     assert_int_equal(dp_shade_silhouette(&p.primitive, far_edge, &pen, out), 0);
-    assert_int_equal(dp_shade_silhouette(&p.primitive, eye_edge, &pen, out), 0); /* a point on the screen */
+    assert_int_equal(dp_shade_silhouette(&p.primitive, eye_edge, &pen, out),
+                     0); /* a point on the screen */
     assert_int_equal(dp_shade_silhouette(&p.primitive, near_edge, &pen, out), 1);
     assert_point(out[0].points[2], 206, 200); /* to +x, where the normal points */
     assert_close(depth_at(&out[0], 206, 190), -10 + DP_STEEPEST * 6 / 20, 1e-9);
@@ -303,7 +312,8 @@ static void paper_quads_facing_away_are_culled(void **state) {
 
 /* ------- safety ------- */
 
-static void check_added(const polygon *p, uint32_t edge, const dp_added *out, uint32_t count, double reach) {
+static void check_added(const polygon *p, uint32_t edge, const dp_added *out, uint32_t count,
+                        double reach) {
     dp_screen_edge e;
     if (count > 0) assert_true(dp_screen_edge_make(&p->primitive, edge, &e));
     for (uint32_t i = 0; i < count; i++) {
@@ -311,14 +321,17 @@ static void check_added(const polygon *p, uint32_t edge, const dp_added *out, ui
         assert_true(isfinite(out[i].d0) && isfinite(out[i].dx) && isfinite(out[i].dy));
         assert_false(isnan(out[i].nearest));
         for (uint32_t k = 0; k < out[i].count; k++)
-            assert_true(isfinite(out[i].points[k].x) && isfinite(out[i].points[k].y) && isfinite(out[i].points[k].d));
+            assert_true(isfinite(out[i].points[k].x) && isfinite(out[i].points[k].y) &&
+                        isfinite(out[i].points[k].d));
         assert_true(furthest(&out[i], &e) <= reach + 1e-3);
     }
 }
 
-/* Every shader, both methods: nothing is infinite, and nothing reaches further than binning knows. */
+/* Every shader, both methods: nothing is infinite, and nothing reaches further than binning knows.
+ */
 static void check_all(const polygon *p) {
-    static dp_primitive_shader *const shaders[] = {dp_shade_silhouette, dp_shade_ridge, dp_shade_valley};
+    static dp_primitive_shader *const shaders[] = {dp_shade_silhouette, dp_shade_ridge,
+                                                   dp_shade_valley};
     static const double angles[] = {0.01, 20, 89.99, 90, 140, 180, 220, 270, 359.99};
     for (int s = 0; s < 3; s++)
         for (int method = DP_METHOD_EXACT; method <= DP_METHOD_PAPER; method++)
@@ -328,14 +341,16 @@ static void check_all(const polygon *p) {
                     const dp_pen pen = pen_at((dp_method)method, angles[a]);
                     const uint32_t count = shaders[s](&p->primitive, edge, &pen, out);
                     assert_true(count <= DP_ADDED_MOST);
-                    check_added(p, edge, out, count, pen.reach * (method == DP_METHOD_PAPER ? DP_PAPER_MARGIN : 1));
+                    check_added(p, edge, out, count,
+                                pen.reach * (method == DP_METHOD_PAPER ? DP_PAPER_MARGIN : 1));
                 }
 }
 
 /* A square turned through all directions, near and far, before, beside and behind the eye. */
 static void nothing_blows_up(void **state) {
-    static const double centres[][3] = {{0, 0, 0}, {3, 2, 9}, {0, 0, 9.95}, {0, 0, 10}, {0.5, 0, 10.2},
-                                        {0, 0, 12}, {40, 0, 9}, {-9, 9, 0}, {0, 0, -85}};
+    static const double centres[][3] = {{0, 0, 0},  {3, 2, 9},      {0, 0, 9.95},
+                                        {0, 0, 10}, {0.5, 0, 10.2}, {0, 0, 12},
+                                        {40, 0, 9}, {-9, 9, 0},     {0, 0, -85}};
     (void)state;
     for (int perspective = 0; perspective < 2; perspective++)
         for (size_t c = 0; c < sizeof centres / sizeof *centres; c++)
@@ -370,10 +385,11 @@ static void tiny_edges_are_skipped(void **state) {
 /* ------- intersections ------- */
 
 static void polygons_that_share_a_position_touch(void **state) {
-    static const float positions[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -0.0f, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
+    static const float positions[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -0.0f, 0},
+                                          {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
     static const uint32_t corners[9] = {0, 1, 2, 3, 4, 5, 4, 5, 6};
-    const dp_polygons polygons = {.positions = positions[0], .stride = 12, .vertex_count = 7,
-                                  .corners = corners, .count = 3};
+    const dp_polygons polygons = {
+        .positions = positions[0], .stride = 12, .vertex_count = 7, .corners = corners, .count = 3};
     (void)state;
     assert_true(dp_polygons_touch(&polygons, 0, 1)); /* another vertex at the same place */
     assert_true(dp_polygons_touch(&polygons, 1, 2));

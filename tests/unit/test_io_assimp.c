@@ -58,7 +58,8 @@ static void materials_are_colours(void **state) {
     assert_int_equal(dp_source_group_color(source, 77), 0);
     dp_source_destroy(source);
     unlink(path);
-    assert_int_equal(dp_io_open(DP_TESTS_DIR "/fuzz/corpus/obj/plain.obj", NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_io_open(DP_TESTS_DIR "/fuzz/corpus/obj/plain.obj", NULL, &source, NULL),
+                     DP_OK);
     assert_int_equal(dp_source_group_color(source, 0), 0);
     dp_source_destroy(source);
 }

@@ -1,4 +1,5 @@
-/* io/mtl: the colours of an OBJ's materials, where libraries are looked for, and what is wrong with them. */
+/* io/mtl: the colours of an OBJ's materials, where libraries are looked for, and what is wrong with
+ * them. */
 #include "reading.h"
 
 #include "io/mtl.h"
@@ -11,7 +12,9 @@ static uint32_t color_in(const char *library, const char *material) {
     dp_materials m;
     dp_stream *stream = NULL;
     uint16_t number;
-    assert_int_equal(dp_stream_open_memory(library, strlen(library), 2 * DP_STREAM_AHEAD, NULL, &stream, NULL), DP_OK);
+    assert_int_equal(
+        dp_stream_open_memory(library, strlen(library), 2 * DP_STREAM_AHEAD, NULL, &stream, NULL),
+        DP_OK);
     dp_materials_init(&m, &memory);
     assert_true(dp_read_mtl(stream, &m));
     assert_true(dp_materials_find(&m, material, &number));
@@ -23,18 +26,34 @@ static uint32_t color_in(const char *library, const char *material) {
 
 static void kd_is_the_colour(void **state) {
     (void)state;
-    assert_int_equal(color_in("newmtl a\nKd 1 0.5 0\nnewmtl b\nKa 0 0 0\nKd 0 0 1\n", "a"), 0xFF8000FF);
-    assert_int_equal(color_in("newmtl a\nKd 1 0.5 0\nnewmtl b\nKa 0 0 0\nKd 0 0 1\n", "b"), 0x0000FFFF);
-    assert_int_equal(color_in("\xef\xbb\xbfnewmtl dark  wood \r\n\tKd\t0.2 \\\n .4 6e-1 # brown\r\n", "dark  wood"), 0x336699FF);
+    assert_int_equal(color_in("newmtl a\nKd 1 0.5 0\nnewmtl b\nKa 0 0 0\nKd 0 0 1\n", "a"),
+                     0xFF8000FF);
+    assert_int_equal(color_in("newmtl a\nKd 1 0.5 0\nnewmtl b\nKa 0 0 0\nKd 0 0 1\n", "b"),
+                     0x0000FFFF);
+    assert_int_equal(
+        color_in("\xef\xbb\xbfnewmtl dark  wood \r\n\tKd\t0.2 \\\n .4 6e-1 # brown\r\n",
+                 "dark  wood"),
+        0x336699FF);
     assert_int_equal(color_in("newmtl a\rKd 1\r", "a"), 0xFFFFFFFF); /* one number is grey */
     assert_int_equal(color_in("newmtl a\nKd 7 -2 1e999\n", "a"), 0xFF00FFFF);
     assert_int_equal(color_in("newmtl a\nKd 0 0 0", "a"), 0x000000FF); /* black is a colour */
-    assert_int_equal(color_in("NEWMTL a\nKD 1 1 1\nnewmtl a\nkd 1 0 0\n", "a"), 0xFF0000FF); /* the last one holds */
+    assert_int_equal(color_in("NEWMTL a\nKD 1 1 1\nnewmtl a\nkd 1 0 0\n", "a"),
+                     0xFF0000FF); /* the last one holds */
 }
 
 static void what_is_broken_has_no_colour(void **state) {
-    static const char *const bodies[] = {"", "Kd\n", "Kd 1 1\n", "Kd red\n", "Kd nan 0 0\n", "Kd 1 x 1\n", "Kd spectral a.rfl 1\n",
-                                         "Kd xyz 1 1 1\n", "Kdx 1 1 1\n", "map_Kd a.png\n", "newmtl b\nKd 1 1 1\n", "Kd 1\x01 1 1\n"};
+    static const char *const bodies[] = {"",
+                                         "Kd\n",
+                                         "Kd 1 1\n",
+                                         "Kd red\n",
+                                         "Kd nan 0 0\n",
+                                         "Kd 1 x 1\n",
+                                         "Kd spectral a.rfl 1\n",
+                                         "Kd xyz 1 1 1\n",
+                                         "Kdx 1 1 1\n",
+                                         "map_Kd a.png\n",
+                                         "newmtl b\nKd 1 1 1\n",
+                                         "Kd 1\x01 1 1\n"};
     (void)state;
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
         char library[100];
@@ -68,7 +87,8 @@ static int make_folder(void **state) {
 }
 
 static int drop_folder(void **state) {
-    static const char *const names[] = {"model.obj", "red.mtl", "two words.mtl", "blue.mtl", "lib/green.mtl", "lib", "pipe", "-"};
+    static const char *const names[] = {"model.obj",     "red.mtl", "two words.mtl", "blue.mtl",
+                                        "lib/green.mtl", "lib",     "pipe",          "-"};
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[700];
@@ -106,12 +126,18 @@ static void libraries_lie_beside_the_model(void **state) {
     snprintf(path, sizeof path, "%s/lib", folder);
     assert_int_equal(mkdir(path, 0700), 0);
     put_file("lib/green.mtl", "newmtl m\nKd 0 1 0\n");
-    assert_int_equal(color_of("mtllib red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", false), 0xFF0000FF);
-    assert_int_equal(color_of("mtllib two words.mtl\r\nusemtl m\r\n" TRIANGLES "f 1 2 3\r\n", false), 0x00FFFFFF);
-    assert_int_equal(color_of("mtllib lib\\green.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", false), 0x00FF00FF);
-    assert_int_equal(color_of("mtllib red.mtl blue.mtl\nusemtl n\n" TRIANGLES "f 1 2 3\n", false), 0x0000FFFF);
+    assert_int_equal(color_of("mtllib red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", false),
+                     0xFF0000FF);
+    assert_int_equal(
+        color_of("mtllib two words.mtl\r\nusemtl m\r\n" TRIANGLES "f 1 2 3\r\n", false),
+        0x00FFFFFF);
+    assert_int_equal(color_of("mtllib lib\\green.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", false),
+                     0x00FF00FF);
+    assert_int_equal(color_of("mtllib red.mtl blue.mtl\nusemtl n\n" TRIANGLES "f 1 2 3\n", false),
+                     0x0000FFFF);
     assert_int_equal(color_of("mtllib -\nusemtl m\n" TRIANGLES "f 1 2 3\n", false), 0xFFFF00FF);
-    assert_int_equal(color_of("usemtl m\n" TRIANGLES "f 1 2 3\nmtllib red.mtl\n", false), 0xFF0000FF); /* named late */
+    assert_int_equal(color_of("usemtl m\n" TRIANGLES "f 1 2 3\nmtllib red.mtl\n", false),
+                     0xFF0000FF); /* named late */
     assert_int_equal(color_of("mtllib red.mtl\nusemtl other\n" TRIANGLES "f 1 2 3\n", false), 0);
     assert_int_equal(color_of("mtllib red.mtl\n" TRIANGLES "f 1 2 3\n", false), 0);
     snprintf(text, sizeof text, "mtllib %s/red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", folder);
@@ -120,7 +146,8 @@ static void libraries_lie_beside_the_model(void **state) {
 
 static void groups_have_their_material_s_colour(void **state) {
     (void)state;
-    dp_source *const source = open_model("mtllib red.mtl blue.mtl\n" TRIANGLES "o a\nf 1 2 3\nusemtl m\nf 1 2 3\nusemtl n\nf 1 2 3\n"
+    dp_source *const source = open_model("mtllib red.mtl blue.mtl\n" TRIANGLES
+                                         "o a\nf 1 2 3\nusemtl m\nf 1 2 3\nusemtl n\nf 1 2 3\n"
                                          "o b\nf 1 2 3\nusemtl m\nf 1 2 3\nusemtl none\nf 1 2 3\n");
     static const uint32_t wanted[] = {0, 0xFF0000FF, 0x0000FFFF, 0x0000FFFF, 0xFF0000FF, 0, 0};
     for (uint32_t g = 0; g < 7; g++) assert_int_equal(dp_source_group_color(source, g), wanted[g]);
@@ -132,12 +159,14 @@ static void missing_libraries_are_remarked(void **state) {
     char path[700];
     (void)state;
     assert_int_equal(color_of("mtllib gone.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", true), 0);
-    assert_int_equal(color_of("mtllib gone.mtl red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", true), 0xFF0000FF);
+    assert_int_equal(color_of("mtllib gone.mtl red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", true),
+                     0xFF0000FF);
     assert_int_equal(color_of("mtllib lib\nusemtl m\n" TRIANGLES "f 1 2 3\n", true), 0);
     assert_int_equal(color_of("mtllib\nmtllib \n" TRIANGLES "f 1 2 3\n", false), 0);
     snprintf(path, sizeof path, "%s/pipe", folder);
     assert_int_equal(mkfifo(path, 0600), 0);
-    assert_int_equal(color_of("mtllib pipe\nusemtl m\n" TRIANGLES "f 1 2 3\n", true), 0); /* and it was not waited for */
+    assert_int_equal(color_of("mtllib pipe\nusemtl m\n" TRIANGLES "f 1 2 3\n", true),
+                     0); /* and it was not waited for */
     dp_source *const source = open_model("mtllib go\x1bne.mtl\n" TRIANGLES "f 1 2 3\n");
     assert_contains(dp_source_remark(source), "no colours from go?ne.mtl: ");
     dp_source_destroy(source);
@@ -157,7 +186,8 @@ static void long_names_are_cut_alike(void **state) {
     assert_int_equal(color_of(text, false), 0xFF0000FF);
     memset(text, 'y', sizeof text - 1);
     memcpy(text, "mtllib ", 7);
-    memcpy(text + sizeof text - 60, ".mtl\n" TRIANGLES "f 1 2 3\n", strlen(".mtl\n" TRIANGLES "f 1 2 3\n") + 1);
+    memcpy(text + sizeof text - 60, ".mtl\n" TRIANGLES "f 1 2 3\n",
+           strlen(".mtl\n" TRIANGLES "f 1 2 3\n") + 1);
     assert_int_equal(color_of(text, true), 0);
 }
 
@@ -167,7 +197,9 @@ typedef struct ration {
     int left;
 } ration;
 
-static void *give(size_t size, void *user) { return ((ration *)user)->left-- > 0 ? malloc(size) : NULL; }
+static void *give(size_t size, void *user) {
+    return ((ration *)user)->left-- > 0 ? malloc(size) : NULL;
+}
 static void *give_again(void *block, size_t size, void *user) {
     return ((ration *)user)->left-- > 0 ? realloc(block, size) : NULL;
 }
@@ -181,7 +213,8 @@ static void memory_may_run_out(void **state) {
     dp_result result = DP_ERR_MEMORY;
     (void)state;
     put_file("red.mtl", "newmtl m\nKd 1 0 0\n");
-    dp_source_destroy(open_model("mtllib red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\nusemtl n\nf 1 2 3\n"));
+    dp_source_destroy(
+        open_model("mtllib red.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\nusemtl n\nf 1 2 3\n"));
     snprintf(path, sizeof path, "%s/model.obj", folder);
     for (int n = 0; result; n++) {
         ration r = {n};

@@ -1,7 +1,7 @@
 /* kernel/: vectors of any width give the bits of plain C; and what each kernel takes.
  *
- * Kernels that work on a whole tile are compared by the pictures and lines they make (test_determinism.c). With
- * DRYPOINT_BENCH in the environment, times are printed as well. */
+ * Kernels that work on a whole tile are compared by the pictures and lines they make
+ * (test_determinism.c). With DRYPOINT_BENCH in the environment, times are printed as well. */
 #include "kernel/kernels.h"
 #include "pipe/bin.h"
 #include "pipe/classify.h"
@@ -30,7 +30,8 @@ static uint32_t next_random(uint32_t *state) {
 }
 
 static void make_model(void) {
-    static const float odd[] = {0.0f, -0.0f, INFINITY, -INFINITY, NAN, 1e30f, -1e30f, 1e-40f, 3.4e38f};
+    static const float odd[] = {0.0f,  -0.0f,  INFINITY, -INFINITY, NAN,
+                                1e30f, -1e30f, 1e-40f,   3.4e38f};
     uint32_t seed = 7;
     for (int v = 0; v < VERTICES; v++)
         for (int k = 0; k < 3; k++) {
@@ -48,8 +49,10 @@ static dp_view make_view(bool orthographic) {
     dp_camera camera;
     dp_view view;
     assert_int_equal(dp_camera_look_at(&camera, eye, target, up), DP_OK);
-    if (orthographic) assert_int_equal(dp_camera_orthographic(&camera, 3, 1.5, 0.1, 10), DP_OK);
-    else assert_int_equal(dp_camera_perspective(&camera, 40, 1.5, 0.1, 10), DP_OK);
+    if (orthographic)
+        assert_int_equal(dp_camera_orthographic(&camera, 3, 1.5, 0.1, 10), DP_OK);
+    else
+        assert_int_equal(dp_camera_perspective(&camera, 40, 1.5, 0.1, 10), DP_OK);
     assert_int_equal(dp_view_init(&view, &camera, 1200, 800, NULL), DP_OK);
     return view;
 }
@@ -62,15 +65,18 @@ static double now_ns(void) {
 
 static void report(const char *what, const dp_kernels *kernels, double start, uint32_t count) {
     if (getenv("DRYPOINT_BENCH"))
-        print_message("%-10s %-7s %6.2f ns each\n", what, kernels->name, (now_ns() - start) / count / REPEATS);
+        print_message("%-10s %-7s %6.2f ns each\n", what, kernels->name,
+                      (now_ns() - start) / count / REPEATS);
 }
 
 /* x is NaN where a vertex must be clipped; its sign and payload mean nothing. */
-static void expect_same_vertices(const dp_vertex *a, const dp_vertex *b, uint32_t count, const char *name) {
+static void expect_same_vertices(const dp_vertex *a, const dp_vertex *b, uint32_t count,
+                                 const char *name) {
     for (uint32_t v = 0; v < count; v++) {
         const bool clipped = isnan(a[v].x);
         if (a[v].key != b[v].key) fail_msg("%s: vertex %u has another key", name, v);
-        if (clipped ? !isnan(b[v].x) : memcmp(&a[v], &b[v], sizeof a[v]) != 0) fail_msg("%s: vertex %u differs", name, v);
+        if (clipped ? !isnan(b[v].x) : memcmp(&a[v], &b[v], sizeof a[v]) != 0)
+            fail_msg("%s: vertex %u differs", name, v);
     }
 }
 
@@ -113,11 +119,12 @@ static void equal_positions_have_equal_keys(void **state) {
 
 static bool same_rect(const dp_tile_rect *a, const dp_tile_rect *b) {
     if (a->x0 == DP_UNPLACED || b->x0 == DP_UNPLACED) return a->x0 == b->x0;
-    return a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1 && a->tag == b->tag && a->only == b->only;
+    return a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1 &&
+           a->tag == b->tag && a->only == b->only;
 }
 
-/* A batch with an index out of range is left to the general way as a whole: the widths differ in what they
- * leave, never in what they place. */
+/* A batch with an index out of range is left to the general way as a whole: the widths differ in
+ * what they leave, never in what they place. */
 static void places_agree(void **state) {
     static dp_vertex vertices[VERTICES];
     static dp_tile_rect truth[TRIANGLES], rects[TRIANGLES];
@@ -128,57 +135,76 @@ static void places_agree(void **state) {
         dp_frame frame = {.view = make_view(false), .tiles_x = 19, .tiles_y = 13};
         frame.nearly_edge_on = dp_nearly_edge_on(&frame.view);
         frame.vertices = vertices;
-        frame.polygons = (dp_polygons){.positions = positions[0], .stride = sizeof *positions, .vertex_count = VERTICES,
-                                       .corners = indexed ? corners : NULL, .count = indexed ? TRIANGLES : VERTICES / 3};
-        dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES, vertices);
+        frame.polygons = (dp_polygons){.positions = positions[0],
+                                       .stride = sizeof *positions,
+                                       .vertex_count = VERTICES,
+                                       .corners = indexed ? corners : NULL,
+                                       .count = indexed ? TRIANGLES : VERTICES / 3};
+        dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES,
+                                   vertices);
         dp_kernels_plain.place(&frame, 0.75f, 0, frame.polygons.count, truth);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();
             uint32_t placed = 0;
-            for (int r = 0; r < REPEATS; r++) list[i]->place(&frame, 0.75f, 0, frame.polygons.count, rects);
+            for (int r = 0; r < REPEATS; r++)
+                list[i]->place(&frame, 0.75f, 0, frame.polygons.count, rects);
             report("place", list[i], start, frame.polygons.count);
             for (uint32_t t = 0; t < frame.polygons.count; t++) {
                 placed += rects[t].x0 != DP_UNPLACED;
                 if (indexed && rects[t].x0 == DP_UNPLACED) continue;
-                if (!same_rect(&truth[t], &rects[t])) fail_msg("%s: triangle %u differs", list[i]->name, t);
+                if (!same_rect(&truth[t], &rects[t]))
+                    fail_msg("%s: triangle %u differs", list[i]->name, t);
             }
             assert_true(placed > frame.polygons.count / 50);
         }
     }
 }
 
-/* Strokes of any length and width, also a point, with and without polygons, in both kinds of views. */
+/* Strokes of any length and width, also a point, with and without polygons, in both kinds of views.
+ */
 static dp_stroke random_stroke(uint32_t *seed) {
-    dp_stroke s = {.half_width = (float)(next_random(seed) % 4000) / 100, .line = (uint8_t)(next_random(seed) % DP_LINE_COUNT)};
+    dp_stroke s = {.half_width = (float)(next_random(seed) % 4000) / 100,
+                   .line = (uint8_t)(next_random(seed) % DP_LINE_COUNT)};
     float *const ends[2] = {&s.a.x, &s.b.x};
     for (int e = 0; e < 2; e++)
-        for (int k = 0; k < 3; k++) ends[e][k] = (float)(next_random(seed) % 6400) / 100 + (float)(k == 2);
+        for (int k = 0; k < 3; k++)
+            ends[e][k] = (float)(next_random(seed) % 6400) / 100 + (float)(k == 2);
     if (next_random(seed) % 5 == 0) s.b = s.a;
     for (int p = 0; p < 2; p++)
-        for (int k = 0; k < 3; k++) s.plane[p][k] = next_random(seed) % 3 ? (float)(next_random(seed) % 100) / 50 - 1 : NAN;
+        for (int k = 0; k < 3; k++)
+            s.plane[p][k] = next_random(seed) % 3 ? (float)(next_random(seed) % 100) / 50 - 1 : NAN;
     return s;
 }
 
-/* What the kernel says of a pixel, by the definition: distance to the spine, and dp_stroke_limit. */
-static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t x, uint32_t y, float share, float limit) {
-    const double ex = (double)s->b.x - s->a.x, ey = (double)s->b.y - s->a.y, length2 = ex * ex + ey * ey;
+/* What the kernel says of a pixel, by the definition: distance to the spine, and dp_stroke_limit.
+ */
+static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t x, uint32_t y,
+                            float share, float limit) {
+    const double ex = (double)s->b.x - s->a.x, ey = (double)s->b.y - s->a.y,
+                 length2 = ex * ex + ey * ey;
     const double px = x + 0.5 - s->a.x, py = y + 0.5 - s->a.y;
     const double t = length2 > 0 ? dp_min(dp_max((px * ex + py * ey) / length2, 0), 1) : 0;
     const double distance = hypot(px - t * ex, py - t * ey), half = (double)s->half_width;
-    const double in = dp_min(dp_max(dp_min(distance + 0.5, half) - dp_max(distance - 0.5, -half), 0), 1);
+    const double in =
+        dp_min(dp_max(dp_min(distance + 0.5, half) - dp_max(distance - 0.5, -half), 0), 1);
     assert_float_equal(share, in, 1e-4);
-    const float want = dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, (float)t, (float)distance);
+    const float want =
+        dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, (float)t, (float)distance);
     assert_float_equal(limit, want, 1e-4 * (1 + fabs((double)want)));
 }
 
 /* A patch is its rows. */
-static void expect_patch(const dp_kernels *kernels, const dp_frame *frame, const dp_stroke *s, uint32_t y, uint32_t rows) {
+static void expect_patch(const dp_kernels *kernels, const dp_frame *frame, const dp_stroke *s,
+                         uint32_t y, uint32_t rows) {
     dp_coverage_patch patch, row;
     uint64_t bits = kernels->cover_patch(frame, s, 64, y, rows, &patch);
     for (uint32_t r = 0; r < rows; r++, bits >>= DP_PATCH) {
-        assert_true(dp_kernels_plain.cover(frame, s, 64, y + r, DP_PATCH, &row) == (bits & ((1 << DP_PATCH) - 1)));
-        assert_memory_equal(row.share, patch.share + (size_t)r * DP_PATCH, DP_PATCH * sizeof *row.share);
-        assert_memory_equal(row.limit, patch.limit + (size_t)r * DP_PATCH, DP_PATCH * sizeof *row.limit);
+        assert_true(dp_kernels_plain.cover(frame, s, 64, y + r, DP_PATCH, &row) ==
+                    (bits & ((1 << DP_PATCH) - 1)));
+        assert_memory_equal(row.share, patch.share + (size_t)r * DP_PATCH,
+                            DP_PATCH * sizeof *row.share);
+        assert_memory_equal(row.limit, patch.limit + (size_t)r * DP_PATCH,
+                            DP_PATCH * sizeof *row.limit);
     }
     assert_true(bits == 0);
 }
@@ -192,7 +218,9 @@ static void coverages_agree(void **state) {
         uint32_t seed = 3;
         double spent = 0;
         for (uint32_t k = 0; k < STROKES; k++) {
-            const dp_frame frame = {.view = make_view(k % 2), .step_scale = k % 2 ? 0 : 1e-3f, .step_offset = k % 2 ? 1e-2f : 0};
+            const dp_frame frame = {.view = make_view(k % 2),
+                                    .step_scale = k % 2 ? 0 : 1e-3f,
+                                    .step_offset = k % 2 ? 1e-2f : 0};
             const dp_stroke s = random_stroke(&seed);
             const uint32_t n = 1 + next_random(&seed) % WIDE, y = next_random(&seed) % WIDE;
             dp_coverage_patch truth, row;
@@ -203,9 +231,11 @@ static void coverages_agree(void **state) {
             assert_memory_equal(row.share, truth.share, n * sizeof *row.share);
             assert_memory_equal(row.limit, truth.limit, n * sizeof *row.limit);
             expect_patch(list[i], &frame, &s, y, 1 + n % DP_PATCH);
-            for (uint32_t x = 0; x < n && !i; x++) expect_coverage(&frame, &s, 64 + x, y, truth.share[x], truth.limit[x]);
+            for (uint32_t x = 0; x < n && !i; x++)
+                expect_coverage(&frame, &s, 64 + x, y, truth.share[x], truth.limit[x]);
         }
-        if (getenv("DRYPOINT_BENCH")) print_message("%-10s %-7s %6.2f ns a row\n", "cover", list[i]->name, spent / STROKES);
+        if (getenv("DRYPOINT_BENCH"))
+            print_message("%-10s %-7s %6.2f ns a row\n", "cover", list[i]->name, spent / STROKES);
     }
 }
 
@@ -214,7 +244,8 @@ static void parts_agree(void **state) {
     static uint32_t entries[ENTRIES], ids[ROOM], backs[ROOM];
     (void)state;
     uint32_t seed = 3;
-    for (uint32_t i = 0; i < ENTRIES; i++) entries[i] = next_random(&seed) | (next_random(&seed) % 3 ? 0 : DP_BIN_TAG);
+    for (uint32_t i = 0; i < ENTRIES; i++)
+        entries[i] = next_random(&seed) | (next_random(&seed) % 3 ? 0 : DP_BIN_TAG);
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t kinds = dp_kernels_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
@@ -254,24 +285,30 @@ static void meetings_agree(void **state) {
     for (uint32_t i = 0; i < CROWD; i++)
         for (uint32_t a = 0; a < 3; a++) { /* whole numbers, so that bounds touch now and then */
             bounds[a * STRIDE + i] = (float)(next_random(&seed) % 40);
-            bounds[(3 + a) * STRIDE + i] = bounds[a * STRIDE + i] + (float)(next_random(&seed) % 10);
+            bounds[(3 + a) * STRIDE + i] =
+                bounds[a * STRIDE + i] + (float)(next_random(&seed) % 10);
         }
-    const dp_crowd crowd = {.bounds = bounds, .keys = keys, .met = met, .count = CROWD, .stride = STRIDE};
+    const dp_crowd crowd = {
+        .bounds = bounds, .keys = keys, .met = met, .count = CROWD, .stride = STRIDE};
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t kinds = dp_kernels_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
         const double start = now_ns();
         for (uint32_t self = 0; self < CROWD; self++) {
-            const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self), count = list[k]->meet(&crowd, self, end);
+            const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self),
+                           count = list[k]->meet(&crowd, self, end);
             uint32_t expected = 0;
             for (uint32_t i = self + 1; i < end; i++) {
                 bool apart = false;
                 for (uint32_t a = 0; a < 3; a++)
-                    apart |= bounds[(3 + a) * STRIDE + i] < bounds[a * STRIDE + self] || bounds[(3 + a) * STRIDE + self] < bounds[a * STRIDE + i];
+                    apart |= bounds[(3 + a) * STRIDE + i] < bounds[a * STRIDE + self] ||
+                             bounds[(3 + a) * STRIDE + self] < bounds[a * STRIDE + i];
                 met_at_all += !apart;
                 if (apart) continue;
-                if (are_neighbours(keys, STRIDE, self, i)) neighbours++;
-                else assert_int_equal(met[expected++], i);
+                if (are_neighbours(keys, STRIDE, self, i))
+                    neighbours++;
+                else
+                    assert_int_equal(met[expected++], i);
             }
             assert_int_equal(count, expected);
         }
@@ -288,11 +325,14 @@ static void approaches_agree(void **state) {
     uint32_t seed = 5, windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
     (void)state;
     w.seen_count = SEEN, w.seen_stride = SEEN + DP_SEEN_ROOM, w.seen_words = words;
-    for (uint32_t i = 0; i < DP_CROWD_BLOCKS * DP_CROWD_BLOCKS; i++) windows[i] = next_random(&seed) % 4 == 0;
+    for (uint32_t i = 0; i < DP_CROWD_BLOCKS * DP_CROWD_BLOCKS; i++)
+        windows[i] = next_random(&seed) % 4 == 0;
     for (uint32_t i = 0; i < SEEN; i++) {
-        const uint32_t x0 = next_random(&seed) % DP_TILE, y0 = next_random(&seed) % DP_TILE, most = DP_TILE - 1;
+        const uint32_t x0 = next_random(&seed) % DP_TILE, y0 = next_random(&seed) % DP_TILE,
+                       most = DP_TILE - 1;
         const uint32_t x1 = x0 + next_random(&seed) % 12, y1 = y0 + next_random(&seed) % 12;
-        words[DP_SEEN_BOX * w.seen_stride + i] = x0 | y0 << 8 | (x1 < most ? x1 : most) << 16 | (y1 < most ? y1 : most) << 24;
+        words[DP_SEEN_BOX * w.seen_stride + i] =
+            x0 | y0 << 8 | (x1 < most ? x1 : most) << 16 | (y1 < most ? y1 : most) << 24;
     }
     const dp_kernels *kinds[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(kinds);
@@ -300,17 +340,21 @@ static void approaches_agree(void **state) {
         const uint32_t near = kinds[k]->come_near(&w, windows, list);
         uint32_t expected = 0;
         for (uint32_t i = 0; i < SEEN; i++) {
-            const uint32_t box = words[i], x0 = box & 255, y0 = box >> 8 & 255, x1 = box >> 16 & 255, y1 = box >> 24;
+            const uint32_t box = words[i], x0 = box & 255, y0 = box >> 8 & 255,
+                           x1 = box >> 16 & 255, y1 = box >> 24;
             const bool wide = x1 - x0 > DP_CROWD_BLOCK || y1 - y0 > DP_CROWD_BLOCK;
-            if (wide || windows[y0 / DP_CROWD_BLOCK * DP_CROWD_BLOCKS + x0 / DP_CROWD_BLOCK]) assert_int_equal(list[expected++], i);
+            if (wide || windows[y0 / DP_CROWD_BLOCK * DP_CROWD_BLOCKS + x0 / DP_CROWD_BLOCK])
+                assert_int_equal(list[expected++], i);
         }
         assert_int_equal(near, expected);
     }
 }
 
-static void put_triangle(const dp_polygons *polygons, uint32_t triangle, float out[3][3][DP_FOLDS], uint32_t i) {
+static void put_triangle(const dp_polygons *polygons, uint32_t triangle, float out[3][3][DP_FOLDS],
+                         uint32_t i) {
     for (uint32_t k = 0; k < 3; k++)
-        for (uint32_t axis = 0; axis < 3; axis++) out[k][axis][i] = dp_vertex_position(polygons, 3 * triangle + k)[axis];
+        for (uint32_t axis = 0; axis < 3; axis++)
+            out[k][axis][i] = dp_vertex_position(polygons, 3 * triangle + k)[axis];
 }
 
 static void expect_vector(const double v[3][DP_FOLDS], uint32_t i, double x, double y, double z) {
@@ -318,7 +362,8 @@ static void expect_vector(const double v[3][DP_FOLDS], uint32_t i, double x, dou
     assert_memory_equal(got, want, sizeof got);
 }
 
-/* Pairs of triangles beside an edge, against the general way, bit for bit; some are out of sight, some folded flat. */
+/* Pairs of triangles beside an edge, against the general way, bit for bit; some are out of sight,
+ * some folded flat. */
 static void folds_agree(void **state) {
     static float at[6 * DP_FOLDS][3];
     static dp_fold_batch batch;
@@ -326,16 +371,21 @@ static void folds_agree(void **state) {
     for (uint32_t round = 0; round < 20; round++) {
         dp_frame frame = {.view = make_view(round % 2)};
         uint32_t seed = 100 + round, plain = 0;
-        frame.polygons = (dp_polygons){.positions = at[0], .stride = sizeof *at, .vertex_count = 6 * DP_FOLDS, .count = 2 * DP_FOLDS};
+        frame.polygons = (dp_polygons){.positions = at[0],
+                                       .stride = sizeof *at,
+                                       .vertex_count = 6 * DP_FOLDS,
+                                       .count = 2 * DP_FOLDS};
         for (uint32_t v = 0; v < 6 * DP_FOLDS; v++)
-            for (int k = 0; k < 3; k++) at[v][k] = (float)next_random(&seed) / (1 << 23) * 2 - 2 - (v % 16 == 0 ? 20 : 0);
+            for (int k = 0; k < 3; k++)
+                at[v][k] = (float)next_random(&seed) / (1 << 23) * 2 - 2 - (v % 16 == 0 ? 20 : 0);
         for (uint32_t i = 0; i < DP_FOLDS; i++) {
             memcpy(at[6 * i + 3], at[6 * i + 1], sizeof *at);
             memcpy(at[6 * i + 4], at[6 * i], sizeof *at);
             if (i % 8 == 7) memcpy(at[6 * i + 5], at[6 * i + 2], sizeof *at);
             put_triangle(&frame.polygons, 2 * i, batch.a, i);
             put_triangle(&frame.polygons, 2 * i + 1, batch.b, i);
-            for (int k = 0; k < 3; k++) batch.from[k][i] = at[6 * i][k], batch.to[k][i] = at[6 * i + 1][k];
+            for (int k = 0; k < 3; k++)
+                batch.from[k][i] = at[6 * i][k], batch.to[k][i] = at[6 * i + 1][k];
         }
         const dp_kernels *list[DP_KERNELS_MAX];
         const uint32_t kinds = dp_kernels_list(list);
@@ -347,7 +397,8 @@ static void folds_agree(void **state) {
                 plain++;
                 const dp_fold f = dp_fold_seen(&frame, 2 * i, true, 2 * i + 1, true, 0);
                 dp_spine s;
-                assert_true(dp_spine_make(&frame.view, dp_v3f(at[6 * i]), dp_v3f(at[6 * i + 1]), f.normal, &s));
+                assert_true(dp_spine_make(&frame.view, dp_v3f(at[6 * i]), dp_v3f(at[6 * i + 1]),
+                                          f.normal, &s));
                 expect_vector(batch.normal_a, i, f.normal_a.x, f.normal_a.y, f.normal_a.z);
                 expect_vector(batch.normal_b, i, f.normal_b.x, f.normal_b.y, f.normal_b.z);
                 expect_vector(batch.normal, i, f.normal.x, f.normal.y, f.normal.z);
@@ -369,14 +420,10 @@ static int set_up(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(transforms_agree),
-        cmocka_unit_test(equal_positions_have_equal_keys),
-        cmocka_unit_test(places_agree),
-        cmocka_unit_test(coverages_agree),
-        cmocka_unit_test(parts_agree),
-        cmocka_unit_test(meetings_agree),
-        cmocka_unit_test(approaches_agree),
-        cmocka_unit_test(folds_agree),
+        cmocka_unit_test(transforms_agree), cmocka_unit_test(equal_positions_have_equal_keys),
+        cmocka_unit_test(places_agree),     cmocka_unit_test(coverages_agree),
+        cmocka_unit_test(parts_agree),      cmocka_unit_test(meetings_agree),
+        cmocka_unit_test(approaches_agree), cmocka_unit_test(folds_agree),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }

@@ -1,4 +1,5 @@
-/* shade: the looks of surfaces and the cartoon map on runs of pixels, by hand; every width of vectors gives the same. */
+/* shade: the looks of surfaces and the cartoon map on runs of pixels, by hand; every width of
+ * vectors gives the same. */
 #include "kernel/kernels.h"
 #include "shade/shade.h"
 
@@ -40,7 +41,8 @@ static void assert_color(const bench *b, int i, double red, double green, double
     const double expected[3] = {red, green, blue};
     for (int k = 0; k < 3; k++)
         if (fabs((double)b->run.color[k][i] - expected[k]) > 1e-6)
-            fail_msg("pixel %d, channel %d: %g is not %g", i, k, (double)b->run.color[k][i], expected[k]);
+            fail_msg("pixel %d, channel %d: %g is not %g", i, k, (double)b->run.color[k][i],
+                     expected[k]);
 }
 
 static void lambert_is_the_cosine(void **state) {
@@ -85,7 +87,8 @@ static void highlights_lie_where_the_light_is_reflected(void **state) {
 
 static void toon_looks_up_the_nearest_shade(void **state) {
     (void)state;
-    static const uint8_t shades[4][4] = {{0, 0, 0, 255}, {51, 51, 51, 255}, {102, 102, 102, 255}, {255, 255, 255, 255}};
+    static const uint8_t shades[4][4] = {
+        {0, 0, 0, 255}, {51, 51, 51, 255}, {102, 102, 102, 255}, {255, 255, 255, 255}};
     bench b;
     begin(&b);
     b.setup.shades = shades[0], b.setup.shade_count = 4;
@@ -125,7 +128,8 @@ static float random_between(uint32_t *seed, float low, float high) {
     return low + (high - low) * (float)(*seed >> 8) / (1 << 24);
 }
 
-/* Normals of any length, none, and not finite; distances, and none; texture coordinates near and far. */
+/* Normals of any length, none, and not finite; distances, and none; texture coordinates near and
+ * far. */
 typedef struct pixel_rows {
     float nx[3][DP_TILE], ny[3][DP_TILE], nz[3][DP_TILE], distance[3][DP_TILE], other[3][DP_TILE];
     float u[3][DP_TILE], v[3][DP_TILE];
@@ -140,26 +144,51 @@ static void make_rows(pixel_rows *p, uint32_t seed) {
             p->nz[y][x] = x % 17 == 3 ? NAN : x % 13 == 4 ? 0 : random_between(&seed, -1, 1);
             p->distance[y][x] = x % 11 == 5 ? DP_FAR : random_between(&seed, 1, x % 5 ? 1.05f : 3);
             p->other[y][x] = random_between(&seed, 1, 3);
-            p->u[y][x] = x % 7 == 6 ? NAN : random_between(&seed, 0, x % 19 == 2 ? 1e30f : 2), p->v[y][x] = p->u[y][x] * 0.3f;
+            p->u[y][x] = x % 7 == 6 ? NAN : random_between(&seed, 0, x % 19 == 2 ? 1e30f : 2),
+            p->v[y][x] = p->u[y][x] * 0.3f;
             p->id[y][x] = (uint16_t)(x % 23 == 1 ? 0 : 1 + x / 40);
-            for (int k = 0; k < 4; k++) p->colors[y][x][k] = (uint8_t)random_between(&seed, 0, x % 9 ? 256 : 2);
+            for (int k = 0; k < 4; k++)
+                p->colors[y][x][k] = (uint8_t)random_between(&seed, 0, x % 9 ? 256 : 2);
         }
-    for (size_t i = 0; i < sizeof p->strokes; i++) p->strokes[i] = (uint8_t)random_between(&seed, 0, 256);
+    for (size_t i = 0; i < sizeof p->strokes; i++)
+        p->strokes[i] = (uint8_t)random_between(&seed, 0, 256);
     for (int i = 0; i < 20; i++) p->shades[i / 4][i % 4] = (uint8_t)(12 * i);
 }
 
 /* What a run of n pixels becomes, by one look of one table, and then in bytes. */
-static void look_at(const dp_shaders *shaders, int look, bool object, bool textured, uint32_t n, pixel_rows *p, uint32_t *words) {
+static void look_at(const dp_shaders *shaders, int look, bool object, bool textured, uint32_t n,
+                    pixel_rows *p, uint32_t *words) {
     static dp_gbuffer g;
-    g = (dp_gbuffer){.fx = 90, .fy = 80, .cx = 31, .cy = 17, .perspective = look % 2, .stride = DP_TILE, .eye = {1, 2, 3},
+    g = (dp_gbuffer){.fx = 90,
+                     .fy = 80,
+                     .cx = 31,
+                     .cy = 17,
+                     .perspective = look % 2,
+                     .stride = DP_TILE,
+                     .eye = {1, 2, 3},
                      .other = p->other[0] - 10 * DP_TILE};
     for (int i = 0; i < 3; i++) g.rotation[i][(i + 1) % 3] = 1;
-    dp_shading_setup setup = {.g = &g, .strokes = {p->strokes, 37, 21}, .shades = p->shades[0], .shade_count = 5};
-    setup.shade = (dp_shade){.light = {0.6f, 0, 0.8f}, .highlight = 0.3f,    .gooch_blue = 0.4f,  .gooch_yellow = 0.4f,
-                             .gooch_alpha = 0.2f,      .gooch_beta = 0.6f, .stroke_scale = 0.7f, .object_space = object};
+    dp_shading_setup setup = {
+        .g = &g, .strokes = {p->strokes, 37, 21}, .shades = p->shades[0], .shade_count = 5};
+    setup.shade = (dp_shade){.light = {0.6f, 0, 0.8f},
+                             .highlight = 0.3f,
+                             .gooch_blue = 0.4f,
+                             .gooch_yellow = 0.4f,
+                             .gooch_alpha = 0.2f,
+                             .gooch_beta = 0.6f,
+                             .stroke_scale = 0.7f,
+                             .object_space = object};
     static dp_shade_run run;
-    run = (dp_shade_run){.nx = p->nx[1], .ny = p->ny[1], .nz = p->nz[1], .distance = p->distance[1], .id = p->id[1],
-                         .u = textured ? p->u[1] : NULL, .v = textured ? p->v[1] : NULL, .stride = DP_TILE, .y = 11, .n = n};
+    run = (dp_shade_run){.nx = p->nx[1],
+                         .ny = p->ny[1],
+                         .nz = p->nz[1],
+                         .distance = p->distance[1],
+                         .id = p->id[1],
+                         .u = textured ? p->u[1] : NULL,
+                         .v = textured ? p->v[1] : NULL,
+                         .stride = DP_TILE,
+                         .y = 11,
+                         .n = n};
     shaders->paint((const float[4]){0.9f, 0.5f, 0.1f, 1}, &run);
     if (shaders->looks[look]) shaders->looks[look](&setup, &run);
     shaders->pack(&run, words);
@@ -181,7 +210,8 @@ static void wider_vectors_shade_the_same(void **state) {
                 look_at(dp_shaders_for(list[k]->lanes), look, mode & 1, mode & 2, n, &p, b);
                 for (uint32_t i = 0; i < n; i++)
                     if (p.id[1][i] && a[i] != b[i])
-                        fail_msg("%s, look %d, mode %d, pixel %u: %x, not %x", list[k]->name, look, mode, i, b[i], a[i]);
+                        fail_msg("%s, look %d, mode %d, pixel %u: %x, not %x", list[k]->name, look,
+                                 mode, i, b[i], a[i]);
             }
 }
 
@@ -199,15 +229,26 @@ static void wider_vectors_smooth_the_same(void **state) {
             distance[y][x] = random_between(&seed, 1, x % 5 ? 1.05f : 3);
             id[y][x] = x % 13 == 2 ? 1 + DP_MIRROR_GROUP : (uint16_t)random_between(&seed, 1, 3);
         }
-    for (int k = 0; k < 3; k++) memset(colors[k][DP_TILE + 4], 77, 3 * 4), distance[k][DP_TILE + 5] = 1, id[k][DP_TILE + 5] = 1;
+    for (int k = 0; k < 3; k++)
+        memset(colors[k][DP_TILE + 4], 77, 3 * 4), distance[k][DP_TILE + 5] = 1,
+                                                                         id[k][DP_TILE + 5] = 1;
     for (int y = 0; y < 3; y++)
         for (int x = 0; x < 3; x++) distance[y][DP_TILE + 6 + x] = 1, id[y][DP_TILE + 6 + x] = 1;
-    dp_smooth_run run = {.color = colors[1][DP_TILE], .out = out[0][0], .id = id[1] + DP_TILE, .distance = distance[1] + DP_TILE,
-                         .width = 3 * DP_TILE, .stride = 3 * DP_TILE, .step = 12, .fy = 80, .perspective = true};
+    dp_smooth_run run = {.color = colors[1][DP_TILE],
+                         .out = out[0][0],
+                         .id = id[1] + DP_TILE,
+                         .distance = distance[1] + DP_TILE,
+                         .width = 3 * DP_TILE,
+                         .stride = 3 * DP_TILE,
+                         .step = 12,
+                         .fy = 80,
+                         .perspective = true};
     plain->smooth(&run, ~(uint64_t)0);
     uint32_t sum = 0;
     for (int y = 0; y < 3; y++)
-        for (int x = 0; x < 3; x++) sum += (uint32_t)(1 + (x == 1)) * (uint32_t)(1 + (y == 1)) * colors[y][DP_TILE + 6 + x][2];
+        for (int x = 0; x < 3; x++)
+            sum +=
+                (uint32_t)(1 + (x == 1)) * (uint32_t)(1 + (y == 1)) * colors[y][DP_TILE + 6 + x][2];
     assert_int_equal(out[0][7][2], (sum + 8) / 16);
     assert_int_equal(out[0][5][2], 77); /* a patch */
     run.out = out[1][0];
@@ -227,7 +268,8 @@ static double mean_of(const uint8_t *values, int threshold) {
 /* Built-in strokes: the same every time; the darker the tone the more ink, in small steps. */
 static void built_in_strokes_grow_with_darkness(void **state) {
     (void)state;
-    static uint8_t values[2][DP_STROKES_SIZE * DP_STROKES_SIZE], again[DP_STROKES_SIZE * DP_STROKES_SIZE];
+    static uint8_t values[2][DP_STROKES_SIZE * DP_STROKES_SIZE],
+        again[DP_STROKES_SIZE * DP_STROKES_SIZE];
     dp_make_hatching(values[0]);
     dp_make_halftone(values[1]);
     dp_make_hatching(again);
@@ -236,7 +278,8 @@ static void built_in_strokes_grow_with_darkness(void **state) {
         double before = 0;
         for (int tone = 250; tone >= 0; tone -= 10) {
             const double ink = mean_of(values[t], tone);
-            if (!(ink >= before && ink - before < 0.15)) fail_msg("texture %d, tone %d: %g after %g", t, tone, ink, before);
+            if (!(ink >= before && ink - before < 0.15))
+                fail_msg("texture %d, tone %d: %g after %g", t, tone, ink, before);
             before = ink;
         }
         assert_true(before > 0.6);

@@ -5,15 +5,21 @@
 #include <math.h>
 
 static dp_polygons polygons_of(const dp_batch *b) {
-    return (dp_polygons){.positions = b->positions, .stride = 12, .vertex_count = (uint32_t)b->vertex_count,
-                         .corners = b->indices, .firsts = b->firsts, .count = (uint32_t)b->polygon_count};
+    return (dp_polygons){.positions = b->positions,
+                         .stride = 12,
+                         .vertex_count = (uint32_t)b->vertex_count,
+                         .corners = b->indices,
+                         .firsts = b->firsts,
+                         .count = (uint32_t)b->polygon_count};
 }
 
 static const float cube_corners[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                          {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-static const uint32_t cube_faces[24] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4, 2, 3, 7, 6, 0, 4, 7, 3, 1, 2, 6, 5};
+static const uint32_t cube_faces[24] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4,
+                                        2, 3, 7, 6, 0, 4, 7, 3, 1, 2, 6, 5};
 static const uint32_t cube_firsts[7] = {0, 4, 8, 12, 16, 20, 24};
-static const float cube_normals[6][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
+static const float cube_normals[6][3] = {{0, 0, -1}, {0, 0, 1},  {0, -1, 0},
+                                         {0, 1, 0},  {-1, 0, 0}, {1, 0, 0}};
 
 typedef struct maker {
     dp_threads *threads;
@@ -30,7 +36,8 @@ static maker begin(uint32_t threads) {
 
 static void make(maker *m, const dp_batch *batch, float crease) {
     const dp_polygons polygons = polygons_of(batch);
-    assert_true(dp_normals_make(&m->store, &polygons, crease, NULL, m->threads, &m->memory, &m->made));
+    assert_true(
+        dp_normals_make(&m->store, &polygons, crease, NULL, m->threads, &m->memory, &m->made));
 }
 
 static void end(maker *m) {
@@ -50,8 +57,12 @@ static void assert_normal(const maker *m, size_t corner, double x, double y, dou
     for (int k = 0; k < 3; k++) assert_true(fabs((double)n[k] - expected[k]) < 1e-6);
 }
 
-static const dp_batch cube = {.positions = cube_corners[0], .vertex_count = 8, .indices = cube_faces,
-                              .corner_count = 24, .firsts = cube_firsts, .polygon_count = 6};
+static const dp_batch cube = {.positions = cube_corners[0],
+                              .vertex_count = 8,
+                              .indices = cube_faces,
+                              .corner_count = 24,
+                              .firsts = cube_firsts,
+                              .polygon_count = 6};
 
 static void creases_part_a_cube(void **state) {
     (void)state;
@@ -67,17 +78,24 @@ static void creases_part_a_cube(void **state) {
 static void angles_weigh_and_not_areas_or_counts(void **state) {
     (void)state;
     maker m = begin(2);
-    make(&m, &cube, 180); /* all round: the diagonals, although every corner has three polygons of 90 degrees */
+    make(
+        &m, &cube,
+        180); /* all round: the diagonals, although every corner has three polygons of 90 degrees */
     for (size_t c = 0; c < 24; c++) {
         const float *const p = cube_corners[cube_faces[c]];
         const double k = 1 / sqrt(3.0);
         assert_normal(&m, c, k * (double)p[0], k * (double)p[1], k * (double)p[2]);
     }
     /* the same with two sides split into triangles: two of 45 degrees weigh what one of 90 does */
-    static const uint32_t split[] = {3, 2, 1, 3, 1, 0, 4, 5, 6, 4, 6, 7, 0, 1, 5, 4, 2, 3, 7, 6, 0, 4, 7, 3, 1, 2, 6, 5};
+    static const uint32_t split[] = {3, 2, 1, 3, 1, 0, 4, 5, 6, 4, 6, 7, 0, 1,
+                                     5, 4, 2, 3, 7, 6, 0, 4, 7, 3, 1, 2, 6, 5};
     static const uint32_t firsts[] = {0, 3, 6, 9, 12, 16, 20, 24, 28};
-    const dp_batch parts = {.positions = cube_corners[0], .vertex_count = 8, .indices = split, .corner_count = 28,
-                            .firsts = firsts, .polygon_count = 8};
+    const dp_batch parts = {.positions = cube_corners[0],
+                            .vertex_count = 8,
+                            .indices = split,
+                            .corner_count = 28,
+                            .firsts = firsts,
+                            .polygon_count = 8};
     make(&m, &parts, 180);
     for (size_t c = 0; c < 28; c++) {
         const float *const p = cube_corners[split[c]];
@@ -91,11 +109,13 @@ static void sheet(float (*at)[3], uint32_t *corners, int n) {
     for (int y = 0; y <= n; y++)
         for (int x = 0; x <= n; x++) {
             float *const p = at[y * (n + 1) + x];
-            p[0] = (float)x, p[1] = (float)y, p[2] = 0.3f * sinf((float)x) * cosf((float)y) + (x > n / 2 ? (float)x : 0);
+            p[0] = (float)x, p[1] = (float)y,
+            p[2] = 0.3f * sinf((float)x) * cosf((float)y) + (x > n / 2 ? (float)x : 0);
         }
     for (int y = 0; y < n; y++)
         for (int x = 0; x < n; x++) {
-            const uint32_t a = (uint32_t)(y * (n + 1) + x), b = a + 1, c = b + (uint32_t)n + 1, d = c - 1;
+            const uint32_t a = (uint32_t)(y * (n + 1) + x), b = a + 1, c = b + (uint32_t)n + 1,
+                           d = c - 1;
             const uint32_t six[6] = {a, b, c, a, c, d};
             memcpy(corners + 6 * (y * n + x), six, sizeof six);
         }
@@ -109,9 +129,14 @@ static void soups_and_threads_make_no_difference(void **state) {
     static uint32_t corners[CORNERS];
     sheet(at, corners, N);
     for (int c = 0; c < CORNERS; c++) memcpy(soup[c], at[corners[c]], sizeof *soup);
-    const dp_batch indexed = {.positions = at[0], .vertex_count = (N + 1) * (N + 1), .indices = corners,
-                              .corner_count = CORNERS, .polygon_count = CORNERS / 3};
-    const dp_batch bare = {.positions = soup[0], .vertex_count = CORNERS, .corner_count = CORNERS,
+    const dp_batch indexed = {.positions = at[0],
+                              .vertex_count = (N + 1) * (N + 1),
+                              .indices = corners,
+                              .corner_count = CORNERS,
+                              .polygon_count = CORNERS / 3};
+    const dp_batch bare = {.positions = soup[0],
+                           .vertex_count = CORNERS,
+                           .corner_count = CORNERS,
                            .polygon_count = CORNERS / 3};
     maker one = begin(1), many = begin(7);
     make(&one, &indexed, 30);
@@ -128,19 +153,45 @@ static void soups_and_threads_make_no_difference(void **state) {
 
 static void what_is_broken_stays_away(void **state) {
     (void)state;
-    static const float at[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {NAN, 0, 0}, {INFINITY, 1, 0}, {-0.0f, 0, 0}};
-    static const uint32_t corners[] = {0, 1, 2, /* no area */ 0, 1, 3, /* not finite */ 0, 1, 4, 5, 2, 1,
-                                       /* no vertex */ 0, 1, 99, /* all the same */ 6, 6, 6, 6, 1, 2};
-    const dp_batch batch = {.positions = at[0], .vertex_count = 7, .indices = corners, .corner_count = 21,
+    static const float at[][3] = {{0, 0, 0},   {1, 0, 0},        {0, 1, 0},    {2, 0, 0},
+                                  {NAN, 0, 0}, {INFINITY, 1, 0}, {-0.0f, 0, 0}};
+    static const uint32_t corners[] = {0,
+                                       1,
+                                       2,
+                                       /* no area */ 0,
+                                       1,
+                                       3,
+                                       /* not finite */ 0,
+                                       1,
+                                       4,
+                                       5,
+                                       2,
+                                       1,
+                                       /* no vertex */ 0,
+                                       1,
+                                       99,
+                                       /* all the same */ 6,
+                                       6,
+                                       6,
+                                       6,
+                                       1,
+                                       2};
+    const dp_batch batch = {.positions = at[0],
+                            .vertex_count = 7,
+                            .indices = corners,
+                            .corner_count = 21,
                             .polygon_count = 7};
     maker m = begin(1);
     make(&m, &batch, 60);
     for (size_t c = 0; c < 21; c++) {
-        if (c < 3 || c >= 18) assert_normal(&m, c, 0, 0, 1);
-        else assert_null(normal_of(&m, c));
+        if (c < 3 || c >= 18)
+            assert_normal(&m, c, 0, 0, 1);
+        else
+            assert_null(normal_of(&m, c));
     }
     for (size_t i = 0; i < m.made.count; i++)
-        for (int k = 0; k < 3; k++) assert_true(isfinite(dp_attribute_value(&m.made, (uint32_t)i)[k]));
+        for (int k = 0; k < 3; k++)
+            assert_true(isfinite(dp_attribute_value(&m.made, (uint32_t)i)[k]));
     end(&m);
 }
 
@@ -167,7 +218,8 @@ static void nothing_is_made_twice(void **state) {
 
 /* ------- brought along ------- */
 
-static void read_text(const char *text, dp_file_format format, dp_source **source, dp_batch *batch) {
+static void read_text(const char *text, dp_file_format format, dp_source **source,
+                      dp_batch *batch) {
     dp_stream *stream = NULL;
     dp_stream_open_memory(text, strlen(text), 2048, NULL, &stream, NULL);
     assert_int_equal(dp_read_stream(stream, NULL, format, source, NULL), DP_OK);
@@ -180,18 +232,21 @@ static void obj_brings_normals_and_texcoords(void **state) {
     (void)state;
     dp_source *source = NULL;
     dp_batch b;
-    read_text(TRIANGLE "f 1 2 3\nvn 0 0 1\nvn 1 0\nvt .5 .25 1\nf 1//1 2/1/-1 3/-1\nf 1/7/7 2/0/0 3/-9/99999999999999999999\nf 1 2 3\n",
+    read_text(TRIANGLE "f 1 2 3\nvn 0 0 1\nvn 1 0\nvt .5 .25 1\nf 1//1 2/1/-1 3/-1\nf 1/7/7 2/0/0 "
+                       "3/-9/99999999999999999999\nf 1 2 3\n",
               DP_FORMAT_OBJ, &source, &b);
     static const uint32_t none = UINT32_MAX;
     const uint32_t normals[12] = {none, none, none, 0, 1, none, none, none, none, none, none, none};
-    const uint32_t texcoords[12] = {none, none, none, none, 0, 0, none, none, none, none, none, none};
+    const uint32_t texcoords[12] = {none, none, none, none, 0,    0,
+                                    none, none, none, none, none, none};
     assert_int_equal(b.normals.count, 2);
     assert_int_equal(b.texcoords.count, 1);
     for (size_t c = 0; c < 12; c++) {
         assert_int_equal(dp_attribute_number(&b.normals, c, 0), normals[c]);
         assert_int_equal(dp_attribute_number(&b.texcoords, c, 0), texcoords[c]);
     }
-    assert_true(dp_attribute_value(&b.normals, 1)[0] == 1 && dp_attribute_value(&b.normals, 1)[1] == 0);
+    assert_true(dp_attribute_value(&b.normals, 1)[0] == 1 &&
+                dp_attribute_value(&b.normals, 1)[1] == 0);
     assert_true(dp_attribute_value(&b.texcoords, 0)[1] == 0.25f);
     dp_source_destroy(source);
     read_text(TRIANGLE "f 1 2 3\n", DP_FORMAT_OBJ, &source, &b);
@@ -203,8 +258,10 @@ static void ply_brings_normals_and_texcoords(void **state) {
     (void)state;
     dp_source *source = NULL;
     dp_batch b;
-    read_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\nproperty float x\nproperty float y\n"
-              "property float ny\nproperty float z\nproperty float nz\nproperty float u\nproperty float v\n"
+    read_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\nproperty float "
+              "x\nproperty float y\n"
+              "property float ny\nproperty float z\nproperty float nz\nproperty float u\nproperty "
+              "float v\n"
               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
               "1 0 0 2 0 3 .5 .25\n4 1 0 5 0 6 0 1\n7 0 1 8 0 9 1 0\n3 0 1 2\n",
               DP_FORMAT_PLY, &source, &b);
@@ -236,8 +293,17 @@ static void gathering_keeps_what_corners_carry(void **state) {
     static const uint32_t four[4] = {0, 1, 2, 3}, three[3] = {0, 1, 3}, firsts[2] = {0, 4};
     static const float normals[2][3] = {{0, 0, 1}, {0, 1, 0}};
     static const uint32_t numbers[4] = {1, 0, UINT32_MAX, 1};
-    batches b = {{{.positions = at[0], .vertex_count = 5, .indices = three, .corner_count = 3, .polygon_count = 1},
-                  {.positions = at[0], .vertex_count = 5, .indices = four, .corner_count = 4, .firsts = firsts, .polygon_count = 1,
+    batches b = {{{.positions = at[0],
+                   .vertex_count = 5,
+                   .indices = three,
+                   .corner_count = 3,
+                   .polygon_count = 1},
+                  {.positions = at[0],
+                   .vertex_count = 5,
+                   .indices = four,
+                   .corner_count = 4,
+                   .firsts = firsts,
+                   .polygon_count = 1,
                    .normals = {.values = normals[0], .count = 2, .indices = numbers},
                    .texcoords = {.values = uv[0], .count = 5}}},
                  0};
@@ -251,10 +317,14 @@ static void gathering_keeps_what_corners_carry(void **state) {
     assert_int_equal(dp_gather(source, &store, &memory, &p, &stats, NULL), DP_OK);
     assert_int_equal(p.count, 3);
     for (uint32_t c = 0; c < 9; c++) {
-        const uint32_t vertex = dp_corner_vertex(&p, c) % 5; /* the second batch's vertices come behind five */
-        const uint32_t normal = dp_attribute_number(&p.normals, c, 0), texcoord = dp_attribute_number(&p.texcoords, c, 0);
-        if (c < 3) assert_true(normal == UINT32_MAX && texcoord == UINT32_MAX);
-        else assert_true(normal == numbers[vertex] && texcoord == vertex);
+        const uint32_t vertex =
+            dp_corner_vertex(&p, c) % 5; /* the second batch's vertices come behind five */
+        const uint32_t normal = dp_attribute_number(&p.normals, c, 0),
+                       texcoord = dp_attribute_number(&p.texcoords, c, 0);
+        if (c < 3)
+            assert_true(normal == UINT32_MAX && texcoord == UINT32_MAX);
+        else
+            assert_true(normal == numbers[vertex] && texcoord == vertex);
     }
     dp_polygon_store_free(&store, &memory);
     dp_source_destroy(source);

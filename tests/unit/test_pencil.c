@@ -16,14 +16,17 @@
 enum { WIDTH = 320, HEIGHT = 240, SIZE = DP_GRAPHITE_SIZE };
 static uint8_t pictures[2][HEIGHT][WIDTH][4];
 
-static dp_result draw_with(const dp_context_desc *desc, const char *shape, const dp_style *style, double up, uint8_t *rgba) {
+static dp_result draw_with(const dp_context_desc *desc, const char *shape, const dp_style *style,
+                           double up, uint8_t *rgba) {
     dp_context *context = NULL;
     dp_source *source = NULL;
     dp_camera camera;
     dp_result result = dp_context_create(desc, &context, NULL);
     if (result) return result;
-    assert_int_equal(dp_source_from_shape(&(dp_shape){.name = shape, .triangles = 3000}, &source, NULL), DP_OK);
-    dp_camera_fit(&camera, &(dp_fit){.min = {-1, -1, -1}, .max = {1, 1, 1}, .direction = {0, up, 1}});
+    assert_int_equal(
+        dp_source_from_shape(&(dp_shape){.name = shape, .triangles = 3000}, &source, NULL), DP_OK);
+    dp_camera_fit(&camera,
+                  &(dp_fit){.min = {-1, -1, -1}, .max = {1, 1, 1}, .direction = {0, up, 1}});
     const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};
     result = dp_draw(context, source, &camera, style, &target, NULL);
     dp_source_destroy(source);
@@ -33,7 +36,8 @@ static dp_result draw_with(const dp_context_desc *desc, const char *shape, const
 
 static void draw(const char *shape, const dp_shade *shade, uint32_t threads, uint8_t *rgba) {
     const dp_style style = {.lines = DP_NO_LINES, .shade = *shade};
-    assert_int_equal(draw_with(&(dp_context_desc){.threads = threads}, shape, &style, 0.05, rgba), DP_OK);
+    assert_int_equal(draw_with(&(dp_context_desc){.threads = threads}, shape, &style, 0.05, rgba),
+                     DP_OK);
 }
 
 /* Mean darkness of the model's pixels, and mean differences to the right and down. */
@@ -41,7 +45,8 @@ typedef struct looks {
     double dark, across, down;
 } looks;
 
-static looks look_at(const uint8_t p[HEIGHT][WIDTH][4], uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) {
+static looks look_at(const uint8_t p[HEIGHT][WIDTH][4], uint32_t x0, uint32_t y0, uint32_t x1,
+                     uint32_t y1) {
     looks l = {0, 0, 0};
     const double n = (double)(x1 - x0) * (y1 - y0);
     for (uint32_t y = y0; y < y1; y++)
@@ -67,7 +72,8 @@ static void test_the_texture_repeats_and_has_no_sign(void **state) {
     sum /= SIZE * SIZE;
     assert_true(sum > 90 && sum < 200);
     dp_make_graphite(values, 2, scratch); /* from bare paper to dark */
-    for (int i = 0; i < SIZE * SIZE; i++) assert_true(values[i] == 255 && values[SIZE * SIZE + i] <= 255);
+    for (int i = 0; i < SIZE * SIZE; i++)
+        assert_true(values[i] == 255 && values[SIZE * SIZE + i] <= 255);
 }
 
 static void test_strokes_run_along_a_cylinder(void **state) {
@@ -76,7 +82,8 @@ static void test_strokes_run_along_a_cylinder(void **state) {
     draw("cylinder", &shade, 2, pictures[0][0][0]);
     const looks l = look_at((const uint8_t(*)[WIDTH][4])pictures[0], 120, 90, 200, 150);
     assert_true(l.dark > 10);
-    assert_true(l.across > 1.4 * l.down); /* strokes upright; the paper's tooth is the same both ways */
+    assert_true(l.across >
+                1.4 * l.down); /* strokes upright; the paper's tooth is the same both ways */
 }
 
 /* Brightness to the power of 0 is 1: white paper. */
@@ -89,12 +96,14 @@ static void test_s_and_o_are_the_paper_s(void **state) {
     for (int s = 1; s <= 4; s++) {
         shade.pencil_s = (float)s;
         draw("sphere", &shade, 1, pictures[0][0][0]);
-        const double dark = look_at((const uint8_t(*)[WIDTH][4])pictures[0], 120, 80, 200, 160).dark;
+        const double dark =
+            look_at((const uint8_t(*)[WIDTH][4])pictures[0], 120, 80, 200, 160).dark;
         assert_true(dark > last + 2);
         last = dark;
     }
     /* with S = 0 light does not matter */
-    shade = (dp_shade){.shading = DP_SHADING_PENCIL, .pencil_s = -1, .pencil_o = 1, .light = {-1, 0, 0}};
+    shade = (dp_shade){
+        .shading = DP_SHADING_PENCIL, .pencil_s = -1, .pencil_o = 1, .light = {-1, 0, 0}};
     draw("sphere", &shade, 1, pictures[0][0][0]);
     shade.light[0] = 1;
     draw("sphere", &shade, 1, pictures[1][0][0]);
@@ -104,7 +113,8 @@ static void test_s_and_o_are_the_paper_s(void **state) {
 static void test_pictures_do_not_depend_on_threads(void **state) {
     (void)state;
     for (int k = 0; k < 3; k++) {
-        const dp_shade shade = {.shading = DP_SHADING_PENCIL, .pencil_tones = k == 1 ? 6 : 0, .pencil_printed = k == 2};
+        const dp_shade shade = {
+            .shading = DP_SHADING_PENCIL, .pencil_tones = k == 1 ? 6 : 0, .pencil_printed = k == 2};
         draw("torus", &shade, 1, pictures[0][0][0]);
         draw("torus", &shade, 7, pictures[1][0][0]);
         assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
@@ -114,7 +124,10 @@ static void test_pictures_do_not_depend_on_threads(void **state) {
 /* Fine and coarse meshes, every way to look textures up: on any processor the same bits. */
 static void test_every_kernel_draws_the_same(void **state) {
     static const uint8_t odd[3 * 5] = {0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0};
-    const dp_shade ways[] = {{0}, {.pencil_printed = true}, {.pencil_tones = 6}, {.strokes = {odd, 3, 5}, .stroke_scale = 0.05f}};
+    const dp_shade ways[] = {{0},
+                             {.pencil_printed = true},
+                             {.pencil_tones = 6},
+                             {.strokes = {odd, 3, 5}, .stroke_scale = 0.05f}};
     const char *const shapes[] = {"torus", "gear"};
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(list);
@@ -131,7 +144,8 @@ static void test_every_kernel_draws_the_same(void **state) {
     unsetenv("DRYPOINT_CPU");
 }
 
-/* Directions and turns of 10 degrees: what lies near the middle between two steps is in part both. */
+/* Directions and turns of 10 degrees: what lies near the middle between two steps is in part both.
+ */
 static void test_turns(void **state) {
     static const float right[3] = {1, 0, 0}, up[3] = {0, 1, 0};
     const dp_kernels *list[DP_KERNELS_MAX];
@@ -140,7 +154,8 @@ static void test_turns(void **state) {
     dp_turn turns[64];
     (void)state;
     for (int i = 0; i < 64; i++) {
-        const double angle = (i - 20) * 3.14159265358979 / 36; /* each 5 degrees, beyond half a turn on either side */
+        const double angle = (i - 20) * 3.14159265358979 /
+                             36; /* each 5 degrees, beyond half a turn on either side */
         along[i][0] = (float)cos(angle), along[i][1] = (float)sin(angle), along[i][2] = 7;
     }
     along[63][0] = along[63][1] = 0; /* towards the eye: none is as good as any */
@@ -148,11 +163,14 @@ static void test_turns(void **state) {
         dp_pencil_rows_for(list[k]->lanes)->turn((const float(*)[3])along, right, up, 64, turns);
         for (int i = 0; i < 63; i++) {
             const int step = (i - 20 + 72) % 36 / 2, part = turns[i] & 0xff;
-            if (i % 2 == 0) assert_int_equal(turns[i], step << 8);
-            else assert_true(turns[i] >> 8 == step && part > 126 && part < 129);
+            if (i % 2 == 0)
+                assert_int_equal(turns[i], step << 8);
+            else
+                assert_true(turns[i] >> 8 == step && part > 126 && part < 129);
         }
         assert_int_equal(turns[63], 0);
-        dp_pencil_rows_for(list[k]->lanes)->turn_exactly((const float(*)[3])along, right, up, 64, turns);
+        dp_pencil_rows_for(list[k]->lanes)
+            ->turn_exactly((const float(*)[3])along, right, up, 64, turns);
         for (int i = 0; i < 63; i++) {
             const int wanted = (i - 20 + 72) % 36 * 65536 / 36;
             assert_true((uint16_t)(turns[i] - wanted + 2) <= 4);
@@ -162,13 +180,16 @@ static void test_turns(void **state) {
 
 static void test_any_texture_will_do(void **state) {
     (void)state;
-    static const uint8_t one = 128, odd[3 * 5] = {0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0};
+    static const uint8_t one = 128,
+                         odd[3 * 5] = {0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0};
     const dp_image images[] = {{&one, 1, 1}, {odd, 3, 5}, {odd, 15, 1}};
     for (size_t i = 0; i < 3; i++) {
-        const dp_shade shade = {.shading = DP_SHADING_PENCIL, .strokes = images[i], .pencil_s = -1, .pencil_o = 1};
+        const dp_shade shade = {
+            .shading = DP_SHADING_PENCIL, .strokes = images[i], .pencil_s = -1, .pencil_o = 1};
         draw("gear", &shade, 2, pictures[0][0][0]); /* polygons of many corners, too */
     }
-    const dp_shade shade = {.shading = DP_SHADING_PENCIL, .strokes = images[0], .pencil_s = -1, .pencil_o = 1};
+    const dp_shade shade = {
+        .shading = DP_SHADING_PENCIL, .strokes = images[0], .pencil_s = -1, .pencil_o = 1};
     draw("sphere", &shade, 2, pictures[0][0][0]);
     const double dark = look_at((const uint8_t(*)[WIDTH][4])pictures[0], 120, 80, 200, 160).dark;
     assert_true(dark > 115 && dark < 139); /* half, but for the tooth */
@@ -176,11 +197,13 @@ static void test_any_texture_will_do(void **state) {
 
 static void test_wrong_values_are_refused(void **state) {
     (void)state;
-    const dp_shade bad[] = {{.pencil_tones = 1}, {.pencil_tones = 9}, {.pencil_s = 101}, {.pencil_o = NAN}};
+    const dp_shade bad[] = {
+        {.pencil_tones = 1}, {.pencil_tones = 9}, {.pencil_s = 101}, {.pencil_o = NAN}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         dp_style out;
         dp_diag diag;
-        assert_int_equal(dp_style_resolve(&(dp_style){.shade = bad[i]}, &out, &diag), DP_ERR_ARGUMENT);
+        assert_int_equal(dp_style_resolve(&(dp_style){.shade = bad[i]}, &out, &diag),
+                         DP_ERR_ARGUMENT);
         assert_true(strlen(diag.message) > 10);
     }
 }
@@ -204,12 +227,14 @@ static void take(void *block, void *user) {
 
 static void test_memory_may_run_out(void **state) {
     (void)state;
-    const dp_style style = {.lines = DP_NO_LINES, .shade = {.shading = DP_SHADING_PENCIL, .pencil_tones = 2}};
+    const dp_style style = {.lines = DP_NO_LINES,
+                            .shade = {.shading = DP_SHADING_PENCIL, .pencil_tones = 2}};
     dp_result result = DP_ERR_MEMORY;
     for (int n = 0; result; n += n < 100 ? 1 : 1 + n / 16) {
         ration r = {n};
         const dp_allocator allocator = {give, give_again, take, &r};
-        result = draw_with(&(dp_context_desc){.allocator = &allocator, .threads = 1}, "cube", &style, 0.5, pictures[0][0][0]);
+        result = draw_with(&(dp_context_desc){.allocator = &allocator, .threads = 1}, "cube",
+                           &style, 0.5, pictures[0][0][0]);
         assert_true((result == DP_OK || result == DP_ERR_MEMORY) && n < 1000000);
     }
 }

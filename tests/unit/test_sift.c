@@ -1,5 +1,5 @@
-/* kernel/sift.inc: what vectors of any width make of a chunk's triangles is what the general way makes of them
- * (stream/sift.c), and what they leave to it does not depend on the width.
+/* kernel/sift.inc: what vectors of any width make of a chunk's triangles is what the general way
+ * makes of them (stream/sift.c), and what they leave to it does not depend on the width.
  *
  * With DRYPOINT_BENCH in the environment, times are printed as well. */
 #include "kernel/kernels.h"
@@ -13,7 +13,14 @@
 
 #include <cmocka.h>
 
-enum { TRIANGLES = DP_TUNED(4001, 301), WIDTH = 300, HEIGHT = 200, RECORD = 50, CORNERS_AT = 12, REPEATS = DP_TUNED(50, 1) };
+enum {
+    TRIANGLES = DP_TUNED(4001, 301),
+    WIDTH = 300,
+    HEIGHT = 200,
+    RECORD = 50,
+    CORNERS_AT = 12,
+    REPEATS = DP_TUNED(50, 1)
+};
 
 static uint8_t records[TRIANGLES][RECORD];
 static dp_chunk plain, wide;
@@ -25,9 +32,11 @@ static uint32_t next_random(uint32_t *state) {
 
 static float unit_random(uint32_t *seed) { return (float)next_random(seed) / (1 << 23) - 1; }
 
-/* Small ones in strips, as they come in files; among them large, thin, degenerate, far ones, and odd numbers. */
+/* Small ones in strips, as they come in files; among them large, thin, degenerate, far ones, and
+ * odd numbers. */
 static void make_records(void) {
-    static const float odd[] = {0.0f, -0.0f, INFINITY, -INFINITY, NAN, 1e30f, -1e30f, 1e-40f, 3.4e38f};
+    static const float odd[] = {0.0f,  -0.0f,  INFINITY, -INFINITY, NAN,
+                                1e30f, -1e30f, 1e-40f,   3.4e38f};
     float p[9] = {0};
     uint32_t seed = 11;
     for (uint32_t t = 0; t < TRIANGLES; t++) {
@@ -41,9 +50,11 @@ static void make_records(void) {
         float out[9];
         memcpy(out, p, sizeof out);
         if (kind == 5) memcpy(out + 6, out, 3 * sizeof *out);
-        if (kind == 6) for (int i = 0; i < 3; i++) out[6 + i] = (out[i] + out[3 + i]) / 2;
+        if (kind == 6)
+            for (int i = 0; i < 3; i++) out[6 + i] = (out[i] + out[3 + i]) / 2;
         if (kind == 7) out[next_random(&seed) % 9] = odd[next_random(&seed) % 9];
-        if (kind == 8) for (int i = 0; i < 9; i++) out[i] *= 50;
+        if (kind == 8)
+            for (int i = 0; i < 9; i++) out[i] *= 50;
         memset(records[t], 0x7f, RECORD);
         memcpy(records[t] + CORNERS_AT, out, sizeof out);
     }
@@ -54,8 +65,10 @@ static dp_view make_view(bool orthographic) {
     dp_camera camera;
     dp_view view;
     assert_int_equal(dp_camera_look_at(&camera, eye, target, up), DP_OK);
-    if (orthographic) assert_int_equal(dp_camera_orthographic(&camera, 2, 1.5, 0.1, 10), DP_OK);
-    else assert_int_equal(dp_camera_perspective(&camera, 30, 1.5, 0.1, 10), DP_OK);
+    if (orthographic)
+        assert_int_equal(dp_camera_orthographic(&camera, 2, 1.5, 0.1, 10), DP_OK);
+    else
+        assert_int_equal(dp_camera_perspective(&camera, 30, 1.5, 0.1, 10), DP_OK);
     assert_int_equal(dp_view_init(&view, &camera, WIDTH, HEIGHT, NULL), DP_OK);
     return view;
 }
@@ -63,7 +76,8 @@ static dp_view make_view(bool orthographic) {
 /* Kernels that leave everything to the general way. */
 static void leave_all(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view) {
     (void)view;
-    for (uint32_t t = 0; t < triangles->count; t++) chunk->unsure[chunk->unsure_count++] = (uint16_t)t;
+    for (uint32_t t = 0; t < triangles->count; t++)
+        chunk->unsure[chunk->unsure_count++] = (uint16_t)t;
 }
 
 static const dp_kernels general = {.name = "general", .sift = leave_all, .touch = leave_all};
@@ -79,7 +93,9 @@ typedef struct picture {
 static void make_picture(picture *p, bool orthographic, uint32_t samples) {
     uint32_t seed = 5;
     p->view = make_view(orthographic);
-    p->chunk = (dp_chunk_view){.view = &p->view, .tiles_x = (WIDTH + DP_TILE - 1) / DP_TILE, .tiles_y = (HEIGHT + DP_TILE - 1) / DP_TILE};
+    p->chunk = (dp_chunk_view){.view = &p->view,
+                               .tiles_x = (WIDTH + DP_TILE - 1) / DP_TILE,
+                               .tiles_y = (HEIGHT + DP_TILE - 1) / DP_TILE};
     dp_sampling_init(&p->chunk.sampling, samples);
     const size_t tiles = (size_t)p->chunk.tiles_x * p->chunk.tiles_y;
     p->farthest = malloc(tiles * DP_BLOCKS * DP_BLOCKS * sizeof *p->farthest);
@@ -93,8 +109,11 @@ static void make_picture(picture *p, bool orthographic, uint32_t samples) {
     for (size_t i = 0; i < tiles * DP_BLOCKS * DP_BLOCKS; i++)
         p->farthest[i] = i / 8 % 3 == 0 ? DP_DEPTH_EMPTY : i / 8 % 3 == 1 ? middle : nearer;
     for (size_t i = 0; i < tiles * DP_TILE * 6; i++) {
-        p->wanted[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1 << next_random(&seed) % DP_TILE;
-        if (i % 2) p->crowded[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1 << next_random(&seed) % DP_TILE;
+        p->wanted[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1
+                                                             << next_random(&seed) % DP_TILE;
+        if (i % 2)
+            p->crowded[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1
+                                                                  << next_random(&seed) % DP_TILE;
     }
     p->chunk.farthest = p->farthest;
     p->chunk.wanted = p->wanted, p->chunk.crowded = p->crowded;
@@ -115,7 +134,8 @@ static double now_ns(void) {
 }
 
 /* Sifts records [first, first + count). */
-static dp_stats sift(dp_chunk *chunk, const dp_kernels *kernels, dp_chunk_view view, uint32_t first, uint32_t count) {
+static dp_stats sift(dp_chunk *chunk, const dp_kernels *kernels, dp_chunk_view view, uint32_t first,
+                     uint32_t count) {
     const dp_triangles triangles = {records[first] + CORNERS_AT, RECORD, count, NULL};
     dp_stats stats = {0};
     view.kernels = kernels;
@@ -126,14 +146,18 @@ static dp_stats sift(dp_chunk *chunk, const dp_kernels *kernels, dp_chunk_view v
 enum { FOR_GOOD = 0xff & ~DP_TRIANGLE_WITHIN };
 
 /* Counts the triangles that the kernel has left alive itself, and those with any state. */
-static void expect_general(const dp_kernels *kernels, const dp_chunk_view *view, uint32_t first, uint32_t count, uint32_t counts[2]) {
-    const dp_stats truth = sift(&plain, &general, *view, first, count), stats = sift(&wide, kernels, *view, first, count);
+static void expect_general(const dp_kernels *kernels, const dp_chunk_view *view, uint32_t first,
+                           uint32_t count, uint32_t counts[2]) {
+    const dp_stats truth = sift(&plain, &general, *view, first, count),
+                   stats = sift(&wide, kernels, *view, first, count);
     assert_int_equal(truth.dropped_finite, stats.dropped_finite);
     assert_int_equal(truth.dropped_area, stats.dropped_area);
     for (uint32_t t = 0; t < count; t++) {
         if (plain.state[t] != (wide.state[t] & FOR_GOOD))
-            fail_msg("%s: triangle %u has state %x, not %x", kernels->name, first + t, wide.state[t], plain.state[t]);
-        if (plain.state[t] & DP_TRIANGLE_LIVE) assert_memory_equal(plain.normal[t], wide.normal[t], sizeof *plain.normal);
+            fail_msg("%s: triangle %u has state %x, not %x", kernels->name, first + t,
+                     wide.state[t], plain.state[t]);
+        if (plain.state[t] & DP_TRIANGLE_LIVE)
+            assert_memory_equal(plain.normal[t], wide.normal[t], sizeof *plain.normal);
         counts[1] += plain.state[t] != 0;
         counts[0] += plain.state[t] != 0;
     }
@@ -144,7 +168,8 @@ static void expect_general(const dp_kernels *kernels, const dp_chunk_view *view,
     assert_memory_equal(plain.unsure, wide.unsure, unsure * sizeof *plain.unsure);
     assert_memory_equal(plain.state, wide.state, count);
     for (uint32_t t = 0; t < count; t++)
-        for (int e = 0; e < 3 && wide.state[t]; e++) assert_int_equal(plain.edge_key[e][t], wide.edge_key[e][t]);
+        for (int e = 0; e < 3 && wide.state[t]; e++)
+            assert_int_equal(plain.edge_key[e][t], wide.edge_key[e][t]);
 }
 
 static void check(const dp_chunk_view *view, const char *what) {
@@ -153,13 +178,17 @@ static void check(const dp_chunk_view *view, const char *what) {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t counts[2] = {0};
         for (uint32_t first = 0; first < TRIANGLES; first += DP_CHUNK)
-            expect_general(list[i], view, first, TRIANGLES - first < DP_CHUNK ? TRIANGLES - first : DP_CHUNK, counts);
-        for (uint32_t n = 1; n < 40 && n <= DP_CHUNK; n++) expect_general(list[i], view, 100, n, (uint32_t[2]){0});
+            expect_general(list[i], view, first,
+                           TRIANGLES - first < DP_CHUNK ? TRIANGLES - first : DP_CHUNK, counts);
+        for (uint32_t n = 1; n < 40 && n <= DP_CHUNK; n++)
+            expect_general(list[i], view, 100, n, (uint32_t[2]){0});
         assert_true(counts[1] > TRIANGLES / 40);
         assert_true(counts[0] > counts[1] / 3);
         const double start = now_ns();
         for (int r = 0; r < REPEATS; r++) sift(&wide, list[i], *view, 0, DP_TUNED(4000, 3));
-        if (getenv("DRYPOINT_BENCH")) print_message("%-6s %-7s %6.2f ns each\n", what, list[i]->name, (now_ns() - start) / 4000 / REPEATS);
+        if (getenv("DRYPOINT_BENCH"))
+            print_message("%-6s %-7s %6.2f ns each\n", what, list[i]->name,
+                          (now_ns() - start) / 4000 / REPEATS);
     }
 }
 
@@ -187,7 +216,8 @@ static void touches_agree(void **state) {
 
 /* Whatever the bits of 0, and from both sides. */
 static void equal_edges_have_equal_keys(void **state) {
-    static const float same[2][9] = {{0.0f, 0.5f, -0.0f, 0.25f, 0.0f, 0.0f, 0, 0, 0.1f}, {0.25f, -0.0f, 0.0f, -0.0f, 0.5f, 0.0f, 0, 0, -0.1f}};
+    static const float same[2][9] = {{0.0f, 0.5f, -0.0f, 0.25f, 0.0f, 0.0f, 0, 0, 0.1f},
+                                     {0.25f, -0.0f, 0.0f, -0.0f, 0.5f, 0.0f, 0, 0, -0.1f}};
     const dp_triangles triangles = {(const uint8_t *)same, sizeof *same, 2, NULL};
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(list);
@@ -195,7 +225,8 @@ static void equal_edges_have_equal_keys(void **state) {
     picture p;
     make_picture(&p, false, 4);
     p.chunk.wanted = NULL;
-    for (size_t i = 0; i < (size_t)p.chunk.tiles_x * p.chunk.tiles_y * DP_BLOCKS * DP_BLOCKS; i++) p.farthest[i] = DP_DEPTH_EMPTY;
+    for (size_t i = 0; i < (size_t)p.chunk.tiles_x * p.chunk.tiles_y * DP_BLOCKS * DP_BLOCKS; i++)
+        p.farthest[i] = DP_DEPTH_EMPTY;
     for (uint32_t i = 0; i < count; i++) {
         dp_stats stats = {0};
         p.chunk.kernels = list[i];

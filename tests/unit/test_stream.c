@@ -45,14 +45,20 @@ static void draw(dp_source *source, const how *h, picture *out) {
     const dp_context_desc desc = {.threads = h->threads ? h->threads : 2};
     assert_int_equal(dp_source_rewind(source, &diag), DP_OK);
     assert_int_equal(dp_source_extent(source, &extent, &diag), DP_OK);
-    dp_fit fit = {.aspect = (double)WIDTH / HEIGHT, .orthographic = h->orthographic, .zoom = h->zoom};
+    dp_fit fit = {
+        .aspect = (double)WIDTH / HEIGHT, .orthographic = h->orthographic, .zoom = h->zoom};
     memcpy(fit.min, extent.min, sizeof fit.min), memcpy(fit.max, extent.max, sizeof fit.max);
     memcpy(fit.direction, h->direction, sizeof fit.direction);
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     assert_int_equal(dp_context_create(&desc, &context, &diag), DP_OK);
     context->limit = h->limit ? h->limit : SIZE_MAX;
-    const dp_target target = {.width = WIDTH, .height = HEIGHT, .samples = h->samples, .rgba = out->rgba,
-                              .line_class = out->line_class, .depth = out->depth, .normal = out->normal};
+    const dp_target target = {.width = WIDTH,
+                              .height = HEIGHT,
+                              .samples = h->samples,
+                              .rgba = out->rgba,
+                              .line_class = out->line_class,
+                              .depth = out->depth,
+                              .normal = out->normal};
     if (dp_draw(context, source, &camera, &h->style, &target, &diag)) fail_msg("%s", diag.message);
     dp_segments(context, &out->segments);
     dp_stats_of(context, &out->stats);
@@ -73,11 +79,16 @@ static void expect_same_as_memory(dp_source *source, how h, const char *what) {
     draw(source, &h, &stream_picture);
     const long different = different_pixels(&memory_picture, &stream_picture);
     if (different) fail_msg("%s: %ld pixels differ", what, different);
-    if (memcmp(memory_picture.line_class, stream_picture.line_class, sizeof memory_picture.line_class)) fail_msg("%s: other classes", what);
-    if (memcmp(memory_picture.depth, stream_picture.depth, sizeof memory_picture.depth)) fail_msg("%s: other depth", what);
-    if (memcmp(memory_picture.normal, stream_picture.normal, sizeof memory_picture.normal)) fail_msg("%s: other normals", what);
+    if (memcmp(memory_picture.line_class, stream_picture.line_class,
+               sizeof memory_picture.line_class))
+        fail_msg("%s: other classes", what);
+    if (memcmp(memory_picture.depth, stream_picture.depth, sizeof memory_picture.depth))
+        fail_msg("%s: other depth", what);
+    if (memcmp(memory_picture.normal, stream_picture.normal, sizeof memory_picture.normal))
+        fail_msg("%s: other normals", what);
     if (memory_picture.segments != stream_picture.segments)
-        fail_msg("%s: %zu segments, %zu streamed", what, memory_picture.segments, stream_picture.segments);
+        fail_msg("%s: %zu segments, %zu streamed", what, memory_picture.segments,
+                 stream_picture.segments);
     assert_int_equal(memory_picture.stats.polygons, stream_picture.stats.polygons);
     assert_int_equal(memory_picture.stats.triangles, stream_picture.stats.triangles);
     assert_int_equal(stream_picture.stats.edges_lost, 0);
@@ -107,7 +118,10 @@ static void any_samples_and_cameras(void **state) {
     dp_source *const source = shape("bracket", 3000);
     const uint32_t samples[] = {1, 4, 8, 16};
     for (int k = 0; k < 4; k++) {
-        const how h = {.style.lines = NO_CROSSINGS, .samples = samples[k], .orthographic = k % 2, .zoom = k == 3 ? 9 : 1,
+        const how h = {.style.lines = NO_CROSSINGS,
+                       .samples = samples[k],
+                       .orthographic = k % 2,
+                       .zoom = k == 3 ? 9 : 1,
                        .direction = {1, k - 1.5, 1}};
         expect_same_as_memory(source, h, "bracket");
     }
@@ -119,7 +133,8 @@ static void any_threads(void **state) {
     dp_source *const source = shape("terrain", DP_TUNED(40000, 1500));
     static picture first;
     for (uint32_t threads = 1; threads <= 7; threads += 3) {
-        draw(source, &(how){.limit = 1, .threads = threads}, threads == 1 ? &first : &stream_picture);
+        draw(source, &(how){.limit = 1, .threads = threads},
+             threads == 1 ? &first : &stream_picture);
         if (threads > 1) assert_memory_equal(first.rgba, stream_picture.rgba, sizeof first.rgba);
         if (threads > 1) assert_memory_equal(first.depth, stream_picture.depth, sizeof first.depth);
     }
@@ -138,7 +153,10 @@ static dp_result soup_next(void *user, dp_batch *batch, dp_diag *diag) {
     soup *const s = user;
     (void)diag;
     const size_t count = s->count - s->at < 700 ? s->count - s->at : 700;
-    *batch = (dp_batch){.positions = s->corners[s->at], .vertex_count = 3 * count, .corner_count = 3 * count, .polygon_count = count};
+    *batch = (dp_batch){.positions = s->corners[s->at],
+                        .vertex_count = 3 * count,
+                        .corner_count = 3 * count,
+                        .polygon_count = count};
     s->at += count;
     return DP_OK;
 }
@@ -152,7 +170,8 @@ static dp_result soup_rewind(void *user, dp_diag *diag) {
 static dp_source *soup_source(soup *s) {
     dp_source *source;
     dp_diag diag = {0};
-    const dp_source_callbacks callbacks = {.user = s, .next = soup_next, .rewind = s->once ? NULL : soup_rewind};
+    const dp_source_callbacks callbacks = {
+        .user = s, .next = soup_next, .rewind = s->once ? NULL : soup_rewind};
     assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, &diag), DP_OK);
     return source;
 }
@@ -166,7 +185,8 @@ static void make_soup(soup *s, const char *name, uint64_t triangles) {
     while (!dp_source_next(source, &batch, &diag) && batch.polygon_count) {
         s->corners = realloc(s->corners, (s->count + batch.polygon_count) * sizeof *s->corners);
         for (size_t c = 0; c < 3 * batch.polygon_count; c++)
-            memcpy(s->corners[s->count + c / 3] + 3 * (c % 3), batch.positions + 3 * (size_t)batch.indices[c], 3 * sizeof(float));
+            memcpy(s->corners[s->count + c / 3] + 3 * (c % 3),
+                   batch.positions + 3 * (size_t)batch.indices[c], 3 * sizeof(float));
         s->count += batch.polygon_count;
     }
     dp_source_destroy(source);
@@ -184,8 +204,9 @@ static void shuffle(soup *s) {
     }
 }
 
-/* Where faces cross: large ones, ones below a sample, and in any order. Where a crossing leaves the pixels in
- * which faces were seen to come close, samples hide it, so that a pixel or two may differ. */
+/* Where faces cross: large ones, ones below a sample, and in any order. Where a crossing leaves the
+ * pixels in which faces were seen to come close, samples hide it, so that a pixel or two may
+ * differ. */
 static void crossing_faces(void **state) {
     (void)state;
     for (int k = 0; k < 3; k++) {
@@ -218,16 +239,19 @@ static void shuffled_soups(void **state) {
     }
 }
 
-/* Two triangles in one plane, and far behind in the file a third at their edge: behind them, or standing up. */
+/* Two triangles in one plane, and far behind in the file a third at their edge: behind them, or
+ * standing up. */
 static void fans_far_apart(void **state) {
     (void)state;
     for (int k = 0; k < 4; k++) {
         soup s;
         make_soup(&s, "sphere", DP_TUNED(20000, 300));
         for (size_t i = 0; i < s.count; i++)
-            for (int c = 0; c < 9; c++) s.corners[i][c] = 0.2f * s.corners[i][c] + (c % 3 == 0 ? -3 : 0);
+            for (int c = 0; c < 9; c++)
+                s.corners[i][c] = 0.2f * s.corners[i][c] + (c % 3 == 0 ? -3 : 0);
         const float up = k % 2 ? 1 : -1, x = k < 2 ? 0.5f : -0.7f;
-        const float first[2][9] = {{0, 0, 1, 1, 0, 0, 0, 0, -1}, {0, 0, 1, 0, 0, -1, -1, 0, 0}}, third[9] = {0, 0, 1, x, up, 0, 0, 0, -1};
+        const float first[2][9] = {{0, 0, 1, 1, 0, 0, 0, 0, -1}, {0, 0, 1, 0, 0, -1, -1, 0, 0}},
+                    third[9] = {0, 0, 1, x, up, 0, 0, 0, -1};
         memcpy(s.corners[0], first[0], sizeof first[0]);
         memcpy(s.corners[1], first[1], sizeof first[1]);
         memcpy(s.corners[s.count - 1], third, sizeof third);
@@ -247,18 +271,21 @@ static void keep(const soup *s, const dp_chunk_view *view, size_t limit, dp_kept
     do {
         for (size_t i = 0; i < s->count; i++) {
             const size_t first = kept->count;
-            assert_true(dp_reserve(&memory, &kept->triangles, &kept->cap, first + 1, sizeof *kept->triangles));
+            assert_true(dp_reserve(&memory, &kept->triangles, &kept->cap, first + 1,
+                                   sizeof *kept->triangles));
             dp_kept_triangle *const t = &kept->triangles[kept->count++];
             *t = (dp_kept_triangle){.number = (uint32_t)i, .polygon = (uint32_t)i};
             memcpy(t->corners, s->corners[i], sizeof t->corners);
-            for (uint32_t e = 0; e < 3; e++) t->edges[e] = dp_kept_follows(kept->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
+            for (uint32_t e = 0; e < 3; e++)
+                t->edges[e] = dp_kept_follows(kept->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
             assert_true(dp_kept_join(kept, first));
         }
     } while (dp_kept_next_share(kept, &enough));
     assert_true(enough);
 }
 
-/* Where more edges wait than may be kept they are followed in several readings, and the same are found. */
+/* Where more edges wait than may be kept they are followed in several readings, and the same are
+ * found. */
 static void kept_in_shares(void **state) {
     (void)state;
     dp_camera camera;
@@ -270,7 +297,8 @@ static void kept_in_shares(void **state) {
     dp_kept all, shares, few;
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     assert_int_equal(dp_view_init(&view, &camera, WIDTH, HEIGHT, NULL), DP_OK);
-    chunk_view.tiles_x = (WIDTH + DP_TILE - 1) / DP_TILE, chunk_view.tiles_y = (HEIGHT + DP_TILE - 1) / DP_TILE;
+    chunk_view.tiles_x = (WIDTH + DP_TILE - 1) / DP_TILE,
+    chunk_view.tiles_y = (HEIGHT + DP_TILE - 1) / DP_TILE;
     for (size_t i = 0; i < sizeof farthest / sizeof *farthest; i++) farthest[i] = DP_DEPTH_EMPTY;
     make_soup(&s, "torus", 40000);
     shuffle(&s);
@@ -285,7 +313,8 @@ static void kept_in_shares(void **state) {
         assert_int_equal(all.earlier[i].number, shares.earlier[i].number);
         assert_memory_equal(all.earlier[i].edges, shares.earlier[i].edges, 3);
     }
-    keep(&s, &chunk_view, 20, &few); /* but for the hostile build there is room for some thousand at any rate */
+    keep(&s, &chunk_view, 20,
+         &few); /* but for the hostile build there is room for some thousand at any rate */
     assert_true(few.lost > 0 || DP_TUNED(true, false));
     dp_kept_free(&all);
     dp_kept_free(&shares);
@@ -400,7 +429,8 @@ static void records(void **state) {
     dp_context *context;
     dp_camera camera;
     dp_fit fit = {0};
-    memcpy(fit.min, records_extent.min, sizeof fit.min), memcpy(fit.max, records_extent.max, sizeof fit.max);
+    memcpy(fit.min, records_extent.min, sizeof fit.min),
+        memcpy(fit.max, records_extent.max, sizeof fit.max);
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     assert_int_equal(dp_context_create(NULL, &context, &diag), DP_OK);
     context->limit = 1;
@@ -496,10 +526,13 @@ static void out_of_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_shapes),      cmocka_unit_test(any_samples_and_cameras), cmocka_unit_test(any_threads),
-        cmocka_unit_test(crossing_faces),  cmocka_unit_test(shuffled_soups),          cmocka_unit_test(bad_triangles), cmocka_unit_test(fans_far_apart), cmocka_unit_test(kept_in_shares),
-        cmocka_unit_test(one_pass),        cmocka_unit_test(read_once),               cmocka_unit_test(records),
-        cmocka_unit_test(can_be_stopped),  cmocka_unit_test(too_little_memory),       cmocka_unit_test(out_of_memory),
+        cmocka_unit_test(all_shapes),        cmocka_unit_test(any_samples_and_cameras),
+        cmocka_unit_test(any_threads),       cmocka_unit_test(crossing_faces),
+        cmocka_unit_test(shuffled_soups),    cmocka_unit_test(bad_triangles),
+        cmocka_unit_test(fans_far_apart),    cmocka_unit_test(kept_in_shares),
+        cmocka_unit_test(one_pass),          cmocka_unit_test(read_once),
+        cmocka_unit_test(records),           cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(too_little_memory), cmocka_unit_test(out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Streaming's memory is bounded: two million triangles of binary STL (100 MB), drawn by a process of its own
- * whose peak is looked at. Skipped where sanitizers or the hostile build make memory say nothing. */
+/* Streaming's memory is bounded: two million triangles of binary STL (100 MB), drawn by a process
+ * of its own whose peak is looked at. Skipped where sanitizers or the hostile build make memory say
+ * nothing. */
 #define _DEFAULT_SOURCE /* wait4 */
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
@@ -40,10 +41,12 @@ static int draw_model(void) {
     const dp_context_desc desc = {.memory = 64 * MB};
     const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = malloc(4 * WIDTH * HEIGHT)};
     if (!target.rgba || dp_context_create(&desc, &context, &diag)) return 1;
-    if (dp_source_open(path, NULL, &source, &diag) || dp_source_extent(source, &extent, &diag)) return 2;
+    if (dp_source_open(path, NULL, &source, &diag) || dp_source_extent(source, &extent, &diag))
+        return 2;
     dp_fit fit = {.aspect = (double)WIDTH / HEIGHT};
     memcpy(fit.min, extent.min, sizeof fit.min), memcpy(fit.max, extent.max, sizeof fit.max);
-    if (dp_camera_fit(&camera, &fit) || dp_draw(context, source, &camera, NULL, &target, &diag)) return 3;
+    if (dp_camera_fit(&camera, &fit) || dp_draw(context, source, &camera, NULL, &target, &diag))
+        return 3;
     dp_stats_of(context, &stats);
     if (stats.segments < 1000 || stats.edges_lost || stats.polygons < TRIANGLES / 10 * 9) return 4;
     dp_context_destroy(context);
