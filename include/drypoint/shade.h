@@ -96,8 +96,8 @@ typedef struct dp_edge_map {
     dp_edge_detector detector;
     bool as_printed;    /* the paper's differences: of distance between near and far, which fit the
                            enhanced groups; no thresholds of their own. Default: the difference beyond
-                           what the    surface's slope explains, in pixel sizes, so that neither distance
-                           nor    grazing surfaces make false edges */
+                           what the    surface's slope explains, in pixel sizes, so that neither
+                           distance    nor    grazing surfaces make false edges */
     bool eight_bits;    /* keep the G-buffer in 8 bits per channel, as the paper does */
     uint32_t c1_passes; /* C1: how many of its three passes, to look at them; 0 means all */
     uint32_t radius;    /* px from the pixel to the samples that are compared, 1 to 4; 0 means 1 */

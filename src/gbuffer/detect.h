@@ -21,8 +21,8 @@ typedef struct dp_rows {
 /* How differences of distance are measured. */
 typedef struct dp_depth_measure {
     float scale;      /* printed: 1 / (far - near); scaled: px per unit at distance 1 over the pixel
-                         sizes that      count whole, so that times a difference of depth, and in perspective
-                         over the depth, it      is the share of a whole step */
+                         sizes that      count whole, so that times a difference of depth, and in
+                         perspective      over the depth, it      is the share of a whole step */
     bool perspective; /* scaled: pixel sizes grow with distance */
     bool both_sides;  /* scaled: the further side of a step too */
 } dp_depth_measure;
