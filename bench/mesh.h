@@ -1,5 +1,5 @@
-/* A model gathered from a source into one indexed triangle mesh, for programs that need it whole.
- */
+/* A model gathered from a source into one indexed triangle mesh, for programs that need it
+ * whole. */
 #ifndef BENCH_MESH_H
 #define BENCH_MESH_H
 

@@ -1,5 +1,5 @@
-/* A peer program in a child process that draws a frame whenever it is asked to (peers/llvmpipe.c).
- */
+/* A peer program in a child process that draws a frame whenever it is asked to
+ * (peers/llvmpipe.c). */
 #ifndef BENCH_PEER_H
 #define BENCH_PEER_H
 

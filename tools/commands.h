@@ -19,8 +19,8 @@ int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent);
 /* What the settings say, for a model of that extent. 0, or the exit code after a message. */
 int make_camera(const tool_settings *s, const dp_extent *extent, dp_camera *camera);
 dp_style make_style(const tool_settings *s);
-/* The style's stroke; a texture is for the caller to destroy. 0, or the exit code after a message.
- */
+/* The style's stroke; a texture is for the caller to destroy. 0, or the exit code after a
+ * message. */
 int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture);
 /* One that strokes are asked for where lines have none. */
 void warn_strokeless(const tool_settings *s, const dp_style *style);

@@ -1,5 +1,5 @@
-/* From settings to shading and edge map: words to values, textures from PNG files, names to groups.
- */
+/* From settings to shading and edge map: words to values, textures from PNG files, names to
+ * groups. */
 #include "look.h"
 #include "report.h"
 

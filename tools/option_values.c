@@ -151,8 +151,8 @@ static bool store_plane(const option *o, const char *value, tool_settings *setti
     return wrong_usage("--%s: the normal is zero; give one like 0,1,0", o->name);
 }
 
-/* A word before "=" that is no plane's name is rather a slip than the beginning of a file's name.
- */
+/* A word before "=" that is no plane's name is rather a slip than the beginning of a file's
+ * name. */
 static bool unknown_plane(const char *value, size_t length) {
     char name[64];
     int best = 0;

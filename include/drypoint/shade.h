@@ -75,8 +75,8 @@ typedef struct dp_shade {
     float stroke_scale; /* 0 means 1; 2: twice as large */
     dp_color ink;       /* of strokes and dots; 0 means black */
 
-    /* pencil: brightness ^ ((1 - max(N·L, 0)) S + O); `strokes` then is brightness, 255 the paper
-     */
+    /* pencil: brightness ^ ((1 - max(N·L, 0)) S + O); `strokes` then is brightness, 255 the
+     * paper */
     float pencil_s, pencil_o; /* 0 means 2.6 and 0.12; negative: 0 */
     uint32_t pencil_tones;    /* 2 to 8: that many textures, from bare to dark, instead of the power
                                  (Lee et al. 2006) */

@@ -6,8 +6,8 @@
  *     ... dp_draw(context, source, &camera, &style, &target, &diag) ...
  *     dp_texture_destroy(texture);
  *
- * A texture's u runs along the line, its v across it. Not here: files (drypoint/io.h reads a PNG).
- */
+ * A texture's u runs along the line, its v across it. Not here: files (drypoint/io.h reads a
+ * PNG). */
 #ifndef DRYPOINT_STROKES_H
 #define DRYPOINT_STROKES_H
 
@@ -31,8 +31,8 @@ typedef struct dp_texture_desc {
 
 /* Alpha says how much ink there is. Without alpha (or when it is 255 everywhere) the image is ink
  * on white paper: black is full ink, white none. Where the ink is grey it takes the line's colour;
- * where any of it is coloured, the texture's own colours are drawn. DP_ERR_ARGUMENT, DP_ERR_MEMORY.
- */
+ * where any of it is coloured, the texture's own colours are drawn. DP_ERR_ARGUMENT,
+ * DP_ERR_MEMORY. */
 DP_API dp_result dp_texture_create(const dp_texture_desc *desc, dp_texture **out, dp_diag *diag);
 DP_API void dp_texture_destroy(dp_texture *texture); /* NULL allowed */
 

@@ -171,8 +171,8 @@ bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *o
     double t0 = 0, t1 = 1;
     if ((dp_outcode(p->view, a) | code_b) && !dp_clip_segment(p->view, a, b, &t0, &t1))
         return false;
-    /* ends that are not clipped stay as they are, bit for bit: the polygon's own outline runs there
-     */
+    /* ends that are not clipped stay as they are, bit for bit: the polygon's own outline runs
+     * there */
     const dp_clip_point ca = t0 > 0 ? dp_clip_mix(a, b, t0) : a,
                         cb = t1 < 1 ? dp_clip_mix(a, b, t1) : b;
     out->a = dp_to_screen(p->view, ca);

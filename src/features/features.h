@@ -13,8 +13,8 @@
  *   Q = -N sin(angle) - O cos(angle)      R = -N cos(angle) + O sin(angle)      (2.2)
  *
  * DP_METHOD_PAPER moves the ends of the edge in space, as printed; DP_METHOD_EXACT builds the
- * polygon on the screen, where widths are exact, and takes only its depth from the plane in space.
- */
+ * polygon on the screen, where widths are exact, and takes only its depth from the plane in
+ * space. */
 #ifndef DP_FEATURES_FEATURES_H
 #define DP_FEATURES_FEATURES_H
 

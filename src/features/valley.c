@@ -1,8 +1,8 @@
 /* Valleys (Raskar 2001, 2.3): at each edge of each front-facing polygon a quad at angle phi.
  *
  * The reverse of a ridge: it is behind the neighbour where that rises by more than phi. The quad
- * never writes depth and shows where it lies behind the surface, but trapped close to it (quads.c).
- */
+ * never writes depth and shows where it lies behind the surface, but trapped close to it
+ * (quads.c). */
 #include "features/features.h"
 
 static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {

@@ -44,8 +44,8 @@ static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, ui
     for (uint32_t i = 0; i < n; i++) i_z[i] = 1 - dp_minf(whole * i_z[i], 1);
 }
 
-/* Neighbours of another group that lie behind, or beside where this group's number is the larger.
- */
+/* Neighbours of another group that lie behind, or beside where this group's number is the
+ * larger. */
 static bool meets_group(const dp_gbuffer *g, const dp_edge_map *map, size_t at) {
     const size_t r = map->radius, down = r * g->stride;
     const size_t neighbours[4] = {at - down - r, at - down + r, at + down - r, at + down + r};

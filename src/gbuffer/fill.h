@@ -1,6 +1,6 @@
 /* Filling the G-buffer, a row of a tile at a time: what is passed between the general way (fill.c)
- * and the loops that take the time, which are compiled for several kinds of processors (fill.inc).
- */
+ * and the loops that take the time, which are compiled for several kinds of processors
+ * (fill.inc). */
 #ifndef DP_GBUFFER_FILL_H
 #define DP_GBUFFER_FILL_H
 

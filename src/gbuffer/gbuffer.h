@@ -6,8 +6,8 @@
 #include "mesh/normals.h"
 #include "pipe/tile.h"
 
-/* Pixels around the picture that repeat its border, so that operators need not look where they are.
- */
+/* Pixels around the picture that repeat its border, so that operators need not look where they
+ * are. */
 enum { DP_GBUFFER_MARGIN = 4 };
 
 /* Rows of a tile are worked on in strips of so many pixels from its left border on, the widest

@@ -77,8 +77,8 @@ bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba);
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);
 /* The same, in step with the vertices: zeros for those before the last vertex that got none. */
 float *dp_builder_vertex_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);
-/* The value of the last corner; corners before it that got none have none. False: dp_builder_fail.
- */
+/* The value of the last corner; corners before it that got none have none. False:
+ * dp_builder_fail. */
 bool dp_builder_corner_value(dp_builder *builder, dp_builder_attribute *attribute, uint32_t number);
 
 /* Says why the last call returned NULL or false: DP_ERR_LIMIT or DP_ERR_MEMORY. */

@@ -44,8 +44,8 @@ typedef struct dp_kernels {
      * else back faces that are not hidden (assemble.inc). */
     void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count,
                      bool backs);
-    /* Keeps those triangles that the tile's front faces do not hide; returns how many (cull.inc).
-     */
+    /* Keeps those triangles that the tile's front faces do not hide; returns how many
+     * (cull.inc). */
     uint32_t (*cull)(struct dp_tile_worker *worker, uint32_t *ids, uint32_t count);
     /* Lists those of the tile's polygons that are not hidden, and flags the others; all unless
      * `culling` (cull.inc). */
@@ -82,8 +82,8 @@ typedef struct dp_kernels {
     uint64_t (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke,
                             uint32_t x, uint32_t y, uint32_t rows, struct dp_coverage_patch *out);
     /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general
-     * way: in the first reading, with their normals, and in the second (sift.inc, stream/sift.c).
-     */
+     * way: in the first reading, with their normals, and in the second (sift.inc,
+     * stream/sift.c). */
     void (*sift)(struct dp_chunk *chunk, const struct dp_triangles *triangles,
                  const struct dp_chunk_view *view);
     void (*touch)(struct dp_chunk *chunk, const struct dp_triangles *triangles,

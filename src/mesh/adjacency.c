@@ -195,8 +195,8 @@ static flap make_flap(const builder *b, uint32_t corner, dp_vec3 from, dp_vec3 x
     return (flap){atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
 }
 
-/* Takes pairs of neighbours in the circle that look at each other out of it, until there are none.
- */
+/* Takes pairs of neighbours in the circle that look at each other out of it, until there are
+ * none. */
 static uint32_t pair_wedges(const builder *b, flap *flaps, uint32_t n) {
     for (bool found = true; found && n > 1;) {
         found = false;

@@ -7,8 +7,8 @@
 #include "base/threads.h"
 #include "mesh/polygons.h"
 
-/* What lies across an edge: the corner from which the other polygon's edge starts, or one of these.
- */
+/* What lies across an edge: the corner from which the other polygon's edge starts, or one of
+ * these. */
 #define DP_ACROSS_OPEN UINT32_MAX /* nothing */
 #define DP_ACROSS_NONE                                                                             \
     (UINT32_MAX - 1) /* this is no edge: its ends coincide, or its polygon is of no use */

@@ -1,5 +1,5 @@
-/* Curvature at vertices, and the direction in which the surface bends least: what a pencil follows.
- */
+/* Curvature at vertices, and the direction in which the surface bends least: what a pencil
+ * follows. */
 #ifndef DP_MESH_CURVATURE_H
 #define DP_MESH_CURVATURE_H
 

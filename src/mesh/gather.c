@@ -214,8 +214,8 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     return DP_OK;
 }
 
-/* Per vertex: position and place on the screen; per polygon: its number, group and place in bins.
- */
+/* Per vertex: position and place on the screen; per polygon: its number, group and place in
+ * bins. */
 static bool is_beyond_limit(const dp_polygon_store *s) {
     enum { VERTEX = 28, CORNER = 5, POLYGON = 34 };
     return s->limit &&

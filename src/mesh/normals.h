@@ -50,8 +50,8 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
                      dp_attribute *out);
 
 /* Fills store->packed with the polygons' normals (polygons->normals, made or the model's, of any
- * length). Nothing is done when nothing has changed since the last call. False when memory is out.
- */
+ * length). Nothing is done when nothing has changed since the last call. False when memory is
+ * out. */
 bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_threads *threads,
                      const dp_allocator *memory);
 

@@ -49,8 +49,8 @@ static void add_line(dp_tile_worker *w, const shared_edge *e, dp_line line, dp_v
         &spine);
 }
 
-/* The normals as the eye sees them: of two polygons that are wound differently one is turned round.
- */
+/* The normals as the eye sees them: of two polygons that are wound differently one is turned
+ * round. */
 static dp_fold fold_of(const dp_frame *frame, const shared_edge *e, bool turned) {
     return dp_fold_seen(frame, e->a, !turned, e->b, turned == e->flipped, e->edge_b);
 }

@@ -11,8 +11,8 @@ enum {
     DP_FACING_NO_AREA = 2 /* it covers nothing and is seen through */
 };
 
-/* Fills frame->facing and frame->outlined (allocated), from frame->vertices and frame->adjacency.
- */
+/* Fills frame->facing and frame->outlined (allocated), from frame->vertices and
+ * frame->adjacency. */
 void dp_find_facing(dp_frame *frame);
 
 /* The line that the edge from `corner` of `polygon` is, seen from that polygon: DP_LINE_SILHOUETTE

@@ -44,8 +44,8 @@ struct dp_context {
     bool recording_lost;     /* there was no memory to make it; dp_finish says so */
 };
 
-/* dp_draw with one resolved style per group; what holds for the whole picture comes from styles[0].
- */
+/* dp_draw with one resolved style per group; what holds for the whole picture comes from
+ * styles[0]. */
 dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag);

@@ -4,8 +4,8 @@
  * target
  *
  * Each stage runs in parallel over blocks, chunks or tiles and is over before the next begins; what
- * a stage hands on is in submission or tile order, so that the picture does not depend on threads.
- */
+ * a stage hands on is in submission or tile order, so that the picture does not depend on
+ * threads. */
 #include "pipe/context.h"
 
 #include "base/diag.h"

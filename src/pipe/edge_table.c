@@ -167,12 +167,12 @@ static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
     w->edge_slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
 }
 
-/* Compilers know nothing of the value, so that they make no branches of what is computed from it.
- */
+/* Compilers know nothing of the value, so that they make no branches of what is computed from
+ * it. */
 #define OPAQUE(value) __asm__("" : "+r"(value))
 
-/* Of names so much is compared at first: all of it, or so little that most tables are filled again.
- */
+/* Of names so much is compared at first: all of it, or so little that most tables are filled
+ * again. */
 static const uint32_t COMPARED = DP_TUNED(UINT32_MAX, 15);
 
 /* Is the slot taken by another edge? */

@@ -107,8 +107,8 @@ static dp_style style_of(const dp_style *picture, const state *s) {
     return style;
 }
 
-/* Takes the state over when it is a sound one; what is wrong is told by the one place that knows.
- */
+/* Takes the state over when it is a sound one; what is wrong is told by the one place that
+ * knows. */
 static void set_state(dp_recording *r, const state *s) {
     const dp_style style = style_of(&r->picture, s);
     dp_style resolved;

@@ -22,8 +22,8 @@ static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
     return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
 }
 
-/* The corner's cross product over the squares of its edges' lengths (Max 1999): right on a sphere.
- */
+/* The corner's cross product over the squares of its edges' lengths (Max 1999): right on a
+ * sphere. */
 static dp_vec3 share_of(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
     const dp_polygons *const p = &frame->polygons;
     const uint32_t n = dp_corner_count(p, polygon);

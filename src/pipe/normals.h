@@ -1,5 +1,5 @@
-/* Silhouette edges on the screen, with what their extrusion needs: the outside, and vertex normals.
- */
+/* Silhouette edges on the screen, with what their extrusion needs: the outside, and vertex
+ * normals. */
 #ifndef DP_PIPE_NORMALS_H
 #define DP_PIPE_NORMALS_H
 

@@ -19,8 +19,8 @@ typedef struct dp_spine {
 #define DP_PROBE_LIFT  0.1
 #define DP_PROBE_SLACK 0.05
 
-/* The spine from a to b (world space), lifted along the unit normal. False: nothing of it is seen.
- */
+/* The spine from a to b (world space), lifted along the unit normal. False: nothing of it is
+ * seen. */
 bool dp_spine_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 normal, dp_spine *spine);
 
 /* The same without sample points: probe_a and probe_b are left as they are. */

@@ -272,8 +272,8 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame);
 void dp_tile_worker_free(dp_tile_worker *worker);
 uint64_t dp_tile_worker_bytes(const dp_tile_worker *worker);
 
-/* Takes up a tile: nothing has won a sample, no line is known; its depth stays as it is (tile.c).
- */
+/* Takes up a tile: nothing has won a sample, no line is known; its depth stays as it is
+ * (tile.c). */
 void dp_tile_open(dp_tile_worker *worker, uint32_t tile);
 
 /* Finds the visible pieces of lines in tile `tile` and its surface (tile.c). */
@@ -301,8 +301,8 @@ void dp_tile_quads(dp_tile_worker *worker);
 /* Culling: how far behind the surface is well behind it, pixel sizes. */
 #define DP_CULL_SLACK 6
 
-/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest (cull.c)?
- */
+/* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest
+ * (cull.c)? */
 bool dp_tile_hides(const dp_tile_worker *worker, float x0, float y0, float x1, float y1,
                    float nearest);
 
@@ -393,8 +393,8 @@ static inline float dp_depth_steps(const dp_frame *frame, float d, float px) {
     return px * (fabsf(d) * frame->step_scale + frame->step_offset);
 }
 
-/* A crossing is looked for this far around a sample, px: beyond the next sample on the other side …
- */
+/* A crossing is looked for this far around a sample, px: beyond the next sample on the other side
+ * … */
 static inline float dp_watch_px(const dp_tile_worker *w) {
     return w->sampling.samples == 1 ? 1.5f : 0.75f;
 }

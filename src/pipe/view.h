@@ -111,8 +111,8 @@ static inline int dp_outcode(const dp_view *view, dp_clip_point c) {
 uint32_t dp_clip_polygon(const dp_view *view, int codes, dp_clip_point *points, uint32_t n,
                          dp_clip_point *scratch);
 
-/* Clips the segment from a to b; *t0, *t1 are what is left of [0, 1] in clip space. False: nothing.
- */
+/* Clips the segment from a to b; *t0, *t1 are what is left of [0, 1] in clip space. False:
+ * nothing. */
 bool dp_clip_segment(const dp_view *view, dp_clip_point a, dp_clip_point b, double *t0, double *t1);
 
 static inline dp_clip_point dp_clip_mix(dp_clip_point a, dp_clip_point b, double t) {

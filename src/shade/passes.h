@@ -7,8 +7,8 @@
 /* Cartoon map: the toon colours, each the mean of itself and its neighbours of the same surface:
  * color -> smooth. */
 void dp_cartoon_map_tile(dp_shade_store *store, uint32_t tile);
-/* Edge map, and its edges over `color`: inner first, then profile. Fills the target's edge map too.
- */
+/* Edge map, and its edges over `color`: inner first, then profile. Fills the target's edge map
+ * too. */
 void dp_edges_tile(dp_shade_store *store, uint32_t tile);
 /* Colours of pixels that several surfaces share are put together: color -> target. */
 void dp_resolve_tile(dp_shade_store *store, uint32_t tile);

@@ -6,8 +6,8 @@
 #include "gbuffer/gbuffer.h"
 #include "mesh/curvature.h"
 
-/* One run of pixels of a row on its way through an operator; colours in [0, 1], planes of floats.
- */
+/* One run of pixels of a row on its way through an operator; colours in [0, 1], planes of
+ * floats. */
 typedef struct dp_shade_run {
     const float *nx, *ny, *nz, *distance; /* camera space; world units */
     const float *u, *v;                   /* texture coordinates, NaN where none; or NULL */
@@ -139,8 +139,8 @@ bool dp_shade_gathered(dp_shade_store *store);
  * so is left to the passes. */
 bool dp_shade_at_once(dp_shade_store *store, uint32_t tile);
 
-/* The passes over tiles, in order, once all tiles are filled; each is over before the next begins.
- */
+/* The passes over tiles, in order, once all tiles are filled; each is over before the next
+ * begins. */
 enum { DP_SHADE_PASSES = 5 };
 bool dp_shade_pass_runs(const dp_shade_store *store, int pass);
 void dp_shade_pass(dp_shade_store *store, int pass, uint32_t tile);

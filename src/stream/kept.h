@@ -56,8 +56,8 @@ static inline uint32_t dp_edge_hash(const float *p, const float *q) {
 /* Does a reading that follows this share follow the edge of a triangle? */
 bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge);
 
-/* Begins with the next share of edges; false when there is none. *enough: false when memory is out.
- */
+/* Begins with the next share of edges; false when there is none. *enough: false when memory is
+ * out. */
 bool dp_kept_next_share(dp_kept *kept, bool *enough);
 
 /* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped, and so

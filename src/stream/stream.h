@@ -4,8 +4,8 @@
 
 #include "pipe/context.h"
 
-/* Memory beyond the picture, bytes: what is taken when nothing is said, and the least that works.
- */
+/* Memory beyond the picture, bytes: what is taken when nothing is said, and the least that
+ * works. */
 #define DP_MEMORY_DEFAULT ((size_t)256 << 20)
 #define DP_MEMORY_LEAST   ((size_t)48 << 20)
 

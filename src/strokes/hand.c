@@ -7,8 +7,8 @@
  * seam.
  *
  * Errors of the hand are noise over the arc length, seeded by the style's seed, the repeat, and the
- * polygon at which the chain begins: nothing depends on threads or on what else is in the picture.
- */
+ * polygon at which the chain begins: nothing depends on threads or on what else is in the
+ * picture. */
 #include "strokes/mark.h"
 
 #include "pipe/fringe.h"
@@ -166,8 +166,8 @@ static void smooth(hand_point *p, size_t n, bool closed) {
     }
 }
 
-/* Off the line, square to it: a slow sway and a small tremble. Ends of closed chains stay together.
- */
+/* Off the line, square to it: a slow sway and a small tremble. Ends of closed chains stay
+ * together. */
 static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) {
     if (!(by > 0)) return;
     float x = p[0].x, y = p[0].y;

@@ -2,8 +2,8 @@
  * centres along the longest axis.
  *
  * Invariant: node n's box holds all triangles [first, first + count) of the array; an inner node's
- * children are n + 1 and `right`, and halve that range. Balanced, so that 64 levels hold any count.
- */
+ * children are n + 1 and `right`, and halve that range. Balanced, so that 64 levels hold any
+ * count. */
 #include "rays.h"
 
 #include <stdlib.h>

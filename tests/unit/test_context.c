@@ -107,8 +107,8 @@ static void meter_free(void *block, void *user) {
     free(block);
 }
 
-/* One drawing, every `at`-th allocation failing. True: it came through without meeting the failure.
- */
+/* One drawing, every `at`-th allocation failing. True: it came through without meeting the
+ * failure. */
 static bool draw_with_failure(const char *shape, uint32_t threads, long at,
                               const uint8_t *expected) {
     meter m = {0};

@@ -154,8 +154,8 @@ static void unbend(bends *b) {
     dp_threads_destroy(b->threads);
 }
 
-/* Everywhere on a sphere the surface bends alike: level lines. With noise, too, neighbours agree.
- */
+/* Everywhere on a sphere the surface bends alike: level lines. With noise, too, neighbours
+ * agree. */
 static void test_umbilics_and_noise_get_a_steady_direction(void **state) {
     (void)state;
     const uint32_t n = 40;

@@ -1,5 +1,5 @@
-/* gbuffer: the detectors by hand on 5 x 5 pixels, and the G-buffer and edge map of whole pictures.
- */
+/* gbuffer: the detectors by hand on 5 x 5 pixels, and the G-buffer and edge map of whole
+ * pictures. */
 #include "gbuffer/detect.h"
 #include "gbuffer/gbuffer.h"
 #include "kernel/kernels.h"
@@ -282,8 +282,8 @@ static void distance_is_linear_whatever_near_and_far_are(void **state) {
     assert_true(seen > 30);
 }
 
-/* Grazing surfaces and far ones: no edges but the outline. As printed the floor's far end has some.
- */
+/* Grazing surfaces and far ones: no edges but the outline. As printed the floor's far end has
+ * some. */
 static void slopes_make_no_false_edges(void **state) {
     (void)state;
     static scene s;

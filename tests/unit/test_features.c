@@ -122,8 +122,8 @@ static void silhouette_is_a_band_beside_the_edge(void **state) {
         const dp_pen pen = pen_at(DP_METHOD_EXACT, 140);
         set_polygon(&p, perspective, behind, 4);
         assert_false(p.primitive.front);
-        /* edge 3 runs from (1, 0) to (0, 0): the fin lies below it, 6 px wide, in the plane z = 0
-         */
+        /* edge 3 runs from (1, 0) to (0, 0): the fin lies below it, 6 px wide, in the plane z =
+         * 0 */
         const uint32_t count = dp_shade_silhouette(&p.primitive, 3, &pen, out);
         assert_true(count >= 1 && out[0].count == 4);
         assert_point(out[0].points[0], 220, 200);
@@ -327,8 +327,8 @@ static void check_added(const polygon *p, uint32_t edge, const dp_added *out, ui
     }
 }
 
-/* Every shader, both methods: nothing is infinite, and nothing reaches further than binning knows.
- */
+/* Every shader, both methods: nothing is infinite, and nothing reaches further than binning
+ * knows. */
 static void check_all(const polygon *p) {
     static dp_primitive_shader *const shaders[] = {dp_shade_silhouette, dp_shade_ridge,
                                                    dp_shade_valley};

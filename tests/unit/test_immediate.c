@@ -1,5 +1,5 @@
-/* The API of Raskar 2001, Figure 3: the same picture as the batch interface, and wrong calls told.
- */
+/* The API of Raskar 2001, Figure 3: the same picture as the batch interface, and wrong calls
+ * told. */
 #include "scene.h"
 
 #include <setjmp.h>
@@ -116,8 +116,8 @@ static void send_roof(float x) {
     dp_vertex3f(context, x + 20, 40, -20), dp_vertex3f(context, x, 40, 0);
 }
 
-/* State is taken at dp_begin: two ridges in one picture, each with its own width, colour and theta.
- */
+/* State is taken at dp_begin: two ridges in one picture, each with its own width, colour and
+ * theta. */
 static void state_holds_at_begin(void **state) {
     const dp_camera camera = scene_flat_camera();
     (void)state;
@@ -244,8 +244,8 @@ static void style_holds_for_the_whole_picture(void **state) {
     dp_set_style(context, &(const dp_style){0});
 }
 
-/* The first wrong call is told by the next dp_finish, which draws nothing; then all is well again.
- */
+/* The first wrong call is told by the next dp_finish, which draws nothing; then all is well
+ * again. */
 static void expect_misuse(const char *what) {
     dp_diag diag = {0};
     memset(&shown, 0x5A, sizeof shown);

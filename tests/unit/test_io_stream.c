@@ -1,5 +1,5 @@
-/* io/stream and io/text: windows of any size show the same bytes; errors, progress, standard input.
- */
+/* io/stream and io/text: windows of any size show the same bytes; errors, progress, standard
+ * input. */
 #include "io/stream.h"
 #include "io/text.h"
 #include "reading.h"

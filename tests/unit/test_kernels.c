@@ -160,8 +160,8 @@ static void places_agree(void **state) {
     }
 }
 
-/* Strokes of any length and width, also a point, with and without polygons, in both kinds of views.
- */
+/* Strokes of any length and width, also a point, with and without polygons, in both kinds of
+ * views. */
 static dp_stroke random_stroke(uint32_t *seed) {
     dp_stroke s = {.half_width = (float)(next_random(seed) % 4000) / 100,
                    .line = (uint8_t)(next_random(seed) % DP_LINE_COUNT)};
@@ -176,8 +176,8 @@ static dp_stroke random_stroke(uint32_t *seed) {
     return s;
 }
 
-/* What the kernel says of a pixel, by the definition: distance to the spine, and dp_stroke_limit.
- */
+/* What the kernel says of a pixel, by the definition: distance to the spine, and
+ * dp_stroke_limit. */
 static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t x, uint32_t y,
                             float share, float limit) {
     const double ex = (double)s->b.x - s->a.x, ey = (double)s->b.y - s->a.y,

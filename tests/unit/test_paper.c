@@ -269,8 +269,8 @@ static scene *every_class(void) {
     return made;
 }
 
-/* Each class alone, each pair, all: ink of the classes asked for and of no other, in their colours.
- */
+/* Each class alone, each pair, all: ink of the classes asked for and of no other, in their
+ * colours. */
 static void classes_can_be_switched_and_coloured(void **state) {
     static const dp_color colors[DP_LINE_COUNT] = {DP_RGB(255, 0, 0), DP_RGB(0, 255, 0),
                                                    DP_RGB(0, 0, 255), DP_RGB(255, 0, 255),
@@ -454,8 +454,8 @@ static void survive(const scene *model, const char *what) {
         for (size_t c = 0; c < sizeof cameras / sizeof *cameras; c++) {
             const dp_style style = style_of(&variants[i], DP_ALL_LINES, 150, 210, 2);
             draw(model, &cameras[c], &style);
-            /* the paper's widths hold at the corners only: fins of clipped or steep polygons bulge
-             */
+            /* the paper's widths hold at the corners only: fins of clipped or steep polygons
+             * bulge */
             const double reach = variants[i].method == DP_METHOD_PAPER ? 8 : 4;
             const double stray = scene_stray(&shown, model, &cameras[c], reach);
             if (stray > 1)

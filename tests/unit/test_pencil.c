@@ -144,8 +144,8 @@ static void test_every_kernel_draws_the_same(void **state) {
     unsetenv("DRYPOINT_CPU");
 }
 
-/* Directions and turns of 10 degrees: what lies near the middle between two steps is in part both.
- */
+/* Directions and turns of 10 degrees: what lies near the middle between two steps is in part
+ * both. */
 static void test_turns(void **state) {
     static const float right[3] = {1, 0, 0}, up[3] = {0, 1, 0};
     const dp_kernels *list[DP_KERNELS_MAX];

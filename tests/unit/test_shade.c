@@ -354,8 +354,8 @@ static void failing_free(void *block, void *user) {
     free(block);
 }
 
-/* Whichever allocation fails, the call says so, nothing is lost, and the context can be used again.
- */
+/* Whichever allocation fails, the call says so, nothing is lost, and the context can be used
+ * again. */
 static void every_allocation_may_fail(void **state) {
     (void)state;
     static scene s;

@@ -368,8 +368,8 @@ static void test_gaps_of_a_texture_stay_open(void **state) {
     dp_texture_destroy(t);
 }
 
-/* No gaps at 24 px: around the outline of a convex shape, every pixel up to 23 px outside is ink.
- */
+/* No gaps at 24 px: around the outline of a convex shape, every pixel up to 23 px outside is
+ * ink. */
 static void test_extruded_silhouettes_have_no_gaps(void **state) {
     (void)state;
     static const char *const shapes[] = {"cube", "sphere", "cylinder"};
