@@ -1,41 +1,11 @@
-/* Contexts: independent of each other, tidy when memory runs out or the drawing is cancelled, on
- * anyone's threads, and plain about wrong arguments. */
-#include <drypoint/drypoint.h>
+/* Contexts: independent of each other, tidy when the drawing is cancelled, on anyone's threads, and
+ * plain about wrong arguments. */
+#include "drawing.h"
 
 #include <math.h>
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
-
-enum { WIDTH = 160, HEIGHT = 120, BYTES = 4 * WIDTH * HEIGHT };
-
-static dp_source *new_shape(const char *name, const dp_allocator *allocator) {
-    const dp_shape shape = {.name = name, .triangles = 2000, .allocator = allocator};
-    dp_source *source = NULL;
-    dp_diag diag = {0};
-    if (dp_source_from_shape(&shape, &source, &diag) != DP_OK && allocator == NULL)
-        fail_msg("%s", diag.message);
-    return source;
-}
-
-static dp_camera camera_of(double x, double y, double z) {
-    dp_camera camera = {{0}, {0}};
-    dp_camera_look_at(&camera, (const double[3]){x, y, z}, (const double[3]){0, 0, 0},
-                      (const double[3]){0, 1, 0});
-    dp_camera_perspective(&camera, 40, (double)WIDTH / HEIGHT, 0.1, 20);
-    return camera;
-}
-
-static dp_result draw(dp_context *context, dp_source *source, uint8_t *rgba, dp_diag *diag) {
-    const dp_camera camera = camera_of(2, 1.5, 2.5);
-    const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};
-    return dp_draw(context, source, &camera, NULL, &target, diag);
-}
 
 /* Independence. */
 
@@ -73,130 +43,6 @@ static void contexts_work_side_by_side(void **state) {
         draw_job(&alone[i]);
         assert_int_equal(together[i].result, DP_OK);
         assert_memory_equal(together[i].rgba, alone[i].rgba, BYTES);
-    }
-}
-
-/* Memory. */
-
-/* Counts what is alive, and fails at allocation number `fail_at`; 0: never. */
-typedef struct meter {
-    atomic_long alive, calls, fail_at;
-} meter;
-
-static bool fails(meter *m) {
-    return atomic_fetch_add(&m->calls, 1) + 1 == atomic_load(&m->fail_at);
-}
-
-static void *meter_alloc(size_t size, void *user) {
-    meter *m = user;
-    void *block = fails(m) ? NULL : malloc(size ? size : 1);
-    if (block) atomic_fetch_add(&m->alive, 1);
-    return block;
-}
-
-static void *meter_realloc(void *block, size_t size, void *user) {
-    meter *m = user;
-    void *moved = fails(m) ? NULL : realloc(block, size ? size : 1);
-    if (moved && !block) atomic_fetch_add(&m->alive, 1);
-    return moved;
-}
-
-static void meter_free(void *block, void *user) {
-    meter *m = user;
-    if (block) atomic_fetch_sub(&m->alive, 1);
-    free(block);
-}
-
-/* One drawing, every `at`-th allocation failing. True: it came through without meeting the
- * failure. */
-static bool draw_with_failure(const char *shape, uint32_t threads, long at,
-                              const uint8_t *expected) {
-    meter m = {0};
-    const dp_allocator allocator = {meter_alloc, meter_realloc, meter_free, &m};
-    const dp_context_desc desc = {.allocator = &allocator, .threads = threads};
-    static uint8_t rgba[BYTES];
-    dp_context *context = NULL;
-    dp_diag diag = {0};
-    dp_source *source = new_shape(shape, NULL);
-    atomic_store(&m.fail_at, at);
-    dp_result result = dp_context_create(&desc, &context, &diag);
-    if (result == DP_OK)
-        result = draw(context, source, rgba, &diag);
-    else
-        assert_null(context);
-    if (result != DP_OK && result != DP_ERR_MEMORY && result != DP_ERR_LIMIT)
-        fail_msg("%s, allocation %ld: %s", shape, at, dp_result_name(result));
-    if (result != DP_OK) {
-        assert_int_equal(diag.result, result);
-        assert_true(diag.message[0] != 0);
-    }
-    const bool met = atomic_load(&m.calls) >= at;
-    if (result == DP_OK && memcmp(rgba, expected, BYTES) != 0)
-        fail_msg("%s, allocation %ld: another picture", shape, at);
-    if (!met) assert_int_equal(result, DP_OK);
-    atomic_store(&m.fail_at, 0);
-    if (context != NULL) { /* there is memory again: as if nothing had been */
-        assert_int_equal(draw(context, source, rgba, &diag), DP_OK);
-        if (memcmp(rgba, expected, BYTES) != 0)
-            fail_msg("%s, after allocation %ld: another picture", shape, at);
-    }
-    dp_context_destroy(context);
-    dp_source_destroy(source);
-    if (atomic_load(&m.alive) != 0)
-        fail_msg("%s, allocation %ld: %ld blocks leak", shape, at, atomic_load(&m.alive));
-    return !met;
-}
-
-static void every_allocation_may_fail(void **state) {
-    static const char *const shapes[] = {"boxes", "gear", "terrain"};
-    (void)state;
-    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
-        static uint8_t expected[BYTES];
-        dp_context *context = NULL;
-        dp_source *source = new_shape(shapes[s], NULL);
-        assert_int_equal(dp_context_create(NULL, &context, NULL), DP_OK);
-        assert_int_equal(draw(context, source, expected, NULL), DP_OK);
-        dp_context_destroy(context);
-        dp_source_destroy(source);
-        for (uint32_t threads = 1; threads <= 2; threads++) {
-            long at = 1;
-            while (!draw_with_failure(shapes[s], threads, at, expected)) {
-                at += at < 400 ? 1 : at / 50; /* many are alike later on */
-                if (at > 1000000) fail_msg("%s: never ends", shapes[s]);
-            }
-            assert_true(at > 10);
-        }
-    }
-}
-
-/* The same for what the immediate interface records. */
-static void recording_may_run_out_of_memory(void **state) {
-    (void)state;
-    for (long at = 1;; at++) {
-        meter m = {0};
-        const dp_allocator allocator = {meter_alloc, meter_realloc, meter_free, &m};
-        const dp_context_desc desc = {.allocator = &allocator, .threads = 1};
-        const dp_camera camera = camera_of(2, 1.5, 2.5);
-        static uint8_t rgba[BYTES];
-        const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};
-        dp_context *context = NULL;
-        dp_diag diag = {0};
-        atomic_store(&m.fail_at, at);
-        if (dp_context_create(&desc, &context, &diag) == DP_OK) {
-            dp_set_camera(context, &camera);
-            dp_enable(context, DP_SIL_RIDGE_VALLEY);
-            dp_begin(context, DP_TRIANGLE_STRIP);
-            for (int i = 0; i < 3000; i++)
-                dp_vertex3f(context, (float)i / 1500 - 1, (float)(i % 2), (float)sin(i * 0.01));
-            dp_end(context);
-            const dp_result result = dp_finish(context, &target, &diag);
-            if (result != DP_OK) assert_int_equal(result, DP_ERR_MEMORY);
-        }
-        const bool met = atomic_load(&m.calls) >= at;
-        dp_context_destroy(context);
-        assert_int_equal(atomic_load(&m.alive), 0);
-        if (!met) break;
-        assert_true(at < 100000);
     }
 }
 
@@ -548,48 +394,9 @@ static void statistics_and_segments_add_up(void **state) {
     dp_source_destroy(source);
 }
 
-/* Counts calls that get memory. */
-static void *counting_alloc(size_t size, void *user) {
-    ++*(size_t *)user;
-    return malloc(size);
-}
-static void *counting_realloc(void *block, size_t size, void *user) {
-    ++*(size_t *)user;
-    return realloc(block, size);
-}
-static void counting_free(void *block, void *user) {
-    (void)user;
-    free(block);
-}
-
-/* With one worker the second frame finds all memory where the first left it. */
-static void later_frames_allocate_nothing(void **state) {
-    static const char *const shapes[] = {"gear", "boxes", "terrain"};
-    static uint8_t rgba[BYTES];
-    (void)state;
-    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
-        size_t count = 0;
-        const dp_allocator allocator = {counting_alloc, counting_realloc, counting_free, &count};
-        const dp_context_desc desc = {.allocator = &allocator, .threads = 1};
-        dp_context *context = NULL;
-        dp_source *source = new_shape(shapes[i], NULL);
-        assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
-        assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
-        assert_true(count > 0);
-        count = 0;
-        for (int frame = 0; frame < 3; frame++)
-            assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
-        assert_int_equal(count, 0);
-        dp_context_destroy(context);
-        dp_source_destroy(source);
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contexts_work_side_by_side),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(recording_may_run_out_of_memory),
         cmocka_unit_test(progress_runs_forward_and_can_stop),
         cmocka_unit_test(parallel_for_may_be_the_applications),
         cmocka_unit_test(streams_are_read_once),
@@ -598,7 +405,6 @@ int main(void) {
         cmocka_unit_test(planes_are_optional),
         cmocka_unit_test(extreme_sizes),
         cmocka_unit_test(statistics_and_segments_add_up),
-        cmocka_unit_test(later_frames_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
