@@ -13,6 +13,13 @@
 
 enum { WIDTH = 320, HEIGHT = 240, THREADS = 3 };
 
+/* Of models: fewer where the sanitizers make every one of them dear. */
+#ifdef __SANITIZE_ADDRESS__
+enum { TRIANGLES = 5000 };
+#else
+enum { TRIANGLES = 20000 };
+#endif
+
 static const uint32_t thread_counts[THREADS] = {1, 2, 7};
 
 /* Everything a drawing leaves behind. */
@@ -131,7 +138,7 @@ static void every_shape(void **state) {
     const dp_style style = {0};
     (void)state;
     for (uint32_t i = 0; i < dp_shape_count(); i++) {
-        dp_source *source = new_shape(dp_shape_name(i), 20000);
+        dp_source *source = new_shape(dp_shape_name(i), TRIANGLES);
         check(source, &style, 4, dp_shape_name(i));
         dp_source_destroy(source);
     }
@@ -234,7 +241,7 @@ static void every_kernel(void **state) {
                                {.ink = DP_INK_QUADS, .method = DP_METHOD_PAPER}};
     (void)state;
     for (uint32_t i = 0; i < dp_shape_count(); i++) {
-        dp_source *const source = new_shape(dp_shape_name(i), 20000);
+        dp_source *const source = new_shape(dp_shape_name(i), TRIANGLES);
         for (uint32_t k = 0; k < 12; k++) {
             const dp_camera camera = fitted_as(
                 source, (dp_fit){.orthographic = k / 4 == 1, .zoom = k / 4 == 2 ? 30 : 1});
@@ -252,7 +259,7 @@ static void every_look(void **state) {
     dp_context *const used = new_context(2);
     (void)state;
     for (uint32_t i = 0; i < 3; i++) {
-        dp_source *const source = new_shape(names[i], 20000);
+        dp_source *const source = new_shape(names[i], TRIANGLES);
         for (uint32_t k = 0; k < 2 * DP_SHADING_COUNT; k++) {
             const dp_camera camera =
                 fitted_as(source, (dp_fit){.orthographic = k % 4 == 1, .zoom = k % 4 == 2 ? 6 : 1});
