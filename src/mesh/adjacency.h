@@ -10,8 +10,8 @@
 /* What lies across an edge: the corner from which the other polygon's edge starts, or one of
  * these. */
 #define DP_ACROSS_OPEN UINT32_MAX /* nothing */
-#define DP_ACROSS_NONE                                                                             \
-    (UINT32_MAX - 1) /* this is no edge: its ends coincide, or its polygon is of no use */
+/* this is no edge: its ends coincide, or its polygon is of no use */
+#define DP_ACROSS_NONE    (UINT32_MAX - 1)
 #define DP_ACROSS_FLIPPED 0x80000000u /* or'ed in: the other polygon is wound the other way */
 
 typedef struct dp_adjacency {

@@ -13,6 +13,15 @@ static dp_vec3 far_corner(const dp_polygons *polygons, uint32_t polygon, uint32_
     return corner_position(polygons, first + (edge + 1 + n / 2) % n);
 }
 
+static dp_vec3 edge_position(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
+    return corner_position(polygons, dp_first_corner(polygons, polygon) + edge);
+}
+
+/* From an edge into the polygon. */
+static dp_vec3 from_edge(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
+    return dp_sub(far_corner(polygons, polygon, edge), edge_position(polygons, polygon, edge));
+}
+
 static dp_fold fold_towards(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b,
                             bool b_as_wound, dp_vec3 at, dp_vec3 into_b) {
     dp_fold fold = {.normal_a = dp_polygon_normal(frame, a),
@@ -29,17 +38,14 @@ static dp_fold fold_towards(const dp_frame *frame, uint32_t a, bool a_as_wound, 
 
 dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b,
                      bool b_as_wound, uint32_t edge_b) {
-    const dp_polygons *const polygons = &frame->polygons;
-    const dp_vec3 on_edge = corner_position(polygons, dp_first_corner(polygons, b) + edge_b);
-    const dp_vec3 into_b = dp_sub(far_corner(polygons, b, edge_b), on_edge);
+    const dp_vec3 on_edge = edge_position(&frame->polygons, b, edge_b);
+    const dp_vec3 into_b = from_edge(&frame->polygons, b, edge_b);
     return fold_towards(frame, a, a_as_wound, b, b_as_wound, on_edge, into_b);
 }
 
 dp_fold dp_fold_between(const dp_frame *frame, dp_vec3 normal_a, dp_vec3 normal_b, dp_vec3 normal,
                         uint32_t b, uint32_t edge_b) {
-    const dp_polygons *const polygons = &frame->polygons;
-    const dp_vec3 on_edge = corner_position(polygons, dp_first_corner(polygons, b) + edge_b);
-    const dp_vec3 into_b = dp_sub(far_corner(polygons, b, edge_b), on_edge);
+    const dp_vec3 into_b = from_edge(&frame->polygons, b, edge_b);
     return (dp_fold){normal_a, normal_b, normal, dp_dot(normal_a, into_b) > 0};
 }
 

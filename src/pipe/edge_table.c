@@ -31,8 +31,8 @@ dp_edge_place dp_edge_place_of(const dp_tile_worker *w, uint32_t number) {
 
 static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
     if (a == b) return true;
-    const float *const p = dp_vertex_position(polygons, a), *const q =
-                                                                dp_vertex_position(polygons, b);
+    const float *const p = dp_vertex_position(polygons, a);
+    const float *const q = dp_vertex_position(polygons, b);
     return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
 }
 

@@ -152,8 +152,8 @@ static finding outline_finding(const dp_tile_worker *w, const emerging *e, uint3
 }
 
 static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t across) {
-    const dp_tile_polygon *const p = &w->polygons[e->loose.polygon], *const q =
-                                                                         &w->polygons[across];
+    const dp_tile_polygon *const p = &w->polygons[e->loose.polygon];
+    const dp_tile_polygon *const q = &w->polygons[across];
     finding f = {-1, across, {0, 0, 0}};
     if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
     const dp_vec3 at = dp_mix(e->a, e->b, 0.5);

@@ -139,7 +139,7 @@ static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const d
     return !(nearer & further);
 }
 
-/* Not in sight of each other's planes, or neighbours. */
+/* Not in sight of each other's planes. */
 static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p,
                        const dp_tile_polygon *q) {
     uint32_t of_p, of_q;
@@ -236,8 +236,8 @@ static void find_windows(const surroundings *near,
 static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon,
                        uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
-    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX), *const flags = dp_seen_words(
-                                                                     w, DP_SEEN_FLAGS);
+    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX);
+    const uint32_t *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
     uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
     find_windows(near, windows);
     const uint32_t count = w->frame->kernels->come_near(w, windows, polygon);

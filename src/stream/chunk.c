@@ -68,9 +68,8 @@ static bool same_position(const uint8_t *p, const uint8_t *q) {
 static int compare_edges(const dp_triangles *triangles, uint32_t t, uint32_t e, uint32_t u,
                          uint32_t f) {
     enum { CORNER = 3 * sizeof(float) };
-    const uint8_t *const a = triangles->corners + t * triangles->stride, *const b =
-                                                                             triangles->corners +
-                                                                             u * triangles->stride;
+    const uint8_t *const a = triangles->corners + t * triangles->stride;
+    const uint8_t *const b = triangles->corners + u * triangles->stride;
     const uint8_t *const a0 = a + CORNER * e, *const a1 = a + CORNER * (e == 2 ? 0 : e + 1);
     const uint8_t *const b0 = b + CORNER * f, *const b1 = b + CORNER * (f == 2 ? 0 : f + 1);
     if (same_position(a0, b1) && same_position(a1, b0)) return 1;

@@ -205,9 +205,8 @@ static void ask_for_piece(const job *j, size_t piece, ask *ask_for) {
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     const dp_stroke_store *const store = j->store;
-    const size_t first = (size_t)index * BLOCK, end = first + BLOCK < j->frame->segment_count
-                                                          ? first + BLOCK
-                                                          : j->frame->segment_count;
+    const size_t first = (size_t)index * BLOCK, count = j->frame->segment_count;
+    const size_t end = first + BLOCK < count ? first + BLOCK : count;
     dp_fold_batch folds = {0};
     bones found[DP_FOLDS];
     (void)worker;
