@@ -63,12 +63,17 @@ typedef struct dp_kernels {
     bool (*flatten)(struct dp_tile_worker *worker);
     /* Normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
+    /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is
+     * a front face, and which, if they are triangles, share no corner (meet.inc). */
+    void (*cross)(struct dp_tile_worker *worker);
+    /* Finds which pixels show a back face, of those asked for and some others (meet.inc). */
+    void (*show_backs)(const struct dp_tile_worker *worker, const uint64_t *asked, uint64_t *out);
     /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a
      * vector more; returns how many (meet.inc). */
     uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows,
                           uint32_t *list);
     /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for
-     * neighbours; returns how many (meet.inc). */
+     * neighbours and triangles on one side of each other; returns how many (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
     /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);

@@ -114,4 +114,5 @@ void dp_tile_faces(dp_tile_worker *w) {
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
             w->frame->kernels->raster(w, p, w->seen[i]);
     }
+    dp_tile_watch(w);
 }

@@ -1,16 +1,16 @@
 /* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one
  * depth.
  *
- * The paper's between-test finds them sample by sample; here it only says where to look. While a
- * face is rasterized and falls close to what a sample already holds, the two planes are compared:
- * if they cross within dp_watch_px of the sample, its pixel is a suspect. As the two frontmost
- * surfaces meet at every visible sample of a crossing, whichever comes first, one pass finds all of
- * them. Around suspects, all pairs of polygons are then tested exactly, and each crossing segment
- * becomes a candidate line like an edge, with the same probes.
+ * The paper's between-test finds them sample by sample; here it only says where to look. Where a
+ * face is rasterized and falls close to what a sample already holds, that is kept, and later the
+ * two planes are compared: if they cross within dp_watch_px of the sample, its pixel is a suspect.
+ * As the two frontmost surfaces meet at every visible sample of a crossing, whichever comes first,
+ * one pass finds all of them. Around suspects, all pairs of polygons are then tested exactly, and
+ * each crossing segment becomes a candidate line like an edge, with the same probes.
  *
  * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that
- * what may meet one of them follows soon after it; bounding boxes are compared many at once
- * (kernel/meet.inc). */
+ * what may meet one of them follows soon after it; bounding boxes and planes are compared many at
+ * once (kernel/meet.inc). */
 #include "kernel/kernels.h"
 #include "pipe/crossing.h"
 #include "pipe/tile.h"
@@ -32,30 +32,35 @@ static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
     return shared;
 }
 
-/* What the sample holds is not among the tile's polygons: only which way it faces is known, not how
- * steeply. */
-static void watch_unknown(dp_tile_worker *w, const dp_tile_polygon *p, size_t lane, float depth) {
-    const bool away = w->away[lane / 64] >> lane % 64 & 1, front = p->flags & DP_POLYGON_FRONT;
-    const size_t pixel = lane / w->sampling.samples;
-    if (away && !front) return;
-    if (fabsf(depth - w->depth[lane]) > fabsf(dp_depth_steps(w->frame, depth, DP_WATCH_GAP)))
-        return;
-    w->suspects[away || !front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+static void suspect(dp_tile_worker *w, uint32_t lane, bool both_front) {
+    const uint32_t pixel = lane / w->sampling.samples;
+    w->suspects[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
 }
 
-void dp_tile_watch(dp_tile_worker *w, uint32_t index, size_t lane, float depth) {
-    const uint32_t other = w->winner[lane];
-    if (other == UINT32_MAX && w->away) watch_unknown(w, &w->polygons[index], lane, depth);
-    if (other == UINT32_MAX || other == index) return;
-    const dp_tile_polygon *const p = &w->polygons[index], *const q = &w->polygons[other];
-    const size_t pixel = lane / w->sampling.samples;
-    const uint32_t x = (uint32_t)pixel % DP_TILE, y = (uint32_t)pixel / DP_TILE;
-    if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return;
-    uint64_t *const row = &w->suspects[!(p->flags & q->flags & DP_POLYGON_FRONT)][y];
-    if (*row >> x & 1) return;
-    const float reach = dp_watch_px(w) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
-    if (fabsf(depth - w->depth[lane]) > reach) return;
-    if (!shared_corners(w->frame, p->id, q->id)) *row |= (uint64_t)1 << x;
+/* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
+ * steeply. */
+static void watch_unknown(dp_tile_worker *w, uint32_t i) {
+    const dp_close_samples *const close = &w->close;
+    const uint32_t lane = close->lane[i];
+    const bool away = w->away[lane / 64] >> lane % 64 & 1,
+               front = w->polygons[close->polygon[i]].flags & DP_POLYGON_FRONT;
+    if (away && !front) return;
+    if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_WATCH_GAP))) return;
+    suspect(w, lane, front && !away);
+}
+
+void dp_tile_watch(dp_tile_worker *w) {
+    dp_close_samples *const close = &w->close;
+    for (uint32_t i = 0; w->away && i < close->count; i++)
+        if (close->other[i] == UINT32_MAX) watch_unknown(w, i);
+    w->frame->kernels->cross(w);
+    for (uint32_t i = 0; i < close->count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[close->polygon[i]],
+                                     *const q = &w->polygons[close->other[i]];
+        if (!w->frame->polygons.firsts || !shared_corners(w->frame, p->id, q->id))
+            suspect(w, close->lane[i], p->flags & q->flags & DP_POLYGON_FRONT);
+    }
+    close->count = 0;
 }
 
 /* Pixels and their neighbours. False when there are none. */
@@ -84,29 +89,15 @@ void dp_drop_lone(uint64_t suspects[DP_TILE]) {
     memcpy(suspects, kept, sizeof kept);
 }
 
-/* Does a back face show in a pixel, or beside it? */
-static bool shows_back_near(const dp_tile_worker *w, int px, int py) {
-    const uint32_t samples = w->sampling.samples;
-    const int x0 = px > 0 ? px - 1 : 0, x1 = px + 1 < DP_TILE ? px + 1 : px;
-    for (int y = py > 0 ? py - 1 : 0; y <= py + 1 && y < DP_TILE; y++) {
-        const uint32_t *const winner =
-            w->winner + dp_pixel_lane(&w->sampling, (uint32_t)x0, (uint32_t)y);
-        for (uint32_t i = 0; i < (uint32_t)(x1 - x0 + 1) * samples; i++)
-            if (winner[i] != UINT32_MAX && !(w->polygons[winner[i]].flags & DP_POLYGON_FRONT))
-                return true;
-    }
-    return false;
-}
-
 /* A front and a back face come close along every outline of a closed model. They cross in sight
  * only where the back face is seen too: keeps the suspects near a pixel whose winner is a back
  * face. */
 static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
-    for (int y = 0; y < DP_TILE; y++)
-        for (uint64_t bits = suspects[y]; bits; bits &= bits - 1) {
-            const int x = __builtin_ctzll(bits);
-            if (!shows_back_near(w, x, y)) suspects[y] &= ~((uint64_t)1 << x);
-        }
+    uint64_t near[DP_TILE], backs[DP_TILE];
+    if (!dp_widen(suspects, near)) return;
+    w->frame->kernels->show_backs(w, near, backs);
+    dp_widen(backs, near);
+    for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
 }
 
 /* ------- pairs ------- */
@@ -253,20 +244,26 @@ static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *po
     const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
     return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) &&
            DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
-           DP_WORKER_RESERVE(w, crowd.bounds, crowd.bounds_cap, DP_CROWD_BOUNDS * room) &&
+           DP_WORKER_RESERVE(w, crowd.members, crowd.members_cap, DP_CROWD_MEMBERS * room) &&
            DP_WORKER_RESERVE(w, crowd.keys, crowd.keys_cap, 3 * room);
 }
 
-static void put_bounds(const dp_tile_worker *w, const dp_tile_polygon *p, float *bounds,
-                       size_t stride) {
+static void put_member(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
+    const size_t stride = w->crowd.stride;
+    float *const out = w->crowd.members + at;
     const dp_vertex *const v = w->points + p->point;
+    const bool told = p->points == 3 && !(p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_EDGE_ON));
     dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
-    for (uint32_t i = 1; i < p->points; i++) {
-        const dp_f4 at = {v[i].x, v[i].y, v[i].d, 0};
-        least = dp_select(at < least, at, least), most = dp_select(at > most, at, most);
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_f4 at_i = {v[i].x, v[i].y, v[i].d, 0};
+        least = dp_select(at_i < least, at_i, least), most = dp_select(at_i > most, at_i, most);
+        for (uint32_t k = 0; k < 3 && told; k++)
+            out[(DP_CROWD_CORNERS + 3 * i + k) * stride] = at_i[k];
     }
     for (uint32_t k = 0; k < 3; k++)
-        bounds[k * stride] = least[k], bounds[(3 + k) * stride] = most[k];
+        out[(DP_CROWD_LEAST + k) * stride] = least[k], out[(DP_CROWD_MOST + k) * stride] = most[k];
+    out[DP_CROWD_PLANE * stride] = told ? p->d0 : NAN;
+    out[(DP_CROWD_PLANE + 1) * stride] = p->dx, out[(DP_CROWD_PLANE + 2) * stride] = p->dy;
 }
 
 /* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
@@ -290,7 +287,7 @@ static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows
         const dp_tile_polygon *const p = &w->polygons[polygon[i]];
         const uint32_t at = next[p->y0]++;
         crowd->polygon[at] = polygon[i];
-        put_bounds(w, p, crowd->bounds + at, crowd->stride);
+        put_member(w, p, at);
         put_keys(w, p, at);
     }
 }
@@ -298,6 +295,7 @@ static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows
 /* Each pair is tested once, when its upper polygon's turn has come, or the first one's of a row. */
 void dp_tile_intersections(dp_tile_worker *w) {
     surroundings near;
+    dp_tile_watch(w);
     keep_seen_back_faces(w, w->suspects[1]);
     near.mixed = look_around(w->suspects[1], &near.back);
     for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];

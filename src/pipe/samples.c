@@ -15,11 +15,15 @@ static const int8_t (*pattern_of(uint32_t samples))[2] {
 
 void dp_block_init(dp_block *block, uint32_t samples) {
     const int8_t(*const pattern)[2] = pattern_of(samples);
+    block->least = 1, block->most = 0;
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t sample = i % samples;
         block->px[i] = (float)(i / samples);
         block->x[i] = block->px[i] + (samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][0] / 16);
         block->sy[i] = samples == 1 ? 0.5f : 0.5f + (float)pattern[sample][1] / 16;
+        const float x = block->x[i] - block->px[i], y = block->sy[i];
+        block->least = dp_minf(block->least, dp_minf(x, y));
+        block->most = dp_maxf(block->most, dp_maxf(x, y));
     }
 }
 

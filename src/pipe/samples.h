@@ -24,6 +24,7 @@ typedef struct dp_sampling {
  * Samples of a pixel are consecutive. */
 typedef struct dp_block {
     float px[16], x[16], sy[16];
+    float least, most; /* of where samples lie in a pixel, along either axis */
 } dp_block;
 
 void dp_block_init(dp_block *block, uint32_t samples);

@@ -50,7 +50,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->loose);
     dp_free(&memory, worker->lookups);
     dp_free(&memory, worker->crowd.polygon);
-    dp_free(&memory, worker->crowd.bounds);
+    dp_free(&memory, worker->crowd.members);
     dp_free(&memory, worker->crowd.keys);
     dp_free(&memory, worker->crowd.met);
     dp_free(&memory, worker->crowd.listed);
@@ -80,7 +80,7 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
            (w->unsure_cap + w->pair_first_cap + w->pair_second_cap) * 4 +
            (w->edges.polygon_cap + w->edges.edge_cap + w->edges.from_cap + w->edges.name_cap) * 4 +
            w->slots_cap * sizeof *w->edge_slots + w->slot_meetings_cap * sizeof *w->slot_meetings +
-           (w->crowd.polygon_cap + w->crowd.bounds_cap + w->crowd.keys_cap + w->crowd.met_cap +
+           (w->crowd.polygon_cap + w->crowd.members_cap + w->crowd.keys_cap + w->crowd.met_cap +
             w->crowd.listed_cap) *
                4 +
            (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 +
@@ -119,7 +119,7 @@ void dp_tile_open(dp_tile_worker *w, uint32_t tile) {
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
     memset(w->suspects, 0, sizeof w->suspects);
     if (w->finds_edges) find_plane_normal(w);
-    w->candidate_count = w->probe_count = w->loose_count = 0;
+    w->close.count = w->candidate_count = w->probe_count = w->loose_count = 0;
 }
 
 /* Visible pieces of lines, for strokes. */

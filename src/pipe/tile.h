@@ -130,21 +130,42 @@ typedef struct dp_sorted_probes {
  * boxes. */
 typedef struct dp_crowd {
     uint32_t *polygon;
-    float *bounds;  /* least x, y (px, tile space) and d, then the most, `stride` floats from one to
-                       the next */
+    float *members; /* DP_CROWD_…, px (tile space) and d, `stride` floats from one to the next */
     uint32_t *keys; /* of triangles' corners, by corner, `stride` from one to the next; what belongs
                        to no other: none */
     uint32_t *met;  /* those that one of them may cross */
     uint32_t *listed; /* before they are sorted */
-    size_t polygon_cap, bounds_cap, keys_cap, met_cap, listed_cap;
+    size_t polygon_cap, members_cap, keys_cap, met_cap, listed_cap;
     uint32_t count, stride;
 } dp_crowd;
 
-enum { DP_CROWD_BOUNDS = 6, DP_CROWD_ROOM = 16 };
+enum {
+    DP_CROWD_LEAST,       /* x, y, d of the bounds */
+    DP_CROWD_MOST = 3,    /* the same */
+    DP_CROWD_PLANE = 6,   /* d0, dx, dy; d0 is NaN of all but triangles as they were given,
+                             seen from a side */
+    DP_CROWD_CORNERS = 9, /* of such triangles: x, y, d of each */
+    DP_CROWD_MEMBERS = 18
+};
+enum { DP_CROWD_ROOM = 16 };
 enum {
     DP_CROWD_BLOCK = 8 /* px */,
     DP_CROWD_BLOCKS = (DP_TILE + DP_CROWD_BLOCK - 1) / DP_CROWD_BLOCK
 };
+
+/* Samples to whose depth a polygon came close while faces were drawn (intersect.c), each member for
+ * itself, with room for one vector beyond the last. */
+enum {
+    DP_CLOSE_FULL = DP_TILE * 16 /* as many as a row of the tile, or a narrow box, has samples */
+};
+enum { DP_CLOSE_ROOM = 2 * DP_CLOSE_FULL + 16 };
+typedef struct dp_close_samples {
+    uint32_t polygon[DP_CLOSE_ROOM];                /* of the tile, which is drawn */
+    uint32_t other[DP_CLOSE_ROOM];                  /* the sample's winner till then */
+    uint32_t lane[DP_CLOSE_ROOM];                   /* the sample */
+    float depth[DP_CLOSE_ROOM], gap[DP_CLOSE_ROOM]; /* of `polygon`; how far from `other`'s */
+    uint32_t count;
+} dp_close_samples;
 
 /* Points in lists by the tile's pixels. */
 typedef struct dp_pixel_lists {
@@ -238,6 +259,7 @@ struct dp_tile_worker {
     uint32_t candidate_count, probe_count;
     size_t piece_count;
 
+    dp_close_samples close; /* to be looked at */
     uint64_t
         suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
     dp_crowd crowd;
@@ -343,9 +365,10 @@ void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
  * or, when `backs`, a back face that is not hidden (assemble.c). */
 void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index, bool backs);
 
-/* Called while `index` is rasterized and its depth lies close to what sample `lane` holds
- * (intersect.c). */
-void dp_tile_watch(dp_tile_worker *worker, uint32_t index, size_t lane, float depth);
+/* Makes suspects of the pixels of close samples where the planes cross, and forgets the samples
+ * (intersect.c). Before faces are drawn in a box as narrow as a vector, or in one row of others, no
+ * more than DP_CLOSE_FULL are kept. */
+void dp_tile_watch(dp_tile_worker *worker);
 
 /* Of suspects by rows of pixels (intersect.c): drops those that stand alone; adds the neighbours,
  * false when there are none. */

@@ -268,28 +268,80 @@ static void parts_agree(void **state) {
     }
 }
 
-static bool are_neighbours(const uint32_t *keys, uint32_t stride, uint32_t a, uint32_t b) {
+enum { CROWD = 150, CROWD_STRIDE = CROWD + DP_CROWD_ROOM };
+
+/* Which corners of crowd member a lie where one of b's does, a bit each; in how many pairs. */
+static uint32_t shared_corners(const dp_crowd *crowd, uint32_t a, uint32_t b, uint32_t *pairs) {
     uint32_t shared = 0;
-    for (uint32_t i = 0; i < 9; i++) shared += keys[i / 3 * stride + a] == keys[i % 3 * stride + b];
-    return shared > 1;
+    *pairs = 0;
+    for (uint32_t i = 0; i < 9; i++) {
+        const bool same =
+            crowd->keys[i / 3 * CROWD_STRIDE + a] == crowd->keys[i % 3 * CROWD_STRIDE + b];
+        *pairs += same;
+        shared |= (uint32_t)same << i / 3;
+    }
+    return shared;
+}
+
+static float member(const dp_crowd *crowd, uint32_t which, uint32_t of) {
+    return crowd->members[which * CROWD_STRIDE + of];
+}
+
+/* All corners of a that are not b's as well lie on one side of b's plane. */
+static bool lies_beside(const dp_crowd *crowd, uint32_t a, uint32_t b) {
+    uint32_t pairs, nearer = 0, further = 0;
+    const uint32_t shared = shared_corners(crowd, a, b, &pairs);
+    for (uint32_t c = 0; c < 3; c++) {
+        const uint32_t at = DP_CROWD_CORNERS + 3 * c;
+        const float plane = member(crowd, DP_CROWD_PLANE, b) +
+                            member(crowd, DP_CROWD_PLANE + 1, b) * member(crowd, at, a) +
+                            member(crowd, DP_CROWD_PLANE + 2, b) * member(crowd, at + 1, a);
+        const float gap = member(crowd, at + 2, a) - plane;
+        if (shared >> c & 1) continue;
+        nearer += gap >= 0, further += gap <= 0;
+    }
+    return !nearer || !further;
+}
+
+static bool bounds_meet(const dp_crowd *crowd, uint32_t a, uint32_t b) {
+    bool apart = false;
+    for (uint32_t k = 0; k < 3; k++)
+        apart |= member(crowd, DP_CROWD_MOST + k, a) < member(crowd, DP_CROWD_LEAST + k, b) ||
+                 member(crowd, DP_CROWD_MOST + k, b) < member(crowd, DP_CROWD_LEAST + k, a);
+    return !apart;
+}
+
+/* Triangles with corners in whole numbers, so that bounds touch and corners lie in planes now and
+ * then; every fifth one's plane is not told. */
+static void fill_crowd(float *members, uint32_t *keys, uint32_t *seed) {
+    for (uint32_t i = 0; i < 3 * CROWD_STRIDE; i++) keys[i] = next_random(seed) % 12;
+    for (uint32_t i = 0; i < CROWD; i++) {
+        float at[3], *const of = members + i;
+        for (uint32_t k = 0; k < 3; k++) at[k] = (float)(next_random(seed) % 40);
+        for (uint32_t k = 0; k < 3; k++) {
+            float least = 100, most = 0;
+            for (uint32_t c = 0; c < 3; c++) {
+                const float v = at[k] + (float)(next_random(seed) % 10);
+                of[(DP_CROWD_CORNERS + 3 * c + k) * CROWD_STRIDE] = v;
+                least = dp_minf(least, v), most = dp_maxf(most, v);
+            }
+            of[(DP_CROWD_LEAST + k) * CROWD_STRIDE] = least;
+            of[(DP_CROWD_MOST + k) * CROWD_STRIDE] = most;
+            of[(DP_CROWD_PLANE + k) * CROWD_STRIDE] = (float)(next_random(seed) % 3);
+        }
+        of[DP_CROWD_PLANE * CROWD_STRIDE] = i % 5 ? at[2] - at[0] - at[1] : NAN;
+    }
 }
 
 /* Who meets whom, against all pairs one by one. */
 static void meetings_agree(void **state) {
-    enum { CROWD = 150, STRIDE = CROWD + DP_CROWD_ROOM };
-    static float bounds[DP_CROWD_BOUNDS * STRIDE];
-    static uint32_t met[STRIDE], keys[3 * STRIDE];
+    static float members[DP_CROWD_MEMBERS * CROWD_STRIDE];
+    static uint32_t met[CROWD_STRIDE], keys[3 * CROWD_STRIDE];
     (void)state;
-    uint32_t seed = 9, met_at_all = 0, neighbours = 0;
-    for (uint32_t i = 0; i < 3 * STRIDE; i++) keys[i] = next_random(&seed) % 12;
-    for (uint32_t i = 0; i < CROWD; i++)
-        for (uint32_t a = 0; a < 3; a++) { /* whole numbers, so that bounds touch now and then */
-            bounds[a * STRIDE + i] = (float)(next_random(&seed) % 40);
-            bounds[(3 + a) * STRIDE + i] =
-                bounds[a * STRIDE + i] + (float)(next_random(&seed) % 10);
-        }
+    uint32_t seed = 9, neighbours = 0, beside = 0, crossing = 0;
+    fill_crowd(members, keys, &seed);
     const dp_crowd crowd = {
-        .bounds = bounds, .keys = keys, .met = met, .count = CROWD, .stride = STRIDE};
+        .members = members, .keys = keys, .met = met, .count = CROWD, .stride = CROWD_STRIDE};
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t kinds = dp_kernels_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
@@ -297,24 +349,101 @@ static void meetings_agree(void **state) {
         for (uint32_t self = 0; self < CROWD; self++) {
             const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self),
                            count = list[k]->meet(&crowd, self, end);
-            uint32_t expected = 0;
+            uint32_t expected = 0, pairs;
             for (uint32_t i = self + 1; i < end; i++) {
-                bool apart = false;
-                for (uint32_t a = 0; a < 3; a++)
-                    apart |= bounds[(3 + a) * STRIDE + i] < bounds[a * STRIDE + self] ||
-                             bounds[(3 + a) * STRIDE + self] < bounds[a * STRIDE + i];
-                met_at_all += !apart;
-                if (apart) continue;
-                if (are_neighbours(keys, STRIDE, self, i))
+                if (!bounds_meet(&crowd, self, i)) continue;
+                shared_corners(&crowd, self, i, &pairs);
+                if (pairs > 1) {
                     neighbours++;
-                else
+                } else if (self % 5 && i % 5 &&
+                           (lies_beside(&crowd, self, i) || lies_beside(&crowd, i, self))) {
+                    beside++;
+                } else {
                     assert_int_equal(met[expected++], i);
+                    crossing += self % 5 && i % 5;
+                }
             }
             assert_int_equal(count, expected);
         }
         report("meet", list[k], start, CROWD * CROWD / 4);
     }
-    assert_in_range(neighbours, 1, met_at_all - 1);
+    assert_true(neighbours && beside && crossing);
+}
+
+enum { CLOSE_POLYGONS = 40 };
+
+/* Polygons and samples that came close, of one tile with four samples per pixel. */
+static void make_close(dp_tile_worker *w, dp_tile_polygon *polygons, uint32_t *keys,
+                       uint32_t *winner) {
+    uint32_t seed = 77;
+    w->polygons = polygons, w->winner = winner, w->keys = keys, w->keys_stride = CLOSE_POLYGONS;
+    dp_sampling_init(&w->sampling, 4);
+    for (uint32_t i = 0; i < 3 * CLOSE_POLYGONS; i++) keys[i] = next_random(&seed) % 90;
+    for (uint32_t i = 0; i < CLOSE_POLYGONS; i++)
+        polygons[i] = (dp_tile_polygon){.flags = next_random(&seed) % 2 ? DP_POLYGON_FRONT : 0,
+                                        .dx = (float)(next_random(&seed) % 9),
+                                        .dy = (float)(next_random(&seed) % 9)};
+    for (uint32_t i = 0; i < DP_TILE * DP_TILE * 4; i++)
+        winner[i] = next_random(&seed) % 9 ? UINT32_MAX : next_random(&seed) % CLOSE_POLYGONS;
+    w->close.count = 500;
+    for (uint32_t i = 0; i < w->close.count; i++) {
+        w->close.polygon[i] = next_random(&seed) % CLOSE_POLYGONS;
+        w->close.other[i] = i % 7 ? next_random(&seed) % CLOSE_POLYGONS : UINT32_MAX;
+        w->close.lane[i] = i;
+        w->close.gap[i] = (float)(next_random(&seed) % 16) * 0.75f;
+    }
+}
+
+static bool is_crossed(const dp_tile_worker *w, uint32_t a, uint32_t b, float gap) {
+    const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
+    for (uint32_t i = 0; i < 9; i++)
+        if (w->keys[i / 3 * CLOSE_POLYGONS + a] == w->keys[i % 3 * CLOSE_POLYGONS + b])
+            return false;
+    return (p->flags | q->flags) & DP_POLYGON_FRONT &&
+           gap <= dp_watch_px(w) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
+}
+
+/* Close samples at which planes cross, and pixels that show back faces, one by one. */
+static void suspicions_agree(void **state) {
+    static dp_tile_worker w;
+    static dp_tile_polygon polygons[CLOSE_POLYGONS];
+    static uint32_t keys[3 * CLOSE_POLYGONS], winner[DP_TILE * DP_TILE * 4];
+    static dp_close_samples all;
+    static dp_frame frame;
+    (void)state;
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t kinds = dp_kernels_list(list);
+    for (uint32_t k = 0; k < kinds; k++) {
+        uint32_t kept = 0, seed = 3;
+        w.frame = &frame;
+        make_close(&w, polygons, keys, winner);
+        all = w.close;
+        list[k]->cross(&w);
+        for (uint32_t i = 0; i < all.count; i++) {
+            const uint32_t a = all.polygon[i], b = all.other[i];
+            if (b == UINT32_MAX || a == b || !is_crossed(&w, a, b, all.gap[i])) continue;
+            assert_int_equal(w.close.polygon[kept], a);
+            assert_int_equal(w.close.other[kept], b);
+            assert_int_equal(w.close.lane[kept++], i);
+        }
+        assert_int_equal(w.close.count, kept);
+        assert_in_range(kept, 1, all.count - 1);
+
+        uint64_t asked[DP_TILE], shown[DP_TILE];
+        for (uint32_t y = 0; y < DP_TILE; y++)
+            asked[y] = (uint64_t)next_random(&seed) << 32 & (uint64_t)next_random(&seed) << 20;
+        list[k]->show_backs(&w, asked, shown);
+        for (uint32_t i = 0; i < DP_TILE * DP_TILE; i++) {
+            bool back = false;
+            for (uint32_t l = 4 * i; l < 4 * i + 4; l++)
+                back |= winner[l] != UINT32_MAX && !(polygons[winner[l]].flags & DP_POLYGON_FRONT);
+            const bool found = shown[i / DP_TILE] >> i % DP_TILE & 1;
+            if (asked[i / DP_TILE] >> i % DP_TILE & 1)
+                assert_int_equal(found, back);
+            else
+                assert_true(back || !found);
+        }
+    }
 }
 
 /* Who comes near blocks of pixels, against a look at each. */
@@ -423,7 +552,8 @@ int main(void) {
         cmocka_unit_test(transforms_agree), cmocka_unit_test(equal_positions_have_equal_keys),
         cmocka_unit_test(places_agree),     cmocka_unit_test(coverages_agree),
         cmocka_unit_test(parts_agree),      cmocka_unit_test(meetings_agree),
-        cmocka_unit_test(approaches_agree), cmocka_unit_test(folds_agree),
+        cmocka_unit_test(suspicions_agree), cmocka_unit_test(approaches_agree),
+        cmocka_unit_test(folds_agree),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }
