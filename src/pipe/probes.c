@@ -5,10 +5,10 @@
  * the points that matter (an irregular depth buffer). The answer is exact for edges far below a
  * pixel and owes nothing to the number of samples.
  *
- * Data structure: probes sorted by pixel, so that those in a row of a polygon's box follow each
- * other, and the least limit around each pixel, which tells that most polygons hide none. A spine's
- * points belong to the tile whose pixel they lie in. Invariant: the points of one candidate in a
- * tile are consecutive, k0 to k1. */
+ * Data structure: probes sorted by cells of pixels, so that those in a row of a polygon's box
+ * follow each other, and the least limit in a few cells side by side, which tells that most
+ * polygons hide none. A spine's points belong to the tile whose pixel they lie in. Invariant: the
+ * points of one candidate in a tile are consecutive, k0 to k1. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -63,7 +63,7 @@ static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *
                    .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
                    .own_a = c->a,
                    .own_b = c->b,
-                   .cell = (uint16_t)(pixel_of(y) * DP_TILE + pixel_of(x))};
+                   .pixel = (uint16_t)(pixel_of(y) * DP_TILE + pixel_of(x))};
 }
 
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
@@ -104,30 +104,28 @@ static bool reserve_sorted(dp_tile_worker *w, size_t need) {
            DP_WORKER_RESERVE(w, sorted.own_b, sorted.own_b_cap, need);
 }
 
-/* Counting sort by pixel. */
+/* Sorts them by pixel (counting sort), and finds each cell's least limit. */
 static bool sort_probes(dp_tile_worker *w) {
     dp_sorted_probes *const out = &w->sorted;
     if (!reserve_sorted(w, (size_t)w->probe_count + 16)) return false;
     uint32_t *const first = out->first;
-    for (size_t i = 0; i < sizeof out->least / sizeof *out->least; i++) out->least[i] = INFINITY;
+    uint32_t sum = 0;
+    float *const least = out->least[0][0];
+    for (uint32_t i = 0; i < DP_CELL_ROOM; i++) least[i] = INFINITY;
     memset(first, 0, sizeof out->first);
-    for (uint32_t i = 0; i < w->probe_count; i++) {
-        const uint32_t cell = w->probes[i].cell;
-        const float limit = w->probes[i].hidden ? INFINITY : w->probes[i].limit;
-        out->least[cell] = dp_minf(limit, out->least[cell]);
-        first[cell + 1]++;
-    }
-    for (uint32_t c = 0; c < DP_TILE * DP_TILE; c++) first[c + 1] += first[c];
-    for (uint32_t i = w->probe_count; i-- > 0;) {
+    for (uint32_t i = 0; i < w->probe_count; i++) first[w->probes[i].pixel]++;
+    for (uint32_t p = 0; p < DP_TILE * DP_TILE; p++) first[p] = sum += first[p];
+    first[DP_TILE * DP_TILE] = sum;
+    for (uint32_t i = w->probe_count; i-- > 0;) { /* the ends of pixels go down to their starts */
         dp_probe *const p = &w->probes[i];
-        const uint32_t at = --first[p->cell + 1];
-        out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = p->hidden ? INFINITY : p->limit;
+        const float limit = p->hidden ? INFINITY : p->limit;
+        const uint32_t at = --first[p->pixel], x = p->pixel % DP_TILE, y = p->pixel / DP_TILE,
+                       cell = y / DP_CELL * DP_CELLS + x / DP_CELL;
+        least[cell] = dp_minf(limit, least[cell]);
+        out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = limit;
         out->own_a[at] = p->own_a, out->own_b[at] = p->own_b;
         p->place = at;
     }
-    /* the ends of pixels went down to their starts */
-    memmove(first, first + 1, DP_TILE * DP_TILE * sizeof *first);
-    first[DP_TILE * DP_TILE] = w->probe_count;
     for (int k = 0; k < 16; k++) {
         const size_t at = (size_t)w->probe_count + (size_t)k;
         out->x[at] = out->y[at] = 0, out->limit[at] = INFINITY, out->own_a[at] = out->own_b[at] = 0;

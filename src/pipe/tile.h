@@ -111,9 +111,17 @@ typedef struct dp_probe {
     float limit;           /* d */
     uint32_t own_a, own_b; /* frame polygons */
     uint32_t place;        /* among the sorted */
-    uint16_t cell;         /* pixel of the tile that holds it, row by row */
+    uint16_t pixel;        /* of the tile that holds it, row by row */
     bool hidden;
 } dp_probe;
+
+/* Cells of the tile for a first look at where sample points are. */
+enum {
+    DP_CELL = 2 /* px */,
+    DP_CELLS = DP_TILE / DP_CELL,
+    DP_CELL_SPANS = 3,
+    DP_CELL_ROOM = DP_CELLS * (DP_CELLS + DP_CELL_SPANS) + 16
+};
 
 /* The same sorted by pixel, each member for itself, with room for one vector beyond the last. */
 typedef struct dp_sorted_probes {
@@ -121,9 +129,9 @@ typedef struct dp_sorted_probes {
     uint32_t *own_a, *own_b;
     size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
     uint32_t first[DP_TILE * DP_TILE + 1]; /* by pixel */
-    float least[DP_TILE * DP_TILE + DP_TILE +
-                16]; /* limit, by pixel, infinite where there is none; a row and a vector more */
-    float window[DP_TILE * DP_TILE]; /* kernel/hide.inc */
+    /* the least limit in 1 + sx times 1 + sy cells, the first of which is cx, cy; infinite where
+     * there are no points */
+    float least[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM]; /* [sy][sx][cy, cx] */
 } dp_sorted_probes;
 
 /* Polygons around pixels where faces may cross (intersect.c), sorted by the first row of their
