@@ -369,13 +369,11 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
-/* Lane l's record, by columns. Compilers take numbers that were just stored out of the vector again,
- * one by one, which is slower than reading them: where the numbers lie is hidden from them. */
-DP_LANES_INLINE void l_records(const void *base, const uint32_t *at, dp_lf out[4]) {
+/* Lane l's record, by columns. */
+DP_LANES_INLINE void l_records(const void *base, const uint32_t at[DP_LANES], dp_lf out[4]) {
 #if DP_LANES == 1
     memcpy(out, (const char *)base + 16 * (size_t)*at, 16);
 #else
-    __asm__("" : "+r"(at));
     for (int i = 0; i < 4; i++) out[i] = l_row(base, at + i, 1);
     l_transpose(out);
 #endif
