@@ -18,7 +18,9 @@ struct dp_tile_rect;
 struct dp_brush;
 struct dp_ink_shape;
 struct dp_stroke;
-struct dp_coverage_patch;
+struct dp_coverage_row;
+struct dp_ink_patch;
+struct dp_ink_worker;
 struct dp_chunk;
 struct dp_triangles;
 struct dp_chunk_view;
@@ -82,10 +84,11 @@ typedef struct dp_kernels {
     /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has
      * any (cover.inc). */
     uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x,
-                      uint32_t y, uint32_t n, struct dp_coverage_patch *out);
-    /* The same of `rows` rows of DP_PATCH pixels, at most as many. */
-    uint64_t (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke,
-                            uint32_t x, uint32_t y, uint32_t rows, struct dp_coverage_patch *out);
+                      uint32_t y, uint32_t n, struct dp_coverage_row *out);
+    /* Covers a patch of a tile with a stroke, where that covers more than what did before
+     * (cover.inc). */
+    void (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke,
+                        const struct dp_ink_patch *patch, struct dp_ink_worker *worker);
     /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general
      * way: in the first reading, with their normals, and in the second (sift.inc,
      * stream/sift.c). */

@@ -98,15 +98,15 @@ float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t 
 
 /* Pixel i of what was covered, at (px, py) in the tile. */
 static inline void cover_pixel(const tile_ink *ink, uint32_t px, uint32_t py,
-                               const dp_coverage_patch *patch, uint32_t i) {
+                               const dp_coverage_row *row, uint32_t i) {
     dp_ink_worker *const w = ink->worker;
     const bool set = w->row[py] >> px & 1;
     float *const held = &w->coverage[py * DP_TILE + px];
-    if (set && *held >= patch->share[i]) return;
+    if (set && *held >= row->share[i]) return;
     const uint32_t samples = ink->frame->target.samples;
-    float c = patch->share[i];
+    float c = row->share[i];
     if (ink->hides)
-        c *= share_behind(depth_of(ink->depth, px, py, samples), samples, patch->limit[i]);
+        c *= share_behind(depth_of(ink->depth, px, py, samples), samples, row->limit[i]);
     if (c <= 0 || (set && *held >= c)) return;
     *held = c;
     w->row[py] |= (uint64_t)1 << px;
@@ -162,7 +162,7 @@ static void cover_rows(const tile_ink *ink, const dp_stroke *s, uint32_t y0, uin
         const uint32_t x0 = clamp_to(from, ink->x0, ink->x1),
                        x1 = clamp_to(to + 1, ink->x0, ink->x1);
         if (x0 >= x1) continue;
-        dp_coverage_patch row;
+        dp_coverage_row row;
         for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits;
              bits &= bits - 1) {
             const uint32_t i = (uint32_t)__builtin_ctzll(bits);
@@ -182,14 +182,14 @@ static void cover(const tile_ink *ink, const dp_stroke *s) {
         cover_rows(ink, s, y0, y1);
         return;
     }
-    dp_coverage_patch patch;
-    const uint64_t columns = (((uint64_t)1 << (x1 - x0)) - 1) * 0x0101010101010101u;
-    for (uint64_t bits =
-             columns & ink->frame->kernels->cover_patch(ink->frame, s, x0, y0, y1 - y0, &patch);
-         bits; bits &= bits - 1) {
-        const uint32_t i = (uint32_t)__builtin_ctzll(bits);
-        cover_pixel(ink, x0 - ink->x0 + i % DP_PATCH, y0 - ink->y0 + i / DP_PATCH, &patch, i);
-    }
+    const dp_ink_patch patch = {ink->x0,
+                                ink->y0,
+                                x0 - ink->x0,
+                                y0 - ink->y0,
+                                x1 - ink->x0,
+                                y1 - ink->y0,
+                                ink->hides ? ink->depth : NULL};
+    ink->frame->kernels->cover_patch(ink->frame, s, &patch, ink->worker);
 }
 
 /* Lays what is covered over the picture and forgets it. */

@@ -38,13 +38,19 @@ static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, f
     return limit;
 }
 
-/* Pixels of a tile beside a stroke, of a row or of DP_PATCH rows of as many: the share of each that
- * it covers, and dp_stroke_limit there. Kernels write whole vectors. */
-typedef struct dp_coverage_patch {
+/* Pixels of a row beside a stroke: the share of each that it covers, and dp_stroke_limit there.
+ * Kernels write whole vectors. */
+typedef struct dp_coverage_row {
     float share[64 + 16], limit[64 + 16];
-} dp_coverage_patch;
+} dp_coverage_row;
 
+/* Pixels of a tile beside a stroke, at most DP_PATCH columns and rows. */
 enum { DP_PATCH = 8 };
+typedef struct dp_ink_patch {
+    uint32_t tile_x, tile_y; /* px of the tile's corner */
+    uint32_t x0, y0, x1, y1; /* in the tile; from the first to before the last */
+    const float *depth;      /* the tile's samples, which hide; NULL: nothing does */
+} dp_ink_patch;
 
 /* Joins the tiles' pieces and makes frame->segments and frame->strokes (context->owned arrays);
  * `store` keeps their memory. */

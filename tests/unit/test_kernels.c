@@ -193,20 +193,53 @@ static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t 
     assert_float_equal(limit, want, 1e-4 * (1 + fabs((double)want)));
 }
 
-/* A patch is its rows. */
+enum { TILE_X = 64, TILE_PIXELS = DP_TILE * DP_TILE };
+
+/* What is covered by a stroke or was before, pixel by pixel. */
+static float expect_share(const dp_ink_patch *patch, const dp_ink_worker *before,
+                          const dp_coverage_row *row, uint32_t samples, uint32_t x, uint32_t y) {
+    const uint32_t at = y * DP_TILE + x;
+    const float had = before->row[y] >> x & 1 ? before->coverage[at] : 0;
+    if (x < patch->x0 || x >= patch->x1 || y < patch->y0 || y >= patch->y1) return had;
+    uint32_t seen = 0;
+    for (uint32_t i = 0; i < samples; i++)
+        seen += !patch->depth || patch->depth[at * samples + i] <= row->limit[x];
+    const float share = row->share[x] * ((float)seen / (float)samples);
+    return share > had ? share : had;
+}
+
+/* A patch is its rows, as far as they are seen, where they cover more than what was there. */
 static void expect_patch(const dp_kernels *kernels, const dp_frame *frame, const dp_stroke *s,
-                         uint32_t y, uint32_t rows) {
-    dp_coverage_patch patch, row;
-    uint64_t bits = kernels->cover_patch(frame, s, 64, y, rows, &patch);
-    for (uint32_t r = 0; r < rows; r++, bits >>= DP_PATCH) {
-        assert_true(dp_kernels_plain.cover(frame, s, 64, y + r, DP_PATCH, &row) ==
-                    (bits & ((1 << DP_PATCH) - 1)));
-        assert_memory_equal(row.share, patch.share + (size_t)r * DP_PATCH,
-                            DP_PATCH * sizeof *row.share);
-        assert_memory_equal(row.limit, patch.limit + (size_t)r * DP_PATCH,
-                            DP_PATCH * sizeof *row.limit);
+                         uint32_t *seed) {
+    static float depth[16 * TILE_PIXELS];
+    static dp_ink_worker before, w;
+    const uint32_t samples = frame->target.samples, x0 = next_random(seed) % DP_TILE,
+                   y0 = next_random(seed) % DP_TILE;
+    const uint32_t x1 = x0 + 1 + next_random(seed) % DP_PATCH,
+                   y1 = y0 + 1 + next_random(seed) % DP_PATCH;
+    const dp_ink_patch patch = {TILE_X,
+                                0,
+                                x0,
+                                y0,
+                                x1 < DP_TILE ? x1 : DP_TILE,
+                                y1 < DP_TILE ? y1 : DP_TILE,
+                                next_random(seed) % 4 ? depth : NULL};
+    for (uint32_t i = 0; i < samples * TILE_PIXELS; i++)
+        depth[i] = (float)(next_random(seed) % 6400) / 100;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) before.coverage[i] = (float)(i % 7) / 6;
+    for (uint32_t y = 0; y < DP_TILE; y++) before.row[y] = 0xf0f0f0f0f0f0f0f0u << y % 5;
+    w = before;
+    kernels->cover_patch(frame, s, &patch, &w);
+    for (uint32_t y = 0; y < DP_TILE; y++) {
+        dp_coverage_row row;
+        dp_kernels_plain.cover(frame, s, TILE_X, y, DP_TILE, &row);
+        for (uint32_t x = 0; x < DP_TILE; x++) {
+            const float want = expect_share(&patch, &before, &row, samples, x, y);
+            const bool set = w.row[y] >> x & 1;
+            assert_true((set ? w.coverage[y * DP_TILE + x] : 0) == want);
+            assert_true(set || !(before.row[y] >> x & 1));
+        }
     }
-    assert_true(bits == 0);
 }
 
 static void coverages_agree(void **state) {
@@ -218,19 +251,21 @@ static void coverages_agree(void **state) {
         uint32_t seed = 3;
         double spent = 0;
         for (uint32_t k = 0; k < STROKES; k++) {
+            static const uint32_t samples[4] = {1, 4, 8, 16};
             const dp_frame frame = {.view = make_view(k % 2),
+                                    .target.samples = samples[k / 8 % 4],
                                     .step_scale = k % 2 ? 0 : 1e-3f,
                                     .step_offset = k % 2 ? 1e-2f : 0};
             const dp_stroke s = random_stroke(&seed);
             const uint32_t n = 1 + next_random(&seed) % WIDE, y = next_random(&seed) % WIDE;
-            dp_coverage_patch truth, row;
+            dp_coverage_row truth, row;
             const uint64_t bits = dp_kernels_plain.cover(&frame, &s, 64, y, n, &truth);
             const double start = now_ns();
             assert_true(list[i]->cover(&frame, &s, 64, y, n, &row) == bits);
             spent += now_ns() - start;
             assert_memory_equal(row.share, truth.share, n * sizeof *row.share);
             assert_memory_equal(row.limit, truth.limit, n * sizeof *row.limit);
-            expect_patch(list[i], &frame, &s, y, 1 + n % DP_PATCH);
+            if (k % 8 == 0) expect_patch(list[i], &frame, &s, &seed);
             for (uint32_t x = 0; x < n && !i; x++)
                 expect_coverage(&frame, &s, 64 + x, y, truth.share[x], truth.limit[x]);
         }
