@@ -7,6 +7,7 @@
 #define DP_KERNEL_KERNELS_H
 
 #include "pipe/view.h"
+#include <drypoint/style.h>
 
 struct dp_tile_worker;
 struct dp_tile_polygon;
@@ -18,7 +19,6 @@ struct dp_tile_rect;
 struct dp_brush;
 struct dp_ink_shape;
 struct dp_stroke;
-struct dp_coverage_row;
 struct dp_ink_patch;
 struct dp_ink_worker;
 struct dp_chunk;
@@ -81,14 +81,13 @@ typedef struct dp_kernels {
     void (*hide)(struct dp_tile_worker *worker);
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
-    /* Coverage of `n` pixels of a row, from (x, y) on, by a stroke; returns a bit for each that has
-     * any (cover.inc). */
-    uint64_t (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke, uint32_t x,
-                      uint32_t y, uint32_t n, struct dp_coverage_row *out);
     /* Covers a patch of a tile with a stroke, where that covers more than what did before
      * (cover.inc). */
-    void (*cover_patch)(const struct dp_frame *frame, const struct dp_stroke *stroke,
-                        const struct dp_ink_patch *patch, struct dp_ink_worker *worker);
+    void (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke,
+                  const struct dp_ink_patch *patch, struct dp_ink_worker *worker);
+    /* Lays ink over pixels of a row of a tile, of which `width` lie in the picture (cover.inc). */
+    void (*lay)(uint8_t *row, uint32_t width, const float *coverage, uint64_t pixels,
+                dp_color color);
     /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general
      * way: in the first reading, with their normals, and in the second (sift.inc,
      * stream/sift.c). */

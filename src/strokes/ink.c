@@ -96,29 +96,13 @@ float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t 
     return share_behind(depth_of(tile_depth, x - x0, y - y0, samples), samples, limit);
 }
 
-/* Pixel i of what was covered, at (px, py) in the tile. */
-static inline void cover_pixel(const tile_ink *ink, uint32_t px, uint32_t py,
-                               const dp_coverage_row *row, uint32_t i) {
-    dp_ink_worker *const w = ink->worker;
-    const bool set = w->row[py] >> px & 1;
-    float *const held = &w->coverage[py * DP_TILE + px];
-    if (set && *held >= row->share[i]) return;
-    const uint32_t samples = ink->frame->target.samples;
-    float c = row->share[i];
-    if (ink->hides)
-        c *= share_behind(depth_of(ink->depth, px, py, samples), samples, row->limit[i]);
-    if (c <= 0 || (set && *held >= c)) return;
-    *held = c;
-    w->row[py] |= (uint64_t)1 << px;
-}
-
-/* Columns of row y that the stroke can reach: the part of the spine within r of the row, widened by
- * r. */
-static bool row_span(const dp_stroke *s, float y, float r, float *x0, float *x1) {
+/* Columns of the rows from y0 to y1 that the stroke can reach: the part of the spine within r of
+ * them, widened by r. */
+static bool rows_span(const dp_stroke *s, float y0, float y1, float r, float *x0, float *x1) {
     const float ey = s->b.y - s->a.y;
     float t0 = 0, t1 = 1;
     if (fabsf(ey) > 1e-6f) {
-        const float u = (y - r - s->a.y) / ey, v = (y + r - s->a.y) / ey;
+        const float u = (y0 - r - s->a.y) / ey, v = (y1 + r - s->a.y) / ey;
         t0 = dp_maxf(0, dp_minf(u, v)), t1 = dp_minf(1, dp_maxf(u, v));
         if (t0 > t1) return false;
     }
@@ -154,56 +138,43 @@ static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
                 depth_of(ink->depth, k * APART - ink->x0, y - ink->y0, ink->frame->target.samples));
 }
 
-static void cover_rows(const tile_ink *ink, const dp_stroke *s, uint32_t y0, uint32_t y1) {
-    const float r = s->half_width + 0.5f;
-    for (uint32_t y = y0; y < y1; y++) {
-        float from, to;
-        if (!row_span(s, (float)y + 0.5f, r + 0.5f, &from, &to)) continue;
-        const uint32_t x0 = clamp_to(from, ink->x0, ink->x1),
-                       x1 = clamp_to(to + 1, ink->x0, ink->x1);
-        if (x0 >= x1) continue;
-        dp_coverage_row row;
-        for (uint64_t bits = ink->frame->kernels->cover(ink->frame, s, x0, y, x1 - x0, &row); bits;
-             bits &= bits - 1) {
-            const uint32_t i = (uint32_t)__builtin_ctzll(bits);
-            cover_pixel(ink, x0 + i - ink->x0, y - ink->y0, &row, i);
-        }
-    }
-}
-
+/* Patch by patch, as many rows at a time as one has. */
 static void cover(const tile_ink *ink, const dp_stroke *s) {
-    const float r = s->half_width + 0.5f;
     uint32_t y0, y1;
     find_rows(ink, s, &y0, &y1);
-    const uint32_t x0 = clamp_to(dp_minf(s->a.x, s->b.x) - r, ink->x0, ink->x1);
-    const uint32_t x1 = clamp_to(dp_maxf(s->a.x, s->b.x) + r + 1, ink->x0, ink->x1);
-    if (x0 >= x1 || y0 >= y1) return;
-    if (x1 - x0 > DP_PATCH || y1 - y0 > DP_PATCH) {
-        cover_rows(ink, s, y0, y1);
-        return;
+    dp_ink_patch patch = {
+        .tile_x = ink->x0, .tile_y = ink->y0, .depth = ink->hides ? ink->depth : NULL};
+    for (uint32_t y = y0; y < y1; y += DP_PATCH) {
+        const uint32_t bottom = y + DP_PATCH < y1 ? y + DP_PATCH : y1;
+        float from, to;
+        if (!rows_span(s, (float)y + 0.5f, (float)bottom - 0.5f, s->half_width + 1, &from, &to))
+            continue;
+        const uint32_t x0 = clamp_to(from, ink->x0, ink->x1),
+                       x1 = clamp_to(to + 1, ink->x0, ink->x1);
+        patch.y0 = y - ink->y0, patch.y1 = bottom - ink->y0;
+        for (uint32_t x = x0; x < x1; x += DP_PATCH) {
+            patch.x0 = x - ink->x0;
+            patch.x1 = (x + DP_PATCH < x1 ? x + DP_PATCH : x1) - ink->x0;
+            ink->frame->kernels->cover(ink->frame, s, &patch, ink->worker);
+        }
     }
-    const dp_ink_patch patch = {ink->x0,
-                                ink->y0,
-                                x0 - ink->x0,
-                                y0 - ink->y0,
-                                x1 - ink->x0,
-                                y1 - ink->y0,
-                                ink->hides ? ink->depth : NULL};
-    ink->frame->kernels->cover_patch(ink->frame, s, &patch, ink->worker);
 }
 
 /* Lays what is covered over the picture and forgets it. */
 static void flush(const tile_ink *ink, dp_line line, dp_color color) {
     const dp_target *const target = &ink->frame->target;
     for (uint32_t py = 0; py < DP_TILE; py++) {
-        for (uint64_t bits = ink->worker->row[py]; bits; bits &= bits - 1) {
+        const uint64_t pixels = ink->worker->row[py];
+        const float *const coverage = &ink->worker->coverage[py * DP_TILE];
+        const size_t y = ink->y0 + py;
+        if (!pixels) continue;
+        if (target->rgba)
+            ink->frame->kernels->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
+                                     ink->x1 - ink->x0, coverage, pixels, color);
+        for (uint64_t bits = target->line_class ? pixels : 0; bits; bits &= bits - 1) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);
-            const uint32_t x = ink->x0 + px, y = ink->y0 + py;
-            const float c = ink->worker->coverage[py * DP_TILE + px];
-            if (target->rgba)
-                dp_blend(target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x, color, c);
-            if (target->line_class && c >= 0.5f)
-                target->line_class[(size_t)y * target->width + x] = (uint8_t)(1 + line);
+            if (coverage[px] >= 0.5f)
+                target->line_class[y * target->width + ink->x0 + px] = (uint8_t)(1 + line);
         }
         ink->worker->row[py] = 0;
     }

@@ -38,12 +38,6 @@ static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, f
     return limit;
 }
 
-/* Pixels of a row beside a stroke: the share of each that it covers, and dp_stroke_limit there.
- * Kernels write whole vectors. */
-typedef struct dp_coverage_row {
-    float share[64 + 16], limit[64 + 16];
-} dp_coverage_row;
-
 /* Pixels of a tile beside a stroke, at most DP_PATCH columns and rows. */
 enum { DP_PATCH = 8 };
 typedef struct dp_ink_patch {

@@ -8,6 +8,7 @@
 #include "pipe/fold_batch.h"
 #include "pipe/frame.h"
 #include "pipe/outline.h"
+#include "pipe/blend.h"
 #include "pipe/tile.h"
 #include "strokes/stroke.h"
 
@@ -176,101 +177,119 @@ static dp_stroke random_stroke(uint32_t *seed) {
     return s;
 }
 
-/* What the kernel says of a pixel, by the definition: distance to the spine, and
- * dp_stroke_limit. */
-static void expect_coverage(const dp_frame *frame, const dp_stroke *s, uint32_t x, uint32_t y,
-                            float share, float limit) {
-    const double ex = (double)s->b.x - s->a.x, ey = (double)s->b.y - s->a.y,
-                 length2 = ex * ex + ey * ey;
-    const double px = x + 0.5 - s->a.x, py = y + 0.5 - s->a.y;
-    const double t = length2 > 0 ? dp_min(dp_max((px * ex + py * ey) / length2, 0), 1) : 0;
-    const double distance = hypot(px - t * ex, py - t * ey), half = (double)s->half_width;
-    const double in =
-        dp_min(dp_max(dp_min(distance + 0.5, half) - dp_max(distance - 0.5, -half), 0), 1);
-    assert_float_equal(share, in, 1e-4);
-    const float want =
-        dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, (float)t, (float)distance);
-    assert_float_equal(limit, want, 1e-4 * (1 + fabs((double)want)));
-}
-
 enum { TILE_X = 64, TILE_PIXELS = DP_TILE * DP_TILE };
 
-/* What is covered by a stroke or was before, pixel by pixel. */
-static float expect_share(const dp_ink_patch *patch, const dp_ink_worker *before,
-                          const dp_coverage_row *row, uint32_t samples, uint32_t x, uint32_t y) {
-    const uint32_t at = y * DP_TILE + x;
-    const float had = before->row[y] >> x & 1 ? before->coverage[at] : 0;
-    if (x < patch->x0 || x >= patch->x1 || y < patch->y0 || y >= patch->y1) return had;
-    uint32_t seen = 0;
-    for (uint32_t i = 0; i < samples; i++)
-        seen += !patch->depth || patch->depth[at * samples + i] <= row->limit[x];
-    const float share = row->share[x] * ((float)seen / (float)samples);
-    return share > had ? share : had;
+/* Share of pixel (x, y) of the tile that a stroke covers, by the definition, and dp_stroke_limit.
+ */
+static double defined_share(const dp_frame *frame, const dp_stroke *s, uint32_t x, uint32_t y,
+                            float *limit) {
+    const double ex = (double)s->b.x - s->a.x, ey = (double)s->b.y - s->a.y,
+                 length2 = ex * ex + ey * ey;
+    const double px = TILE_X + x + 0.5 - s->a.x, py = y + 0.5 - s->a.y;
+    const double t = length2 > 0 ? dp_min(dp_max((px * ex + py * ey) / length2, 0), 1) : 0;
+    const double distance = hypot(px - t * ex, py - t * ey), half = (double)s->half_width;
+    *limit = dp_stroke_limit(frame, s, (float)(TILE_X + x) + 0.5f, (float)y + 0.5f, (float)t,
+                             (float)distance);
+    return dp_min(dp_max(dp_min(distance + 0.5, half) - dp_max(distance - 0.5, -half), 0), 1);
 }
 
-/* A patch is its rows, as far as they are seen, where they cover more than what was there. */
-static void expect_patch(const dp_kernels *kernels, const dp_frame *frame, const dp_stroke *s,
-                         uint32_t *seed) {
-    static float depth[16 * TILE_PIXELS];
-    static dp_ink_worker before, w;
-    const uint32_t samples = frame->target.samples, x0 = next_random(seed) % DP_TILE,
-                   y0 = next_random(seed) % DP_TILE;
-    const uint32_t x1 = x0 + 1 + next_random(seed) % DP_PATCH,
-                   y1 = y0 + 1 + next_random(seed) % DP_PATCH;
-    const dp_ink_patch patch = {TILE_X,
-                                0,
-                                x0,
-                                y0,
-                                x1 < DP_TILE ? x1 : DP_TILE,
-                                y1 < DP_TILE ? y1 : DP_TILE,
-                                next_random(seed) % 4 ? depth : NULL};
-    for (uint32_t i = 0; i < samples * TILE_PIXELS; i++)
-        depth[i] = (float)(next_random(seed) % 6400) / 100;
-    for (uint32_t i = 0; i < TILE_PIXELS; i++) before.coverage[i] = (float)(i % 7) / 6;
-    for (uint32_t y = 0; y < DP_TILE; y++) before.row[y] = 0xf0f0f0f0f0f0f0f0u << y % 5;
-    w = before;
-    kernels->cover_patch(frame, s, &patch, &w);
-    for (uint32_t y = 0; y < DP_TILE; y++) {
-        dp_coverage_row row;
-        dp_kernels_plain.cover(frame, s, TILE_X, y, DP_TILE, &row);
-        for (uint32_t x = 0; x < DP_TILE; x++) {
-            const float want = expect_share(&patch, &before, &row, samples, x, y);
-            const bool set = w.row[y] >> x & 1;
-            assert_true((set ? w.coverage[y * DP_TILE + x] : 0) == want);
-            assert_true(set || !(before.row[y] >> x & 1));
+/* The plain kernel by the definition: the largest share of what was covered before and is now, as
+ * far as samples lie no nearer than the limit; those that lie near it are not asked. */
+static void expect_cover(const dp_frame *frame, const dp_stroke *s, const dp_ink_patch *patch,
+                         const dp_ink_worker *before, const dp_ink_worker *after) {
+    const uint32_t samples = frame->target.samples;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
+        const uint32_t x = i % DP_TILE, y = i / DP_TILE;
+        const double had = before->row[y] >> x & 1 ? (double)before->coverage[i] : 0,
+                     has = after->row[y] >> x & 1 ? (double)after->coverage[i] : 0;
+        float limit;
+        double share = 0;
+        uint32_t seen = 0, close = 0;
+        if (x >= patch->x0 && x < patch->x1 && y >= patch->y0 && y < patch->y1)
+            share = defined_share(frame, s, x, y, &limit);
+        for (uint32_t k = 0; k < samples && share > 0; k++) {
+            const float depth = patch->depth ? patch->depth[i * samples + k] : -FLT_MAX;
+            seen += depth <= limit;
+            close += fabsf(depth - limit) < 1e-3f * (1 + fabsf(limit));
         }
+        if (!close) assert_float_equal(has, dp_max(had, share * seen / samples), 1e-4);
     }
 }
 
-static void coverages_agree(void **state) {
-    enum { STROKES = 500, WIDE = 64 };
+static dp_ink_patch random_patch(const float *depth, uint32_t *seed) {
+    const uint32_t x0 = next_random(seed) % DP_TILE, y0 = next_random(seed) % DP_TILE;
+    const uint32_t x1 = x0 + 1 + next_random(seed) % DP_PATCH,
+                   y1 = y0 + 1 + next_random(seed) % DP_PATCH;
+    return (dp_ink_patch){.tile_x = TILE_X,
+                          .x0 = x0,
+                          .y0 = y0,
+                          .x1 = x1 < DP_TILE ? x1 : DP_TILE,
+                          .y1 = y1 < DP_TILE ? y1 : DP_TILE,
+                          .depth = next_random(seed) % 4 ? depth : NULL};
+}
+
+static void covers_agree(void **state) {
+    enum { STROKES = 400 };
+    static const uint32_t samples[4] = {1, 4, 8, 16};
+    static float depth[16 * TILE_PIXELS];
+    static dp_ink_worker before, truth, w;
     const dp_kernels *list[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(list);
+    uint32_t seed = 3;
+    double spent[DP_KERNELS_MAX] = {0};
     (void)state;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t seed = 3;
-        double spent = 0;
-        for (uint32_t k = 0; k < STROKES; k++) {
-            static const uint32_t samples[4] = {1, 4, 8, 16};
-            const dp_frame frame = {.view = make_view(k % 2),
-                                    .target.samples = samples[k / 8 % 4],
-                                    .step_scale = k % 2 ? 0 : 1e-3f,
-                                    .step_offset = k % 2 ? 1e-2f : 0};
-            const dp_stroke s = random_stroke(&seed);
-            const uint32_t n = 1 + next_random(&seed) % WIDE, y = next_random(&seed) % WIDE;
-            dp_coverage_row truth, row;
-            const uint64_t bits = dp_kernels_plain.cover(&frame, &s, 64, y, n, &truth);
+    for (uint32_t i = 0; i < 16 * TILE_PIXELS; i++)
+        depth[i] = (float)(next_random(&seed) % 6400) / 100;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) before.coverage[i] = (float)(i % 7) / 6;
+    for (uint32_t k = 0; k < STROKES; k++) {
+        const dp_frame frame = {.view = make_view(k % 2),
+                                .target.samples = samples[k / 2 % 4],
+                                .step_scale = k % 2 ? 0 : 1e-3f,
+                                .step_offset = k % 2 ? 1e-2f : 0};
+        const dp_stroke s = random_stroke(&seed);
+        const dp_ink_patch patch = random_patch(depth, &seed);
+        for (uint32_t y = 0; y < DP_TILE; y++) before.row[y] = 0xf0f0f0f0f0f0f0f0u << k % 5;
+        truth = before;
+        dp_kernels_plain.cover(&frame, &s, &patch, &truth);
+        expect_cover(&frame, &s, &patch, &before, &truth);
+        for (uint32_t i = 0; i < count; i++) {
+            w = before;
             const double start = now_ns();
-            assert_true(list[i]->cover(&frame, &s, 64, y, n, &row) == bits);
-            spent += now_ns() - start;
-            assert_memory_equal(row.share, truth.share, n * sizeof *row.share);
-            assert_memory_equal(row.limit, truth.limit, n * sizeof *row.limit);
-            if (k % 8 == 0) expect_patch(list[i], &frame, &s, &seed);
-            for (uint32_t x = 0; x < n && !i; x++)
-                expect_coverage(&frame, &s, 64 + x, y, truth.share[x], truth.limit[x]);
+            list[i]->cover(&frame, &s, &patch, &w);
+            spent[i] += now_ns() - start;
+            assert_memory_equal(w.row, truth.row, sizeof w.row);
+            assert_memory_equal(w.coverage, truth.coverage, sizeof w.coverage);
         }
-        if (getenv("DRYPOINT_BENCH"))
-            print_message("%-10s %-7s %6.2f ns a row\n", "cover", list[i]->name, spent / STROKES);
+    }
+    for (uint32_t i = 0; i < count && getenv("DRYPOINT_BENCH"); i++)
+        print_message("%-10s %-7s %6.2f ns a patch\n", "cover", list[i]->name, spent[i] / STROKES);
+}
+
+/* Ink over a row of a tile, against dp_blend. */
+static void layings_agree(void **state) {
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    uint32_t seed = 8;
+    (void)state;
+    for (uint32_t k = 0; k < 200; k++) {
+        const uint32_t width = 1 + next_random(&seed) % DP_TILE;
+        const uint64_t in = ~(uint64_t)0 >> (DP_TILE - width),
+                       pixels = ((uint64_t)next_random(&seed) << 32 | next_random(&seed)) & in;
+        const dp_color color = next_random(&seed);
+        uint8_t under[4 * DP_TILE], truth[4 * DP_TILE], row[4 * DP_TILE];
+        float coverage[DP_TILE];
+        for (uint32_t i = 0; i < DP_TILE; i++)
+            coverage[i] = (float)(next_random(&seed) % 101) / 100;
+        for (uint32_t i = 0; i < sizeof under; i++) /* some pixels are clear */
+            under[i] = i / 4 % 3 ? (uint8_t)next_random(&seed) : 0;
+        memcpy(truth, under, sizeof under);
+        for (uint32_t i = 0; i < DP_TILE; i++)
+            if (pixels >> i & 1) dp_blend(truth + 4 * (size_t)i, color, coverage[i]);
+        for (uint32_t i = 0; i < count; i++) {
+            memcpy(row, under, sizeof under);
+            list[i]->lay(row, width, coverage, pixels, color);
+            assert_memory_equal(row, truth, sizeof truth);
+        }
     }
 }
 
@@ -585,10 +604,10 @@ static int set_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(transforms_agree), cmocka_unit_test(equal_positions_have_equal_keys),
-        cmocka_unit_test(places_agree),     cmocka_unit_test(coverages_agree),
-        cmocka_unit_test(parts_agree),      cmocka_unit_test(meetings_agree),
-        cmocka_unit_test(suspicions_agree), cmocka_unit_test(approaches_agree),
-        cmocka_unit_test(folds_agree),
+        cmocka_unit_test(places_agree),     cmocka_unit_test(covers_agree),
+        cmocka_unit_test(layings_agree),    cmocka_unit_test(parts_agree),
+        cmocka_unit_test(meetings_agree),   cmocka_unit_test(suspicions_agree),
+        cmocka_unit_test(approaches_agree), cmocka_unit_test(folds_agree),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }
