@@ -65,12 +65,13 @@ void dp_tile_watch(dp_tile_worker *w) {
 
 /* Pixels and their neighbours. False when there are none. */
 bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
+    const uint64_t all = ~(uint64_t)0 >> (64 - DP_TILE);
     uint64_t any = 0;
     for (int y = 0; y < DP_TILE; y++) {
         uint64_t r = pixels[y];
         if (y > 0) r |= pixels[y - 1];
         if (y + 1 < DP_TILE) r |= pixels[y + 1];
-        out[y] = r | r << 1 | r >> 1;
+        out[y] = (r | r << 1 | r >> 1) & all;
         any |= r;
     }
     return any;

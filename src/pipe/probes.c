@@ -36,8 +36,18 @@ static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
     return dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
 }
 
-/* Which sample points may be the tile's: one more on either side than the cut says. */
+/* So far inside that points between two such ones are the tile's too, however they are rounded. */
+static bool well_inside(const dp_tile_worker *w, dp_pointd p) {
+    const double slack = 1e-6, x = p.x - w->tile_x, y = p.y - w->tile_y;
+    const double width = dp_min(DP_TILE, (double)w->frame->view.width - w->tile_x),
+                 height = dp_min(DP_TILE, (double)w->frame->view.height - w->tile_y);
+    return x >= slack && y >= slack && x < width - slack && y < height - slack;
+}
+
+/* Which sample points may be the tile's: one more on either side than the cut says, and of most
+ * spines, which are short, all. */
 static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
+    if (well_inside(w, s->probe_a) && well_inside(w, s->probe_b)) return *k0 < *k1;
     double t0 = 0, t1 = 1;
     cut(s->probe_a.x, s->probe_b.x, w->tile_x, w->tile_x + DP_TILE, &t0, &t1);
     cut(s->probe_a.y, s->probe_b.y, w->tile_y, w->tile_y + DP_TILE, &t0, &t1);

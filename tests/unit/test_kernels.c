@@ -328,7 +328,8 @@ static void suspicions_agree(void **state) {
 
         uint64_t asked[DP_TILE], shown[DP_TILE];
         for (uint32_t y = 0; y < DP_TILE; y++)
-            asked[y] = (uint64_t)next_random(&seed) << 32 & (uint64_t)next_random(&seed) << 20;
+            asked[y] = ((uint64_t)next_random(&seed) << 40 | next_random(&seed)) &
+                       ~(uint64_t)0 >> (64 - DP_TILE);
         list[k]->show_backs(&w, asked, shown);
         for (uint32_t i = 0; i < DP_TILE * DP_TILE; i++) {
             bool back = false;
