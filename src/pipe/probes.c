@@ -5,9 +5,9 @@
  * the points that matter (an irregular depth buffer). The answer is exact for edges far below a
  * pixel and owes nothing to the number of samples.
  *
- * Data structure: probes sorted by cells of pixels, so that those in a row of a polygon's box
- * follow each other, and the least limit in a few cells side by side, which tells that most
- * polygons hide none. A spine's points belong to the tile whose pixel they lie in. Invariant: the
+ * Data structure: probes sorted by pixel, so that those in a row of a polygon's box follow each
+ * other, and the least limit in a few cells of pixels side by side, which tells that most polygons
+ * hide none. A spine's points belong to the tile whose pixel they lie in. Invariant: the
  * points of one candidate in a tile are consecutive, k0 to k1. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
