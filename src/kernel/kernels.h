@@ -63,6 +63,8 @@ typedef struct dp_kernels {
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong
      * together (edges.inc). */
     bool (*flatten)(struct dp_tile_worker *worker);
+    /* Unmarks edges that no second polygon met and that lie hidden (edges.inc). */
+    void (*unmark_alone)(struct dp_tile_worker *worker);
     /* Normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
     /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is

@@ -249,7 +249,7 @@ static bool clear_table(dp_tile_worker *w) {
     w->meeting_count = w->edge_pairs = 0;
     w->slot_count = (uint32_t)slots;
     memset(w->edge_slots, 0, slots * sizeof *w->edge_slots);
-    memset(w->edge_marks, 1, count);
+    memset(w->edge_marks, DP_MARK_ALONE, count);
     memset(w->edge_marks + count, 0, marks - count);
     return true;
 }
@@ -280,7 +280,9 @@ bool dp_edge_table_fill(dp_tile_worker *w) {
     }
     w->stats.edges_resolved += w->edge_pairs + w->calm_edges / 2;
     for (uint32_t i = 0; i < w->meeting_count; i++)
-        w->edge_marks[w->meetings[i].first] = 1, w->edge_marks[w->meetings[i].number] = 0;
+        w->edge_marks[w->meetings[i].first] = DP_MARK_PAIR,
+        w->edge_marks[w->meetings[i].number] = 0;
+    w->frame->kernels->unmark_alone(w);
     return true;
 }
 

@@ -91,16 +91,6 @@ static bool prepare(dp_tile_worker *w) {
     return dp_edge_table_fill(w);
 }
 
-/* An edge that lies hidden as polygons do; the other polygon at it may be one of these. */
-static bool is_hidden_edge(const dp_tile_worker *w, const dp_edge_entry *e) {
-    const dp_tile_polygon *const p = &w->polygons[e->a];
-    if (p->flags & DP_POLYGON_CLIPPED) return false;
-    const dp_vertex a = w->points[p->point + e->edge_a];
-    const dp_vertex b = w->points[p->point + (e->edge_a + 1u == p->points ? 0 : e->edge_a + 1u)];
-    return dp_tile_hides(w, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x),
-                         dp_maxf(a.y, b.y), dp_maxf(a.d, b.d));
-}
-
 static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
     const uint32_t front_a = w->polygons[met->a].flags & DP_POLYGON_FRONT;
     const uint32_t front_b = w->polygons[met->b].flags & DP_POLYGON_FRONT;
@@ -276,15 +266,14 @@ static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
     }
 }
 
-/* Takes up to DP_FOLDS edges from the table from `*number` on, but for those that lie hidden, and
- * has their polygons fetched meanwhile. */
+/* Takes up to DP_FOLDS edges from the table from `*number` on, and has their polygons fetched
+ * meanwhile. */
 static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number,
                              dp_edge_entry entries[DP_FOLDS]) {
     const dp_polygons *const polygons = &w->frame->polygons;
     uint32_t count = 0;
     while (count < DP_FOLDS && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX) {
         const dp_edge_entry e = dp_edge_table_entry(w, (*number)++);
-        if (e.b == UINT32_MAX && is_hidden_edge(w, &e)) continue;
         dp_ask_for_corners(polygons, w->polygons[e.a].id);
         if (e.b != UINT32_MAX) dp_ask_for_corners(polygons, w->polygons[e.b].id);
         entries[count++] = e;

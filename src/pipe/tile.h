@@ -63,6 +63,9 @@ typedef uint64_t dp_edge_slot;
 #define DP_SLOT_MORE   (1u << 30) /* there are meetings beyond the second */
 #define DP_SLOT_NUMBER (DP_SLOT_MORE - 1)
 
+/* Of an edge that may be a line: no second polygon met it; others did. */
+enum { DP_MARK_ALONE = 1, DP_MARK_PAIR };
+
 /* A third or later polygon at an edge. */
 typedef struct dp_meeting {
     uint32_t first,
@@ -246,7 +249,7 @@ struct dp_tile_worker {
     uint32_t *seen_words; /* dp_seen_words */
     dp_edge_list edges;
     dp_edge_slot *edge_slots;
-    uint8_t *edge_marks; /* by number in the list: it may be a line */
+    uint8_t *edge_marks; /* by number in the list: DP_MARK_… of one that may be a line, 0 */
     uint32_t *pair_first,
         *pair_second; /* edges of the list: one as either of two polygons has it */
     dp_meeting *meetings;
