@@ -11,6 +11,12 @@
 
 enum { MAX_THREADS = 256 };
 
+/* Indices [next, end) are not handed out yet. */
+typedef struct share {
+    _Alignas(64) atomic_uint next; /* lines of the cache of their own */
+    uint32_t end;
+} share;
+
 typedef struct worker {
     dp_threads *threads;
     pthread_t thread;
@@ -32,17 +38,31 @@ struct dp_threads {
 
     dp_task *task;
     void *arg;
-    uint32_t total;
-    atomic_uint next;
+    share shares[MAX_THREADS]; /* of a loop's indices, by worker */
     atomic_uint claimed[MAX_THREADS]; /* worker numbers in use, for the application's loop */
     worker workers[MAX_THREADS];
 };
 
+/* First its own share, then what is left of the others'. */
 static void work(dp_threads *threads, uint32_t self) {
-    for (;;) {
-        const uint32_t index = atomic_fetch_add_explicit(&threads->next, 1, memory_order_relaxed);
-        if (index >= threads->total) return;
-        threads->task(threads->arg, index, self);
+    const uint32_t count = threads->started + 1;
+    for (uint32_t i = 0; i < count; i++) {
+        share *const s = &threads->shares[(self + i) % count];
+        for (;;) {
+            const uint32_t index = atomic_fetch_add_explicit(&s->next, 1, memory_order_relaxed);
+            if (index >= s->end) break;
+            threads->task(threads->arg, index, self);
+        }
+    }
+}
+
+static void share_out(dp_threads *threads, uint32_t total) {
+    const uint32_t count = threads->started + 1;
+    for (uint32_t i = 0; i < count; i++) {
+        share *const s = &threads->shares[i];
+        atomic_store_explicit(&s->next, (uint32_t)((uint64_t)total * i / count),
+                              memory_order_relaxed);
+        s->end = (uint32_t)((uint64_t)total * (i + 1) / count);
     }
 }
 
@@ -129,12 +149,11 @@ void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg) 
     if (!count) return;
     threads->task = task;
     threads->arg = arg;
-    threads->total = count;
     if (threads->loop) {
         threads->loop(threads->user, count, foreign_task, threads);
         return;
     }
-    atomic_store_explicit(&threads->next, 0, memory_order_relaxed);
+    share_out(threads, count);
     const bool alone = count == 1 || !threads->started;
     if (!alone) {
         pthread_mutex_lock(&threads->mutex);
