@@ -31,9 +31,10 @@ struct dp_chunk_view;
 typedef struct dp_kernels {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;
-    /* `count` positions, `stride` bytes apart, to the screen (transform.inc, pipe/vertices.c). */
+    /* `count` positions, `stride` bytes apart, to the screen (transform.inc, pipe/vertices.c).
+     * `past_caches`: what is written will not be in a cache when it is read. */
     void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count,
-                      struct dp_vertex *out);
+                      struct dp_vertex *out, bool past_caches);
     /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px
      * (place.inc). */
     void (*place)(const struct dp_frame *frame, float margin, uint32_t first, uint32_t count,

@@ -369,6 +369,31 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
+/* Puts lane l's record, by columns, at `at` + l, which is aligned to 16 bytes: past the caches, so
+ * that no other processor has to be asked to give up what it holds of the place. */
+#if DP_LANES > 1 && defined __SSE2__
+DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
+    float records[DP_LANES][4], *const out = at;
+    l_transpose(columns);
+    for (int i = 0; i < 4; i++) l_put_row((char *)(records + i), 4 * sizeof *records, columns[i]);
+    for (size_t l = 0; l < DP_LANES; l++) _mm_stream_ps(out + 4 * l, _mm_loadu_ps(records[l]));
+}
+#else
+DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
+    float(*const out)[DP_LANES][4] = at;
+    for (size_t l = 0; l < DP_LANES; l++)
+        for (size_t k = 0; k < 4; k++)
+            memcpy(&(*out)[l][k], (char *)&columns[k] + 4 * l, 4);
+}
+#endif
+
+/* Before others may read what has been put past the caches. */
+DP_LANES_INLINE void l_past_caches_done(void) {
+#if DP_LANES > 1 && defined __SSE2__
+    _mm_sfence();
+#endif
+}
+
 /* Lane l's record, by columns. */
 DP_LANES_INLINE void l_records(const void *base, const uint32_t at[DP_LANES], dp_lf out[4]) {
 #if DP_LANES == 1

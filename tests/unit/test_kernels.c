@@ -63,16 +63,18 @@ static void transforms_agree(void **state) {
     (void)state;
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         const dp_view view = make_view(orthographic);
-        dp_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth);
+        dp_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth,
+                                   false);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();
             for (int r = 0; r < REPEATS; r++)
-                list[i]->transform(&view, positions[0], sizeof *positions, VERTICES, vertices);
+                list[i]->transform(&view, positions[0], sizeof *positions, VERTICES, vertices,
+                                   r & 1);
             report("transform", list[i], start, VERTICES);
             expect_same_vertices(truth, vertices, VERTICES, list[i]->name);
             for (uint32_t n = 1; n < 20; n++) { /* any length, and not a byte beyond */
                 memset(vertices, 0x55, sizeof vertices);
-                list[i]->transform(&view, positions[3], sizeof *positions, n, vertices);
+                list[i]->transform(&view, positions[3], sizeof *positions, n, vertices, n & 1);
                 expect_same_vertices(truth + 3, vertices, n, list[i]->name);
                 assert_int_equal(vertices[n].key, 0x55555555);
             }
@@ -88,7 +90,7 @@ static void equal_positions_have_equal_keys(void **state) {
     (void)state;
     for (uint32_t i = 0; i < count; i++) {
         dp_vertex v[2];
-        list[i]->transform(&view, same[0], sizeof *same, 2, v);
+        list[i]->transform(&view, same[0], sizeof *same, 2, v, false);
         assert_int_equal(v[0].key, v[1].key);
     }
 }
@@ -117,7 +119,7 @@ static void places_agree(void **state) {
                                        .corners = indexed ? corners : NULL,
                                        .count = indexed ? TRIANGLES : VERTICES / 3};
         dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES,
-                                   vertices);
+                                   vertices, false);
         dp_kernels_plain.place(&frame, 0.75f, 0, frame.polygons.count, truth);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();
