@@ -14,6 +14,8 @@ struct dp_tile_polygon;
 struct dp_vertex;
 struct dp_crowd;
 struct dp_fold_batch;
+struct dp_spine;
+struct dp_probe;
 struct dp_frame;
 struct dp_tile_rect;
 struct dp_brush;
@@ -68,6 +70,9 @@ typedef struct dp_kernels {
     void (*unmark_alone)(struct dp_tile_worker *worker);
     /* Normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
+    /* Makes the sample points [k0, k1) of a spine, with room for a vector more (points.inc). */
+    void (*points)(const struct dp_tile_worker *worker, const struct dp_spine *spine, uint32_t k0,
+                   uint32_t k1, struct dp_probe *out);
     /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is
      * a front face, and which, if they are triangles, share no corner (meet.inc). */
     void (*cross)(struct dp_tile_worker *worker);

@@ -369,23 +369,27 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
-/* Puts lane l's record, by columns, at `at` + l, which is aligned to 16 bytes: past the caches, so
- * that no other processor has to be asked to give up what it holds of the place. */
-#if DP_LANES > 1 && defined __SSE2__
-DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
-    float records[DP_LANES][4], *const out = at;
-    l_transpose(columns);
-    for (int i = 0; i < 4; i++) l_put_row((char *)(records + i), 4 * sizeof *records, columns[i]);
-    for (size_t l = 0; l < DP_LANES; l++) _mm_stream_ps(out + 4 * l, _mm_loadu_ps(records[l]));
-}
+/* Puts lane l's record, by columns, at `at` + l. */
+DP_LANES_INLINE void l_put_records(void *at, dp_lf columns[4]) {
+#if DP_LANES == 1
+    memcpy(at, columns, 16);
 #else
-DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
-    float(*const out)[DP_LANES][4] = at;
-    for (size_t l = 0; l < DP_LANES; l++)
-        for (size_t k = 0; k < 4; k++)
-            memcpy(&(*out)[l][k], (char *)&columns[k] + 4 * l, 4);
-}
+    l_transpose(columns);
+    for (int i = 0; i < 4; i++) l_put_row((char *)at + 16 * i, 64, columns[i]);
 #endif
+}
+
+/* The same where `at` is aligned to 16 bytes, past the caches, so that no other processor has to be
+ * asked to give up what it holds of the place. */
+DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
+#if DP_LANES > 1 && defined __SSE2__
+    float records[DP_LANES][4], *const out = at;
+    l_put_records(records, columns);
+    for (size_t l = 0; l < DP_LANES; l++) _mm_stream_ps(out + 4 * l, _mm_loadu_ps(records[l]));
+#else
+    l_put_records(at, columns);
+#endif
+}
 
 /* Before others may read what has been put past the caches. */
 DP_LANES_INLINE void l_past_caches_done(void) {

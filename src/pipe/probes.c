@@ -60,32 +60,18 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     return *k0 < *k1;
 }
 
-static uint32_t pixel_of(float v) {
-    return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (uint32_t)v;
-}
-
-static void add_probe(dp_tile_worker *w, const dp_candidate *c, const dp_spine *s, uint32_t k) {
-    const dp_pointd p = probe_point(s, k);
-    const float x = (float)(p.x - w->tile_x), y = (float)(p.y - w->tile_y);
-    w->probes[w->probe_count++] =
-        (dp_probe){.x = x,
-                   .y = y,
-                   .limit = (float)(p.d + dp_depth_step(&w->frame->view, p.d, DP_PROBE_SLACK)),
-                   .own_a = c->a,
-                   .own_b = c->b,
-                   .pixel = (uint16_t)(pixel_of(y) * DP_TILE + pixel_of(x))};
-}
-
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
     if (c.k1 > spine->n) c.k1 = spine->n;
     if (!find_range(w, spine, &c.k0, &c.k1)) return;
     if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
-        !DP_WORKER_RESERVE(w, probes, probes_cap, (size_t)w->probe_count + (c.k1 - c.k0)))
+        !DP_WORKER_RESERVE(w, probes, probes_cap,
+                           (size_t)w->probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
         return;
     c.n = spine->n;
     c.probe = w->probe_count;
     w->candidates[w->candidate_count++] = c;
-    for (uint32_t k = c.k0; k < c.k1; k++) add_probe(w, &c, spine, k);
+    w->frame->kernels->points(w, spine, c.k0, c.k1, w->probes + c.probe);
+    w->probe_count += c.k1 - c.k0;
 }
 
 /* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of
@@ -107,11 +93,11 @@ bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, flo
 }
 
 static bool reserve_sorted(dp_tile_worker *w, size_t need) {
-    return DP_WORKER_RESERVE(w, sorted.x, sorted.x_cap, need) &&
+    return DP_WORKER_RESERVE(w, places, places_cap, need) &&
+           DP_WORKER_RESERVE(w, sorted.x, sorted.x_cap, need) &&
            DP_WORKER_RESERVE(w, sorted.y, sorted.y_cap, need) &&
            DP_WORKER_RESERVE(w, sorted.limit, sorted.limit_cap, need) &&
-           DP_WORKER_RESERVE(w, sorted.own_a, sorted.own_a_cap, need) &&
-           DP_WORKER_RESERVE(w, sorted.own_b, sorted.own_b_cap, need);
+           DP_WORKER_RESERVE(w, sorted.candidate, sorted.candidate_cap, need);
 }
 
 /* Sorts them by pixel (counting sort), and finds each cell's least limit. */
@@ -126,19 +112,22 @@ static bool sort_probes(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->probe_count; i++) first[w->probes[i].pixel]++;
     for (uint32_t p = 0; p < DP_TILE * DP_TILE; p++) first[p] = sum += first[p];
     first[DP_TILE * DP_TILE] = sum;
-    for (uint32_t i = w->probe_count; i-- > 0;) { /* the ends of pixels go down to their starts */
-        dp_probe *const p = &w->probes[i];
-        const float limit = p->hidden ? INFINITY : p->limit;
-        const uint32_t at = --first[p->pixel], x = p->pixel % DP_TILE, y = p->pixel / DP_TILE,
-                       cell = y / DP_CELL * DP_CELLS + x / DP_CELL;
-        least[cell] = dp_minf(limit, least[cell]);
-        out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = limit;
-        out->own_a[at] = p->own_a, out->own_b[at] = p->own_b;
-        p->place = at;
+    for (uint32_t k = 0; k < w->candidate_count; k++) { /* the ends of pixels go down to their starts */
+        const dp_candidate *const c = &w->candidates[k];
+        for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i++) {
+            const dp_probe *const p = &w->probes[i];
+            const float limit = p->hidden ? INFINITY : p->limit;
+            const uint32_t at = --first[p->pixel], x = p->pixel % DP_TILE, y = p->pixel / DP_TILE,
+                           cell = y / DP_CELL * DP_CELLS + x / DP_CELL;
+            least[cell] = dp_minf(limit, least[cell]);
+            out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = limit;
+            out->candidate[at] = k;
+            w->places[i] = at;
+        }
     }
     for (int k = 0; k < 16; k++) {
         const size_t at = (size_t)w->probe_count + (size_t)k;
-        out->x[at] = out->y[at] = 0, out->limit[at] = INFINITY, out->own_a[at] = out->own_b[at] = 0;
+        out->x[at] = out->y[at] = 0, out->limit[at] = INFINITY;
     }
     return true;
 }
@@ -171,7 +160,7 @@ void dp_tile_hide(dp_tile_worker *w) {
     if (!w->probe_count || !sort_probes(w)) return;
     w->frame->kernels->hide(w);
     for (uint32_t i = 0; i < w->probe_count; i++)
-        w->probes[i].hidden = w->sorted.limit[w->probes[i].place] == INFINITY;
+        w->probes[i].hidden = w->sorted.limit[w->places[i]] == INFINITY;
 }
 
 void dp_tile_collect(dp_tile_worker *w) {

@@ -13,6 +13,7 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->stats = (dp_stats){0};
     worker->piece_count = 0;
     worker->away = NULL;
+    worker->owners = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
     worker->finds_edges =
         frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES &&
@@ -56,11 +57,11 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->crowd.listed);
     dp_free(&memory, worker->candidates);
     dp_free(&memory, worker->probes);
+    dp_free(&memory, worker->places);
     dp_free(&memory, worker->sorted.x);
     dp_free(&memory, worker->sorted.y);
     dp_free(&memory, worker->sorted.limit);
-    dp_free(&memory, worker->sorted.own_a);
-    dp_free(&memory, worker->sorted.own_b);
+    dp_free(&memory, worker->sorted.candidate);
     dp_free(&memory, worker->pieces);
     dp_free(&memory, worker->ink);
     dp_free(&memory, worker->ink_depth);
@@ -85,9 +86,8 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
                4 +
            (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 +
            w->candidates_cap * sizeof *w->candidates + w->probes_cap * sizeof *w->probes +
-           (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.own_a_cap +
-            w->sorted.own_b_cap) *
-               4 +
+           w->places_cap * sizeof *w->places +
+           (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.candidate_cap) * 4 +
            w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }

@@ -108,15 +108,17 @@ typedef struct dp_candidate {
     uint8_t line;
 } dp_candidate;
 
-/* A sample point of a spine. Hidden when a polygon other than its own lies nearer than `limit`. */
+/* A sample point of a spine. Hidden when a polygon other than its candidate's own lies nearer than
+ * `limit`. */
 typedef struct dp_probe {
     float x, y;
-    float limit;           /* d */
-    uint32_t own_a, own_b; /* frame polygons */
-    uint32_t place;        /* among the sorted */
-    uint16_t pixel;        /* of the tile that holds it, row by row */
+    float limit;    /* d */
+    uint16_t pixel; /* of the tile that holds it, row by row */
     bool hidden;
 } dp_probe;
+
+enum { DP_PROBES_ROOM = 16 };
+_Static_assert(sizeof(dp_probe) == 16, "kernel/points.inc writes it as a vector");
 
 /* Cells of the tile for a first look at where sample points are. */
 enum {
@@ -129,8 +131,8 @@ enum {
 /* The same sorted by pixel, each member for itself, with room for one vector beyond the last. */
 typedef struct dp_sorted_probes {
     float *x, *y, *limit; /* limit is infinite once it is hidden */
-    uint32_t *own_a, *own_b;
-    size_t x_cap, y_cap, limit_cap, own_a_cap, own_b_cap;
+    uint32_t *candidate;
+    size_t x_cap, y_cap, limit_cap, candidate_cap;
     uint32_t first[DP_TILE * DP_TILE + 1]; /* by pixel */
     /* the least limit in 1 + sx times 1 + sy cells, the first of which is cx, cy; infinite where
      * there are no points */
@@ -256,11 +258,13 @@ struct dp_tile_worker {
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
     dp_probe *probes;
+    uint32_t *places;             /* of the probes, among the sorted */
+    const uint32_t (*owners)[2]; /* the candidates' own polygons; NULL: as the candidates say */
     dp_piece *pieces; /* of all the worker's tiles in this frame */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap,
         points_cap, meetings_cap, slots_cap;
     size_t unsure_cap, umbrellas_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
-    size_t candidates_cap, probes_cap, pieces_cap;
+    size_t candidates_cap, probes_cap, places_cap, pieces_cap;
     uint32_t
         undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     size_t keys_cap, seen_words_cap;

@@ -40,6 +40,8 @@ typedef struct dp_stream_worker {
     size_t mates_cap, mate_count;
     float *depth; /* of a tile's samples, for crossings.c */
     size_t depth_cap;
+    uint32_t (*owners)[2]; /* of a tile's candidates */
+    size_t owners_cap;
     dp_stats stats;
     bool failed;
 } dp_stream_worker;

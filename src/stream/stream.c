@@ -43,6 +43,7 @@ void dp_stream_free(dp_stream_draw *s) {
         dp_free(memory, s->workers[i].crowd);
         dp_free(memory, s->workers[i].depth);
         dp_free(memory, s->workers[i].mates);
+        dp_free(memory, s->workers[i].owners);
     }
     for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
         dp_free(memory, s->rests[i].corners);

@@ -221,18 +221,19 @@ static uint32_t place_in_list(const dp_stream_draw *s, uint32_t number) {
     return hi && s->numbers[lo] == number ? lo : UINT32_MAX - 1;
 }
 
-/* Sample points know their own polygons by the numbers of the list at hand. */
-static void renumber_probes(const dp_stream_draw *s, dp_tile_worker *w) {
+/* The candidates' own polygons by the numbers of the list at hand. */
+static bool find_owners(const dp_stream_draw *s, dp_tile_worker *w, dp_stream_worker *own) {
+    if (!dp_reserve(s->memory, &own->owners, &own->owners_cap, w->candidate_count,
+                    sizeof *own->owners))
+        return false;
     for (uint32_t i = 0; i < w->candidate_count; i++) {
         const dp_candidate *const c = &w->candidates[i];
-        const uint32_t a = place_in_list(s, s->polygon_numbers[c->a]);
-        const uint32_t b =
+        own->owners[i][0] = place_in_list(s, s->polygon_numbers[c->a]);
+        own->owners[i][1] =
             c->b == UINT32_MAX ? UINT32_MAX - 1 : place_in_list(s, s->polygon_numbers[c->b]);
-        for (uint32_t k = 0; k < c->k1 - c->k0; k++) {
-            dp_probe *const p = &w->probes[c->probe + k];
-            p->own_a = a, p->own_b = b;
-        }
     }
+    w->owners = (const uint32_t(*)[2])own->owners;
+    return true;
 }
 
 /* Lends a tile's lines to the worker, and takes its own back. */
@@ -246,6 +247,7 @@ static void swap_lines(dp_tile_worker *w, dp_tile_lines *lines) {
 static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_tile_worker *const w = &s->context->tile_workers[worker];
+    dp_stream_worker *const own = &s->workers[worker];
     dp_tile_lines *const lines = &s->lines[tile];
     if (!lines->candidate_count || !dp_bins_tile_count(&s->context->frame.polygon_bins, tile))
         return;
@@ -253,12 +255,15 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     w->finds_edges = false;
     dp_tile_open(w, tile);
     swap_lines(w, lines);
-    renumber_probes(s, w);
     w->watching = false; /* the faces are drawn again, which changes nothing */
     dp_tile_assemble(w);
     dp_tile_faces(w);
     w->watching = watching;
-    dp_tile_hide(w);
+    if (find_owners(s, w, own))
+        dp_tile_hide(w);
+    else
+        w->failed = true;
+    w->owners = NULL;
     swap_lines(w, lines);
     want_pixels(lines, s->wanted + (size_t)tile * DP_TILE);
 }
