@@ -1,7 +1,8 @@
-/* A pool of pthreads around one shared counter.
+/* A pool of pthreads, each with a share of a loop's indices.
  *
  * Invariant: between two loops every worker sleeps on `wake`; a loop is announced by a new `round`
- * and is over when `busy` is back at zero. Inside a loop workers share nothing but `next`.
+ * and is over when `busy` is back at zero. Inside a loop workers share nothing but the counters of
+ * the shares, of which they seldom ask for another's.
  * The pool does not nest: a task must not start another loop. */
 #include "base/threads.h"
 
@@ -38,7 +39,7 @@ struct dp_threads {
 
     dp_task *task;
     void *arg;
-    share shares[MAX_THREADS]; /* of a loop's indices, by worker */
+    share shares[MAX_THREADS];        /* of a loop's indices, by worker */
     atomic_uint claimed[MAX_THREADS]; /* worker numbers in use, for the application's loop */
     worker workers[MAX_THREADS];
 };

@@ -20,8 +20,10 @@ dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
 void dp_threads_destroy(dp_threads *threads);
 uint32_t dp_threads_count(const dp_threads *threads);
 
-/* Runs task(arg, i, worker) for every i in [0, count) and returns when all are done. Indices are
- * handed out in ascending order; nothing else about the order is promised. */
+/* Runs task(arg, i, worker) for every i in [0, count) and returns when all are done. Of the
+ * context's own threads each has a share of the indices, which is the same in every loop of so
+ * many: what a task writes again, frame after frame, its processor mostly has at hand. Whoever is
+ * done takes what is left of the others' shares. */
 void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg);
 
 #endif

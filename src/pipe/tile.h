@@ -258,9 +258,9 @@ struct dp_tile_worker {
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
     dp_probe *probes;
-    uint32_t *places;             /* of the probes, among the sorted */
+    uint32_t *places;            /* of the probes, among the sorted */
     const uint32_t (*owners)[2]; /* the candidates' own polygons; NULL: as the candidates say */
-    dp_piece *pieces; /* of all the worker's tiles in this frame */
+    dp_piece *pieces;            /* of all the worker's tiles in this frame */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap,
         points_cap, meetings_cap, slots_cap;
     size_t unsure_cap, umbrellas_cap, edge_marks_cap, pair_first_cap, pair_second_cap;

@@ -63,8 +63,7 @@ static void transforms_agree(void **state) {
     (void)state;
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         const dp_view view = make_view(orthographic);
-        dp_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth,
-                                   false);
+        dp_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth, false);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();
             for (int r = 0; r < REPEATS; r++)
@@ -118,8 +117,8 @@ static void places_agree(void **state) {
                                        .vertex_count = VERTICES,
                                        .corners = indexed ? corners : NULL,
                                        .count = indexed ? TRIANGLES : VERTICES / 3};
-        dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES,
-                                   vertices, false);
+        dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES, vertices,
+                                   false);
         dp_kernels_plain.place(&frame, 0.75f, 0, frame.polygons.count, truth);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();

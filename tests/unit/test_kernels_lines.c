@@ -1,0 +1,153 @@
+/* The kernels that find lines' sample points and edges that lie hidden: all agree with plain C, bit
+ * for bit, and plain C with what is defined. */
+#include "kernel/kernels.h"
+#include "pipe/tile.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "kernel_tests.h"
+
+enum { POINTS = 100, ROUNDS = 300 };
+
+/* Within the tile at (TILE_X, 0) and a little beyond. */
+enum { TILE_X = 64 };
+static double random_place(uint32_t *seed) {
+    return (double)(next_random(seed) % (DP_TILE * 1000 + 8000)) / 1000 - 4;
+}
+
+static dp_pointd random_point(uint32_t *seed, bool orthographic) {
+    const double x = TILE_X + random_place(seed), y = random_place(seed),
+                 d = 0.1 + (double)(next_random(seed) % 10000) / 10000;
+    return (dp_pointd){x, y, orthographic ? -10 * d : d};
+}
+
+static void expect_point(const dp_view *view, const dp_spine *s, uint32_t k, const dp_probe *p) {
+    const dp_pointd at = dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
+    const float x = (float)(at.x - TILE_X), y = (float)at.y;
+    const double px = dp_min(dp_max(floor((double)x), 0), DP_TILE - 1),
+                 py = dp_min(dp_max(floor((double)y), 0), DP_TILE - 1);
+    assert_memory_equal(&p->x, &x, sizeof x);
+    assert_memory_equal(&p->y, &y, sizeof y);
+    assert_true(p->limit == (float)(at.d + dp_depth_step(view, at.d, DP_PROBE_SLACK)));
+    assert_int_equal(p->pixel, (int)py * DP_TILE + (int)px);
+    assert_false(p->hidden);
+}
+
+/* Any run of a spine's points. */
+static void points_agree(void **state) {
+    static dp_tile_worker w;
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    uint32_t seed = 7;
+    (void)state;
+    for (int round = 0; round < ROUNDS; round++) {
+        dp_probe truth[POINTS + DP_PROBES_ROOM], out[POINTS + DP_PROBES_ROOM];
+        const bool orthographic = round & 1;
+        const dp_frame frame = {.view = make_view(orthographic)};
+        const dp_spine s = {.probe_a = random_point(&seed, orthographic),
+                            .probe_b = random_point(&seed, orthographic),
+                            .n = 1 + next_random(&seed) % POINTS};
+        const uint32_t k0 = next_random(&seed) % s.n, k1 = k0 + 1 + next_random(&seed) % (s.n - k0);
+        w.frame = &frame;
+        w.tile_x = TILE_X;
+        dp_kernels_plain.points(&w, &s, k0, k1, truth);
+        for (uint32_t k = k0; k < k1; k++) expect_point(&frame.view, &s, k, &truth[k - k0]);
+        for (uint32_t i = 0; i < count; i++) {
+            list[i]->points(&w, &s, k0, k1, out);
+            assert_memory_equal(out, truth, (k1 - k0) * sizeof *out);
+        }
+    }
+}
+
+enum { TRIANGLES = 60, EDGES = 3 * TRIANGLES };
+
+typedef struct scene {
+    dp_frame frame;
+    dp_tile_polygon polygons[TRIANGLES];
+    dp_vertex points[3 * TRIANGLES];
+    uint32_t polygon[EDGES], edge[EDGES];
+    uint8_t marks[EDGES];
+} scene;
+
+/* Triangles of all sizes, some clipped, of whose edges some are alone; and blocks of pixels that
+ * hide what lies further away. */
+static void make_scene(scene *s, dp_tile_worker *w, uint32_t *seed) {
+    memset(w->farthest, 0, sizeof w->farthest);
+    for (uint32_t y = 0; y < DP_RINGED; y++)
+        for (uint32_t x = 0; x < DP_RINGED; x++)
+            w->farthest[0][0][y][x] = (float)(next_random(seed) % 4);
+    for (uint32_t k = 1; k < DP_SPANS * DP_SPANS; k++) /* as dp_tile_find_farthest does */
+        for (uint32_t y = 0; y < DP_RINGED; y++)
+            for (uint32_t x = 0; x < DP_RINGED; x++) {
+                float least = INFINITY;
+                for (uint32_t v = y; v <= y + k / DP_SPANS && v < DP_RINGED; v++)
+                    for (uint32_t u = x; u <= x + k % DP_SPANS && u < DP_RINGED; u++)
+                        least = dp_minf(least, w->farthest[0][0][v][u]);
+                w->farthest[k / DP_SPANS][k % DP_SPANS][y][x] = least;
+            }
+    for (uint32_t t = 0; t < TRIANGLES; t++) {
+        const double x = random_place(seed), y = random_place(seed),
+                     size = 0.1 + next_random(seed) % 40;
+        s->polygons[t] = (dp_tile_polygon){
+            .point = 3 * t, .points = 3, .flags = next_random(seed) % 5 ? 0 : DP_POLYGON_CLIPPED};
+        for (uint32_t k = 0; k < 3; k++) {
+            s->points[3 * t + k] = (dp_vertex){(float)(x + size * (next_random(seed) % 100) / 100),
+                                               (float)(y + size * (next_random(seed) % 100) / 100),
+                                               (float)(next_random(seed) % 300) / 100, 0};
+            s->polygon[3 * t + k] = t, s->edge[3 * t + k] = k;
+            s->marks[3 * t + k] = (uint8_t)(next_random(seed) % 3);
+        }
+    }
+}
+
+static bool is_hidden(const scene *s, const dp_tile_worker *w, uint32_t number) {
+    const dp_tile_polygon *const p = &s->polygons[s->polygon[number]];
+    const dp_vertex a = s->points[p->point + s->edge[number]],
+                    b = s->points[p->point + (s->edge[number] + 1) % 3];
+    return !(p->flags & DP_POLYGON_CLIPPED) &&
+           dp_tile_hides(w, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x),
+                         dp_maxf(a.y, b.y), dp_maxf(a.d, b.d));
+}
+
+static void edges_alone_are_unmarked_where_hidden(void **state) {
+    static dp_tile_worker w;
+    static scene s;
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t count = dp_kernels_list(list);
+    uint32_t seed = 11, unmarked = 0, kept = 0;
+    (void)state;
+    s.frame = (dp_frame){.view = make_view(false), .step_scale = 0.01f};
+    w.frame = &s.frame;
+    w.polygons = s.polygons, w.points = s.points;
+    w.edges = (dp_edge_list){.polygon = s.polygon, .edge = s.edge};
+    for (int round = 0; round < ROUNDS; round++) {
+        uint8_t marks[EDGES];
+        make_scene(&s, &w, &seed);
+        w.edge_marks = marks;
+        w.edges.count = 1 + next_random(&seed) % EDGES;
+        for (uint32_t i = 0; i < count; i++) {
+            memcpy(marks, s.marks, sizeof marks);
+            list[i]->unmark_alone(&w);
+            for (uint32_t k = 0; k < EDGES; k++) {
+                const bool asked = k < w.edges.count && s.marks[k] == DP_MARK_ALONE,
+                           hidden = asked && is_hidden(&s, &w, k);
+                unmarked += hidden, kept += asked && !hidden;
+                assert_int_equal(marks[k], hidden ? 0 : s.marks[k]);
+            }
+        }
+    }
+    assert_true(unmarked > 1000 && kept > 1000);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_agree),
+        cmocka_unit_test(edges_alone_are_unmarked_where_hidden),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
