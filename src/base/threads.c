@@ -12,10 +12,12 @@
 
 enum { MAX_THREADS = 256 };
 
-/* Indices [next, end) are not handed out yet. */
+/* Indices [next, end) are not handed out yet. As large as a line of the cache, so that no two share
+ * one. */
 typedef struct share {
-    _Alignas(64) atomic_uint next; /* lines of the cache of their own */
+    atomic_uint next;
     uint32_t end;
+    char unused[64 - 2 * sizeof(uint32_t)];
 } share;
 
 typedef struct worker {
