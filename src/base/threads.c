@@ -8,6 +8,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MAX_THREADS = 256 };
@@ -35,9 +36,9 @@ struct dp_threads {
 
     pthread_mutex_t mutex;
     pthread_cond_t wake, done;
-    uint64_t round;
-    uint32_t busy;
+    atomic_uint round, busy; /* written with the mutex held, but for the end of busyness */
     bool quit;
+    bool lingers; /* there is a processor for every worker */
 
     dp_task *task;
     void *arg;
@@ -69,22 +70,70 @@ static void share_out(dp_threads *threads, uint32_t total) {
     }
 }
 
+static inline void pause_a_moment(void) {
+#if defined __x86_64__ || defined __i386__
+    __builtin_ia32_pause();
+#elif defined __aarch64__
+    __asm__ volatile("yield");
+#endif
+}
+
+static int64_t now_ns(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
+}
+
+/* Looks for a while whether a value has become another: the stages of a frame follow each other
+ * closely, and who sleeps takes long to wake. False: it is the same still. */
+static bool linger(atomic_uint *value, uint32_t had) {
+    enum { LOOKS = 64, LINGER_NS = 200000 };
+    const int64_t until = now_ns() + LINGER_NS;
+    do {
+        for (int i = 0; i < LOOKS; i++) {
+            if (atomic_load_explicit(value, memory_order_acquire) != had) return true;
+            pause_a_moment();
+        }
+    } while (now_ns() < until);
+    return false;
+}
+
+/* Waits for a loop that has not been seen; false when there will be none. */
+static bool await_loop(dp_threads *threads, uint32_t *seen) {
+    if (!threads->lingers || !linger(&threads->round, *seen)) {
+        pthread_mutex_lock(&threads->mutex);
+        while (!threads->quit && threads->round == *seen)
+            pthread_cond_wait(&threads->wake, &threads->mutex);
+        const bool quit = threads->quit;
+        pthread_mutex_unlock(&threads->mutex);
+        if (quit) return false;
+    }
+    *seen = threads->round;
+    return true;
+}
+
+/* Waits until no worker is busy any more. */
+static void await_workers(dp_threads *threads) {
+    uint32_t busy;
+    while ((busy = threads->busy) != 0 && threads->lingers)
+        if (!linger(&threads->busy, busy)) break;
+    if (!busy) return;
+    pthread_mutex_lock(&threads->mutex);
+    while (threads->busy) pthread_cond_wait(&threads->done, &threads->mutex);
+    pthread_mutex_unlock(&threads->mutex);
+}
+
 static void *thread_main(void *arg) {
     worker *const self = arg;
     dp_threads *const threads = self->threads;
-    uint64_t seen = 0;
-    pthread_mutex_lock(&threads->mutex);
-    for (;;) {
-        while (!threads->quit && threads->round == seen)
-            pthread_cond_wait(&threads->wake, &threads->mutex);
-        if (threads->quit) break;
-        seen = threads->round;
-        pthread_mutex_unlock(&threads->mutex);
+    uint32_t seen = 0;
+    while (await_loop(threads, &seen)) {
         work(threads, self->index);
+        if (atomic_fetch_sub(&threads->busy, 1) > 1) continue;
         pthread_mutex_lock(&threads->mutex);
-        if (--threads->busy == 0) pthread_cond_signal(&threads->done);
+        pthread_cond_signal(&threads->done);
+        pthread_mutex_unlock(&threads->mutex);
     }
-    pthread_mutex_unlock(&threads->mutex);
     return NULL;
 }
 
@@ -102,6 +151,7 @@ dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
     threads->allocator = *allocator;
     threads->count = count;
     threads->loop = loop;
+    threads->lingers = count <= processors();
     threads->user = user;
     pthread_mutex_init(&threads->mutex, NULL);
     pthread_cond_init(&threads->wake, NULL);
@@ -166,8 +216,5 @@ void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg) 
         pthread_mutex_unlock(&threads->mutex);
     }
     work(threads, 0);
-    if (alone) return;
-    pthread_mutex_lock(&threads->mutex);
-    while (threads->busy) pthread_cond_wait(&threads->done, &threads->mutex);
-    pthread_mutex_unlock(&threads->mutex);
+    if (!alone) await_workers(threads);
 }

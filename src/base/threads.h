@@ -26,4 +26,12 @@ uint32_t dp_threads_count(const dp_threads *threads);
  * done takes what is left of the others' shares. */
 void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg);
 
+/* How many of `count` items a task should take, from `least` to `most`: so few that a few workers
+ * have equal shares. Depends on nothing but these. */
+static inline uint32_t dp_task_size(uint32_t count, uint32_t least, uint32_t most) {
+    enum { TASKS = 16, WHOLE = 64 };
+    const uint32_t size = (count / TASKS / WHOLE + 1) * WHOLE;
+    return size < least ? least : size > most ? most : size;
+}
+
 #endif

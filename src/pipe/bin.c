@@ -10,11 +10,11 @@
 
 #include <string.h>
 
-enum { CHUNK = DP_TUNED(8192, 3), FEW_TILES = 4 };
+enum { CHUNK_LEAST = DP_TUNED(512, 3), CHUNK_MOST = DP_TUNED(8192, 3), FEW_TILES = 4 };
 
 typedef struct job {
     dp_bins *bins;
-    uint32_t count, tiles_x, tiles_y;
+    uint32_t count, chunk, tiles_x, tiles_y; /* chunk: items in one */
     dp_bin_place *place;
     dp_bin_touches *touches;
     void *arg;
@@ -40,7 +40,7 @@ static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_re
                       uint32_t worker) {
     if (r.x0 >= r.x1 || r.y0 >= r.y1) return true;
     const size_t most = (size_t)(r.x1 - r.x0) * (size_t)(r.y1 - r.y0);
-    if (!reserve_pairs(j, s, *count + most + CHUNK)) return false;
+    if (!reserve_pairs(j, s, *count + most + j->chunk)) return false;
     const bool ask = j->touches && most > FEW_TILES;
     for (int32_t y = r.y0; y < r.y1; y++)
         for (int32_t x = r.x0; x < r.x1; x++) {
@@ -55,7 +55,7 @@ static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_re
 static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t n, size_t *count,
                        uint32_t worker) {
     if (!dp_reserve(j->memory, &s->rects, &s->rects_cap, n, sizeof *s->rects) ||
-        !reserve_pairs(j, s, CHUNK))
+        !reserve_pairs(j, s, j->chunk))
         return false;
     j->place(j->arg, first, n, s->rects, worker);
     const dp_tile_rect *const rects = s->rects;
@@ -114,11 +114,11 @@ static void bin_chunk(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     dp_bin_chunk *const chunk = &j->bins->chunks[index];
     dp_bin_scratch *const scratch = &j->bins->scratch[worker];
-    const uint32_t first = index * CHUNK;
+    const uint32_t first = index * j->chunk;
     size_t count = 0;
     chunk->failed =
-        !make_pairs(j, scratch, first, j->count - first < CHUNK ? j->count - first : CHUNK, &count,
-                    worker) ||
+        !make_pairs(j, scratch, first, j->count - first < j->chunk ? j->count - first : j->chunk,
+                    &count, worker) ||
         !sort_chunk(j, scratch, count, chunk);
 }
 
@@ -136,14 +136,15 @@ static bool reserve_zeroed(const dp_allocator *memory, void *array, size_t *cap,
 bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tiles_y,
                   dp_bin_place *place, dp_bin_touches *touches, void *arg, dp_threads *threads,
                   const dp_allocator *memory) {
-    const uint32_t chunks = count / CHUNK + (count % CHUNK != 0);
+    const uint32_t chunk = dp_task_size(count, CHUNK_LEAST, CHUNK_MOST),
+                   chunks = count / chunk + (count % chunk != 0);
     bins->chunk_count = 0;
     bins->tile_count = tiles_x * tiles_y;
     if (!reserve_zeroed(memory, &bins->chunks, &bins->chunks_cap, chunks, sizeof *bins->chunks) ||
         !reserve_zeroed(memory, &bins->scratch, &bins->scratch_cap, dp_threads_count(threads),
                         sizeof *bins->scratch))
         return false;
-    job j = {bins, count, tiles_x, tiles_y, place, touches, arg, memory};
+    job j = {bins, count, chunk, tiles_x, tiles_y, place, touches, arg, memory};
     dp_parallel(threads, chunks, bin_chunk, &j);
     bins->chunk_count = chunks;
     for (uint32_t i = 0; i < chunks; i++)
