@@ -163,8 +163,8 @@ static bool begin_frame(dp_context *c) {
            begin_workers(c);
 }
 
-/* Half a degree short of the least fold that any group draws, a right angle at the most; above 1,
- * but less than DP_AWAY's square, where flat edges are lines too. */
+/* Half a degree short of the least fold that any group draws, a right angle at the most; above 1
+ * where flat edges are lines too. */
 static float flat_cosine(const dp_style *styles, uint32_t count) {
     float least = 180;
     for (uint32_t i = 0; i < count; i++)

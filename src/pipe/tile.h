@@ -73,12 +73,12 @@ typedef struct dp_meeting {
     uint32_t next; /* 1 + meeting, 0: none */
 } dp_meeting;
 
-/* What stands for the normals of back faces: its square is more than any cosine. */
+/* What stands for the normals of back faces. */
 #define DP_AWAY 2
 static const float dp_away[4] = {0, 0, 0, DP_AWAY};
 
-/* In the same place of front faces: their normals are to be made again where their edges are
- * listed. Some are right to DP_ROUGH_ANGLE, others not at all. */
+/* In the same place of front faces: their normals are to be made again. Some are right to
+ * DP_ROUGH_ANGLE, which is enough where their edges are not listed; others not at all. */
 #define DP_ROUGH       3
 #define DP_UNKNOWN     4
 #define DP_ROUGH_ANGLE 2.5 /* degrees */
@@ -96,7 +96,10 @@ _Static_assert(sizeof(dp_umbrella) == 16, "kernel/umbrellas.inc takes it for a v
 #define DP_UMBRELLA_BYTE   0x7f       /* all bytes of an empty one */
 #define DP_UMBRELLA_CLOSED 0x7f7f7f7f /* its `open` */
 #define DP_UMBRELLA_ONE    8192
-enum { DP_UMBRELLA_AWAY = 24000, DP_UMBRELLA_UNKNOWN = -32767 };
+enum { DP_UMBRELLA_NONE = INT16_MAX, DP_UMBRELLA_UNKNOWN = -DP_UMBRELLA_NONE };
+enum { DP_UMBRELLA_BACKS = 15 /* so many back faces, or fewer, are counted */ };
+#define DP_UMBRELLA_BACK         0x9e3779b1u /* each adds this to `open` */
+#define DP_UMBRELLA_BACK_INVERSE 0xe8b2f51u  /* times that: 1 */
 
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
@@ -240,9 +243,8 @@ struct dp_tile_worker {
                                  give its normal */
     float (*normals)[4];      /* by polygon: unit normal and 0, DP_ROUGH or DP_UNKNOWN, or dp_away
                                  (kernel/edges.inc) */
-    uint32_t
-        *unsure; /* front faces whose normals are still to be made, as their edges are listed */
-    dp_umbrella *umbrellas; /* by the keys of vertices, shifted right */
+    uint32_t *unsure;         /* front faces whose normals are still to be made */
+    dp_umbrella *umbrellas;   /* by the keys of vertices, shifted right */
     uint32_t umbrella_shift;
     dp_vertex
         *points; /* tile space; key: of the corner's position, where the polygon is not clipped */
