@@ -1,9 +1,9 @@
 /* A pool of pthreads, each with a share of a loop's indices.
  *
- * Invariant: between two loops every worker sleeps on `wake`; a loop is announced by a new `round`
- * and is over when `busy` is back at zero. Inside a loop workers share nothing but the counters of
- * the shares, of which they seldom ask for another's.
- * The pool does not nest: a task must not start another loop. */
+ * Invariant: between two loops every worker waits, at last asleep on `wake`; a loop is announced by
+ * a new `round` and is over when `busy` is back at zero. Inside a loop workers share nothing but
+ * the counters of the shares, of which they seldom ask for another's. The pool does not nest: a
+ * task must not start another loop. */
 #include "base/threads.h"
 
 #include <pthread.h>

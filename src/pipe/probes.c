@@ -112,8 +112,8 @@ static bool sort_probes(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->probe_count; i++) first[w->probes[i].pixel]++;
     for (uint32_t p = 0; p < DP_TILE * DP_TILE; p++) first[p] = sum += first[p];
     first[DP_TILE * DP_TILE] = sum;
-    for (uint32_t k = 0; k < w->candidate_count;
-         k++) { /* the ends of pixels go down to their starts */
+    /* the ends of pixels go down to their starts */
+    for (uint32_t k = 0; k < w->candidate_count; k++) {
         const dp_candidate *const c = &w->candidates[k];
         for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i++) {
             const dp_probe *const p = &w->probes[i];
