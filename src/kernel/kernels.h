@@ -61,8 +61,8 @@ typedef struct dp_kernels {
     /* The unit normals of the tile's unsure triangles (normals.inc). */
     void (*normals)(struct dp_tile_worker *worker);
     /* Appends the edges of the tile's seen triangles to its list, but for those that end at calm
-     * vertices, or on rims and are flat (umbrellas.inc); makes normals that are not known, and lists
-     * others that are to be made (edges.inc). */
+     * vertices, or on rims and are flat (umbrellas.inc); makes normals that are not known, and
+     * lists others that are to be made (edges.inc). */
     void (*list_edges)(struct dp_tile_worker *worker);
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong
      * together (edges.inc). */
