@@ -34,7 +34,8 @@ typedef struct dp_kernels {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;
     /* `count` positions, `stride` bytes apart, to the screen (transform.inc, pipe/vertices.c).
-     * `past_caches`: what is written will not be in a cache when it is read. */
+     * `past_caches`: others will read most of it, or it is too much for caches to hold till then.
+     */
     void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count,
                       struct dp_vertex *out, bool past_caches);
     /* Which tiles the frame's triangles [first, first + count) reach, widened by margin px
