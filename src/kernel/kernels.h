@@ -15,7 +15,7 @@ struct dp_vertex;
 struct dp_crowd;
 struct dp_fold_batch;
 struct dp_spine;
-struct dp_probe;
+struct dp_probes;
 struct dp_frame;
 struct dp_tile_rect;
 struct dp_brush;
@@ -72,9 +72,10 @@ typedef struct dp_kernels {
     void (*unmark_alone)(struct dp_tile_worker *worker);
     /* Normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
-    /* Makes the sample points [k0, k1) of a spine, with room for a vector more (points.inc). */
+    /* Makes the sample points [k0, k1) of a spine, from number `at` on, with room for a vector more
+     * (points.inc). */
     void (*points)(const struct dp_tile_worker *worker, const struct dp_spine *spine, uint32_t k0,
-                   uint32_t k1, struct dp_probe *out);
+                   uint32_t k1, const struct dp_probes *out, uint32_t at);
     /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is
      * a front face, and which, if they are triangles, share no corner (meet.inc). */
     void (*cross)(struct dp_tile_worker *worker);
@@ -82,12 +83,12 @@ typedef struct dp_kernels {
     void (*show_backs)(const struct dp_tile_worker *worker, const uint64_t *asked, uint64_t *out);
     /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a
      * vector more; returns how many (meet.inc). */
-    uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *windows,
+    uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *cells,
                           uint32_t *list);
     /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for
      * neighbours and triangles on one side of each other; returns how many (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
-    /* Hides the tile's sorted sample points that lie behind a seen polygon (hide.inc). */
+    /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_tile_worker *worker);
     /* Inks with an added polygon, where the brush's test is true (ink.inc). */
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);

@@ -210,6 +210,24 @@ DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
 #endif
 }
 
+/* The larger of each pair of bytes. */
+DP_LANES_INLINE dp_li li_max_bytes(dp_li a, dp_li b) {
+#if DP_LANES == 16
+    return (dp_li)_mm512_max_epu8((__m512i)a, (__m512i)b);
+#elif DP_LANES == 8
+    return (dp_li)_mm256_max_epu8((__m256i)a, (__m256i)b);
+#elif DP_LANES == 4 && defined __SSE2__
+    return (dp_li)_mm_max_epu8((__m128i)a, (__m128i)b);
+#else
+    uint8_t x[4 * DP_LANES], y[4 * DP_LANES];
+    memcpy(x, &a, sizeof x);
+    memcpy(y, &b, sizeof y);
+    for (int i = 0; i < 4 * DP_LANES; i++) x[i] = x[i] > y[i] ? x[i] : y[i];
+    memcpy(&a, x, sizeof x);
+    return a;
+#endif
+}
+
 /* At the end of a kernel that calls functions with vectors as arguments: compilers then leave the
  * registers' upper halves set, and all code of 16-byte vectors that runs afterwards, anywhere, is
  * up to half as fast. */

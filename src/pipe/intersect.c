@@ -206,21 +206,23 @@ static bool meet_near(const surroundings *near, const dp_tile_polygon *p,
     return false;
 }
 
-/* Which blocks of pixels, with the next ones on the right and below, hold any surroundings: for a
- * first look. */
-static void find_windows(const surroundings *near,
-                         uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS]) {
-    memset(windows, 0, DP_CROWD_BLOCKS * DP_CROWD_BLOCKS * sizeof *windows);
-    for (uint32_t y = 0; y < DP_TILE; y++) {
-        const uint64_t row = near->front.row[y] | (near->mixed ? near->back.row[y] : 0);
-        for (uint32_t b = 0; row && b < DP_CROWD_BLOCKS; b++) {
-            const uint32_t any = (row >> b * DP_CROWD_BLOCK & 0xff) != 0;
-            for (uint32_t k = 0; k < 4; k++) {
-                const uint32_t left = k & 1, up = k >> 1, by = y / DP_CROWD_BLOCK;
-                if (left <= b && up <= by) windows[(by - up) * DP_CROWD_BLOCKS + b - left] |= any;
-            }
+/* Which cells hold any surroundings, and those after them: for a first look. */
+static void find_cells(const surroundings *near, dp_cell_bits cells) {
+    const uint32_t all = DP_CELLS * DP_CELLS;
+    memset(cells, 0, sizeof(dp_cell_bits));
+    for (uint32_t y = 0; y < DP_TILE; y++)
+        for (uint32_t x = 0; x < DP_CELLS; x++) {
+            const uint32_t at = x * DP_CELL, cell = y / DP_CELL * DP_CELLS + x;
+            const uint64_t columns = (uint64_t)((1 << DP_CELL) - 1) << at;
+            if (near->front.row[y] & columns) cells[0][0][cell] |= DP_NEAR_FRONT;
+            if (near->mixed && near->back.row[y] & columns) cells[0][0][cell] |= DP_NEAR_BACK;
         }
-    }
+    for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
+        for (uint32_t i = 0; i < all; i++) cells[0][s][i] = cells[0][s - 1][i] | cells[0][0][i + s];
+    for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
+        for (uint32_t k = 0; k < DP_CELL_SPANS; k++)
+            for (uint32_t i = 0; i < all; i++)
+                cells[s][k][i] = cells[s - 1][k][i] | cells[0][k][i + s * DP_CELLS];
 }
 
 /* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their
@@ -230,14 +232,13 @@ static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *po
     dp_crowd *const crowd = &w->crowd;
     const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX);
     const uint32_t *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
-    uint32_t windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
-    find_windows(near, windows);
-    const uint32_t count = w->frame->kernels->come_near(w, windows, polygon);
+    dp_cell_bits cells;
+    find_cells(near, cells);
+    const uint32_t count = w->frame->kernels->come_near(w, &cells[0][0][0], polygon);
     crowd->count = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
-        if (!(flags[i] & DP_POLYGON_TOUCHES) || !(near->mixed || flags[i] & DP_POLYGON_FRONT))
-            continue;
+        if (!near->mixed && !(flags[i] & DP_POLYGON_FRONT)) continue;
         if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
         polygon[crowd->count++] = w->seen[i];
         rows[(boxes[i] >> 8 & 255) + 1]++;

@@ -5,10 +5,11 @@
  * the points that matter (an irregular depth buffer). The answer is exact for edges far below a
  * pixel and owes nothing to the number of samples.
  *
- * Data structure: probes sorted by pixel, so that those in a row of a polygon's box follow each
- * other, and the least limit in a few cells of pixels side by side, which tells that most polygons
- * hide none. A spine's points belong to the tile whose pixel they lie in. Invariant: the
- * points of one candidate in a tile are consecutive, k0 to k1. */
+ * Data structure: the probes stay in the order in which they are made. Groups of them that follow
+ * each other along a spine, each with the box where they lie, are sorted by cells of the tile, so
+ * that those near a polygon follow each other; and the least limit in a few cells side by side
+ * tells that most polygons hide none. A spine's points belong to the tile whose pixel they lie in.
+ * Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -60,17 +61,22 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     return *k0 < *k1;
 }
 
+static bool reserve_probes(dp_tile_worker *w, size_t need) {
+    return DP_WORKER_RESERVE(w, probes.x, probe_x_cap, need) &&
+           DP_WORKER_RESERVE(w, probes.y, probe_y_cap, need) &&
+           DP_WORKER_RESERVE(w, probes.limit, probe_limit_cap, need);
+}
+
 void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
     if (c.k1 > spine->n) c.k1 = spine->n;
     if (!find_range(w, spine, &c.k0, &c.k1)) return;
     if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
-        !DP_WORKER_RESERVE(w, probes, probes_cap,
-                           (size_t)w->probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
+        !reserve_probes(w, (size_t)w->probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
         return;
     c.n = spine->n;
     c.probe = w->probe_count;
     w->candidates[w->candidate_count++] = c;
-    w->frame->kernels->points(w, spine, c.k0, c.k1, w->probes + c.probe);
+    w->frame->kernels->points(w, spine, c.k0, c.k1, &w->probes, c.probe);
     w->probe_count += c.k1 - c.k0;
 }
 
@@ -92,43 +98,88 @@ bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, flo
     return true;
 }
 
-static bool reserve_sorted(dp_tile_worker *w, size_t need) {
-    return DP_WORKER_RESERVE(w, places, places_cap, need) &&
-           DP_WORKER_RESERVE(w, sorted.x, sorted.x_cap, need) &&
-           DP_WORKER_RESERVE(w, sorted.y, sorted.y_cap, need) &&
-           DP_WORKER_RESERVE(w, sorted.limit, sorted.limit_cap, need) &&
-           DP_WORKER_RESERVE(w, sorted.candidate, sorted.candidate_cap, need);
+/* ------- groups ------- */
+
+/* Where a group's points lie, in quarters of a pixel, and the least of their limits. */
+typedef struct bounds {
+    uint32_t x0, y0, x1, y1;
+    float limit;
+} bounds;
+
+static uint32_t quarter_at(float px) {
+    return px <= 0 ? 0 : px >= DP_TILE ? DP_QUARTERS - 1 : (uint32_t)(4 * px);
 }
 
-/* Sorts them by pixel (counting sort), and finds each cell's least limit. */
-static bool sort_probes(dp_tile_worker *w) {
-    dp_sorted_probes *const out = &w->sorted;
-    if (!reserve_sorted(w, (size_t)w->probe_count + 16)) return false;
-    uint32_t *const first = out->first;
-    uint32_t sum = 0;
-    float *const least = out->least[0][0];
-    for (uint32_t i = 0; i < DP_CELL_ROOM; i++) least[i] = INFINITY;
+/* Of points along a spine: those at the ends tell, unless one is hidden. */
+static bounds bounds_of(const dp_probes *probes, uint32_t first, uint32_t last) {
+    const float la = probes->limit[first], lb = probes->limit[last];
+    const uint32_t xa = quarter_at(probes->x[first]), xb = quarter_at(probes->x[last]),
+                   ya = quarter_at(probes->y[first]), yb = quarter_at(probes->y[last]);
+    bounds b = {xa < xb ? xa : xb, ya < yb ? ya : yb, xa < xb ? xb : xa, ya < yb ? yb : ya,
+                dp_minf(la, lb)};
+    if (dp_maxf(la, lb) == INFINITY)
+        for (uint32_t i = first; i < last; i++) b.limit = dp_minf(b.limit, probes->limit[i]);
+    return b;
+}
+
+enum { CELL_QUARTERS = 4 * DP_CELL };
+static uint32_t cell_of(const bounds *b) {
+    return b->y0 / CELL_QUARTERS * DP_CELLS + b->x0 / CELL_QUARTERS;
+}
+
+/* Number of a candidate's last point in the group that begins with point `first`. */
+static uint32_t group_last(const dp_candidate *c, uint32_t first) {
+    const uint32_t end = c->probe + (c->k1 - c->k0);
+    return (end - first < DP_GROUP ? end : first + DP_GROUP) - 1;
+}
+
+static void put_group(dp_probe_groups *out, uint32_t at, dp_probe_group group, const bounds *b) {
+    const uint32_t cx0 = b->x0 / CELL_QUARTERS, cy0 = b->y0 / CELL_QUARTERS,
+                   cx1 = b->x1 / CELL_QUARTERS, cy1 = b->y1 / CELL_QUARTERS;
+    out->group[at] = group;
+    out->box[at] = b->x0 | b->y0 << 8 | (255 - b->x1) << 16 | (255 - b->y1) << 24;
+    out->limit[at] = b->limit;
+    if (cx1 - cx0 > out->wide) out->wide = cx1 - cx0;
+    if (cy1 - cy0 > out->high) out->high = cy1 - cy0;
+    for (uint32_t y = cy0; y <= cy1; y++)
+        for (uint32_t x = cx0; x <= cx1; x++) {
+            float *const least = &out->least[0][0][y * DP_CELLS + x];
+            *least = dp_minf(b->limit, *least);
+        }
+}
+
+static bool reserve_groups(dp_tile_worker *w, uint32_t count) {
+    const size_t room = (size_t)count + DP_PROBES_ROOM;
+    return DP_WORKER_RESERVE(w, groups.group, groups.group_cap, count) &&
+           DP_WORKER_RESERVE(w, groups.box, groups.box_cap, room) &&
+           DP_WORKER_RESERVE(w, groups.limit, groups.limit_cap, room);
+}
+
+/* Sorts them by cell (counting sort), and finds each cell's least limit. */
+static bool make_groups(dp_tile_worker *w) {
+    dp_probe_groups *const out = &w->groups;
+    uint32_t *const first = out->first, sum = 0;
+    for (uint32_t i = 0; i < DP_CELL_ROOM; i++) out->least[0][0][i] = INFINITY;
     memset(first, 0, sizeof out->first);
-    for (uint32_t i = 0; i < w->probe_count; i++) first[w->probes[i].pixel]++;
-    for (uint32_t p = 0; p < DP_TILE * DP_TILE; p++) first[p] = sum += first[p];
-    first[DP_TILE * DP_TILE] = sum;
-    /* the ends of pixels go down to their starts */
     for (uint32_t k = 0; k < w->candidate_count; k++) {
         const dp_candidate *const c = &w->candidates[k];
-        for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i++) {
-            const dp_probe *const p = &w->probes[i];
-            const float limit = p->hidden ? INFINITY : p->limit;
-            const uint32_t at = --first[p->pixel], x = p->pixel % DP_TILE, y = p->pixel / DP_TILE,
-                           cell = y / DP_CELL * DP_CELLS + x / DP_CELL;
-            least[cell] = dp_minf(limit, least[cell]);
-            out->x[at] = p->x, out->y[at] = p->y, out->limit[at] = limit;
-            out->candidate[at] = k;
-            w->places[i] = at;
+        for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
+            const bounds b = bounds_of(&w->probes, i, group_last(c, i));
+            first[cell_of(&b)]++;
         }
     }
-    for (int k = 0; k < 16; k++) {
-        const size_t at = (size_t)w->probe_count + (size_t)k;
-        out->x[at] = out->y[at] = 0, out->limit[at] = INFINITY;
+    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) first[i] = sum += first[i];
+    first[DP_CELLS * DP_CELLS] = sum;
+    out->wide = out->high = 0;
+    if (!reserve_groups(w, sum)) return false;
+    /* the ends of cells go down to their starts */
+    for (uint32_t k = 0; k < w->candidate_count; k++) {
+        const dp_candidate *const c = &w->candidates[k];
+        for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
+            const uint32_t last = group_last(c, i);
+            const bounds b = bounds_of(&w->probes, i, last);
+            put_group(out, --first[cell_of(&b)], (dp_probe_group){i, last + 1 - i, k}, &b);
+        }
     }
     return true;
 }
@@ -150,7 +201,7 @@ static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uin
 static void collect(dp_tile_worker *w, const dp_candidate *c) {
     uint32_t start = c->k0;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
-        const bool visible = k < c->k1 && !w->probes[c->probe + (k - c->k0)].hidden;
+        const bool visible = k < c->k1 && w->probes.limit[c->probe + (k - c->k0)] < INFINITY;
         if (visible) continue;
         if (k > start) add_piece(w, c, start, k);
         start = k + 1;
@@ -158,10 +209,7 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 }
 
 void dp_tile_hide(dp_tile_worker *w) {
-    if (!w->probe_count || !sort_probes(w)) return;
-    w->frame->kernels->hide(w);
-    for (uint32_t i = 0; i < w->probe_count; i++)
-        w->probes[i].hidden = w->sorted.limit[w->places[i]] == INFINITY;
+    if (w->probe_count && make_groups(w)) w->frame->kernels->hide(w);
 }
 
 void dp_tile_collect(dp_tile_worker *w) {

@@ -56,12 +56,12 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->crowd.met);
     dp_free(&memory, worker->crowd.listed);
     dp_free(&memory, worker->candidates);
-    dp_free(&memory, worker->probes);
-    dp_free(&memory, worker->places);
-    dp_free(&memory, worker->sorted.x);
-    dp_free(&memory, worker->sorted.y);
-    dp_free(&memory, worker->sorted.limit);
-    dp_free(&memory, worker->sorted.candidate);
+    dp_free(&memory, worker->probes.x);
+    dp_free(&memory, worker->probes.y);
+    dp_free(&memory, worker->probes.limit);
+    dp_free(&memory, worker->groups.group);
+    dp_free(&memory, worker->groups.box);
+    dp_free(&memory, worker->groups.limit);
     dp_free(&memory, worker->pieces);
     dp_free(&memory, worker->ink);
     dp_free(&memory, worker->ink_depth);
@@ -85,10 +85,11 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
             w->crowd.listed_cap) *
                4 +
            (w->seen_cap + w->seen_words_cap + w->keys_cap) * 4 +
-           w->candidates_cap * sizeof *w->candidates + w->probes_cap * sizeof *w->probes +
-           w->places_cap * sizeof *w->places +
-           (w->sorted.x_cap + w->sorted.y_cap + w->sorted.limit_cap + w->sorted.candidate_cap) * 4 +
-           w->pieces_cap * sizeof *w->pieces +
+           w->candidates_cap * sizeof *w->candidates +
+           (w->probe_x_cap + w->probe_y_cap + w->probe_limit_cap + w->groups.box_cap +
+            w->groups.limit_cap) *
+               4 +
+           w->groups.group_cap * sizeof *w->groups.group + w->pieces_cap * sizeof *w->pieces +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 

@@ -111,36 +111,49 @@ typedef struct dp_candidate {
     uint8_t line;
 } dp_candidate;
 
-/* A sample point of a spine. Hidden when a polygon other than its candidate's own lies nearer than
- * `limit`. */
-typedef struct dp_probe {
-    float x, y;
-    float limit;    /* d */
-    uint16_t pixel; /* of the tile that holds it, row by row */
-    bool hidden;
-} dp_probe;
+/* Sample points of spines (px, d), each member for itself, with room for one vector beyond the
+ * last. A point is hidden when a polygon other than its candidate's own lies nearer than its limit,
+ * which is infinite from then on. */
+typedef struct dp_probes {
+    float *x, *y, *limit;
+} dp_probes;
 
 enum { DP_PROBES_ROOM = 16 };
-_Static_assert(sizeof(dp_probe) == 16, "kernel/points.inc writes it as a vector");
+
+/* Some of a candidate's sample points, one after the other. */
+typedef struct dp_probe_group {
+    uint32_t first, count, candidate;
+} dp_probe_group;
+
+enum { DP_GROUP = 16 /* points, or fewer */ };
+
+/* Of a pixel: a byte holds where in the tile a point lies. */
+enum { DP_QUARTERS = 4 * DP_TILE };
+_Static_assert(DP_QUARTERS <= 256, "as many as a byte has values");
 
 /* Cells of the tile for a first look at where sample points are. */
 enum {
-    DP_CELL = 2 /* px */,
+    DP_CELL = 4 /* px */,
     DP_CELLS = DP_TILE / DP_CELL,
     DP_CELL_SPANS = 3,
+    DP_CELL_SMALL = 9, /* px; boxes that are less wide and high than this span so many or fewer */
     DP_CELL_ROOM = DP_CELLS * (DP_CELLS + DP_CELL_SPANS) + 16
 };
 
-/* The same sorted by pixel, each member for itself, with room for one vector beyond the last. */
-typedef struct dp_sorted_probes {
-    float *x, *y, *limit; /* limit is infinite once it is hidden */
-    uint32_t *candidate;
-    size_t x_cap, y_cap, limit_cap, candidate_cap;
-    uint32_t first[DP_TILE * DP_TILE + 1]; /* by pixel */
+/* All groups of the tile's sample points, sorted by the cell of their boxes' upper left corner;
+ * each member for itself, with room for one vector beyond the last. */
+typedef struct dp_probe_groups {
+    dp_probe_group *group;
+    uint32_t *box; /* where its points lie: x0, y0, 255 - x1, 255 - y1 in quarters of a pixel, from
+                      the lowest byte on, so that one comparison of bytes tells whether two meet */
+    float *limit;  /* the least of its points' */
+    size_t group_cap, box_cap, limit_cap;
+    uint32_t first[DP_CELLS * DP_CELLS + 1]; /* by cell */
+    uint32_t wide, high; /* so many cells begin before the last one that a box reaches, at most */
     /* the least limit in 1 + sx times 1 + sy cells, the first of which is cx, cy; infinite where
      * there are no points */
     float least[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM]; /* [sy][sx][cy, cx] */
-} dp_sorted_probes;
+} dp_probe_groups;
 
 /* Polygons around pixels where faces may cross (intersect.c), sorted by the first row of their
  * boxes. */
@@ -164,10 +177,10 @@ enum {
     DP_CROWD_MEMBERS = 18
 };
 enum { DP_CROWD_ROOM = 16 };
-enum {
-    DP_CROWD_BLOCK = 8 /* px */,
-    DP_CROWD_BLOCKS = (DP_TILE + DP_CROWD_BLOCK - 1) / DP_CROWD_BLOCK
-};
+
+/* What is around suspects in 1 + sx times 1 + sy cells, the first of which is cx, cy. */
+enum { DP_NEAR_FRONT = 1 /* for front faces */, DP_NEAR_BACK = 2 };
+typedef uint32_t dp_cell_bits[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM]; /* [sy][sx][cy, cx] */
 
 /* Samples to whose depth a polygon came close while faces were drawn (intersect.c), each member for
  * itself, with room for one vector beyond the last. */
@@ -259,14 +272,13 @@ struct dp_tile_worker {
     dp_meeting *meetings;
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     dp_candidate *candidates;
-    dp_probe *probes;
-    uint32_t *places;            /* of the probes, among the sorted */
+    dp_probes probes;
     const uint32_t (*owners)[2]; /* the candidates' own polygons; NULL: as the candidates say */
     dp_piece *pieces;            /* of all the worker's tiles in this frame */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap,
         points_cap, meetings_cap, slots_cap;
     size_t unsure_cap, umbrellas_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
-    size_t candidates_cap, probes_cap, places_cap, pieces_cap;
+    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, pieces_cap;
     uint32_t
         undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     size_t keys_cap, seen_words_cap;
@@ -281,7 +293,7 @@ struct dp_tile_worker {
         suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back face */
     dp_crowd crowd;
 
-    dp_sorted_probes sorted;
+    dp_probe_groups groups;
     dp_pixel_lists lookup_pixels;
     dp_loose_edge *loose;
     struct dp_lookup *lookups; /* emerge.c */

@@ -119,24 +119,15 @@ bool dp_stream_choose_crowded(dp_stream_draw *s) {
 /* Adds a tile's crossings to the lines it has. */
 static bool add_lines(const dp_stream_draw *s, const dp_tile_worker *w, uint32_t first,
                       dp_tile_lines *lines) {
-    const uint32_t candidates = lines->candidate_count + w->candidate_count,
-                   probes = lines->probe_count + w->probe_count;
-    const size_t head = candidates * sizeof *w->candidates;
-    uint8_t *const block = dp_alloc(s->memory, head + probes * sizeof *w->probes);
-    if (!block) return false;
-    const dp_tile_lines all = {(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head),
-                               candidates, probes};
-    if (lines->candidate_count) {
-        memcpy(all.candidates, lines->candidates, lines->candidate_count * sizeof *all.candidates);
-        memcpy(all.probes, lines->probes, lines->probe_count * sizeof *all.probes);
-    }
-    memcpy(all.candidates + lines->candidate_count, w->candidates,
-           w->candidate_count * sizeof *all.candidates);
-    memcpy(all.probes + lines->probe_count, w->probes, w->probe_count * sizeof *all.probes);
-    for (uint32_t i = lines->candidate_count; i < candidates; i++) {
+    const dp_tile_lines own = {w->candidates, w->probes, w->candidate_count, w->probe_count};
+    const uint32_t candidates = lines->candidate_count + own.candidate_count;
+    dp_tile_lines all;
+    if (!dp_stream_make_lines(s, candidates, lines->probe_count + own.probe_count, &all))
+        return false;
+    dp_stream_put_lines(lines, &all, 0, 0);
+    dp_stream_put_lines(&own, &all, lines->candidate_count, lines->probe_count);
+    for (uint32_t i = lines->candidate_count; i < candidates; i++)
         all.candidates[i].a += first, all.candidates[i].b += first;
-        all.candidates[i].probe += lines->probe_count;
-    }
     dp_free(s->memory, lines->candidates);
     *lines = all;
     return true;

@@ -49,7 +49,7 @@ typedef struct dp_stream_worker {
 /* A tile's lines while the source is read again. */
 typedef struct dp_tile_lines {
     dp_candidate *candidates; /* one block of memory with the probes */
-    dp_probe *probes;
+    dp_probes probes;
     uint32_t candidate_count, probe_count;
 } dp_tile_lines;
 
@@ -142,6 +142,13 @@ static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t e
 }
 bool dp_stream_join_fans(dp_stream_draw *stream);
 void dp_stream_settle_fans(const dp_stream_draw *stream, dp_tile_lines *lines);
+
+/* Room for a tile's lines, in one block of memory; and puts the tile's own there, as candidates and
+ * probes from those numbers on (tiles.c). False when memory is out. */
+bool dp_stream_make_lines(const dp_stream_draw *stream, uint32_t candidates, uint32_t probes,
+                          dp_tile_lines *out);
+void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
+                         uint32_t probe);
 
 /* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is
  * out. */

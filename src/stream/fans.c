@@ -214,6 +214,6 @@ void dp_stream_settle_fans(const dp_stream_draw *s, dp_tile_lines *lines) {
         const int line = line_of(s, fan);
         if (line >= 0) c->line = (uint8_t)line;
         if (line >= 0 && s->context->frame.styles[0].lines >> line & 1) continue;
-        for (uint32_t k = 0; k < c->k1 - c->k0; k++) lines->probes[c->probe + k].hidden = true;
+        for (uint32_t k = 0; k < c->k1 - c->k0; k++) lines->probes.limit[c->probe + k] = INFINITY;
     }
 }

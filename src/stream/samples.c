@@ -51,12 +51,12 @@ static bool is_clear(const dp_tile_worker *w, const plane own[2], double slack, 
     return false;
 }
 
-static bool is_visible(const dp_tile_worker *w, const dp_candidate *c, const dp_probe *p) {
+static bool is_visible(const dp_tile_worker *w, const dp_candidate *c, uint32_t probe) {
     static const int beside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    const plane own[2] = {plane_of(w, c->a, p->x, p->y, p->limit),
-                          plane_of(w, c->b, p->x, p->y, p->limit)};
-    const double slack = fabs(dp_depth_step(&w->frame->view, p->limit, SLACK));
-    const int px = (int)floorf(p->x), py = (int)floorf(p->y);
+    const float x = w->probes.x[probe], y = w->probes.y[probe], d = w->probes.limit[probe];
+    const plane own[2] = {plane_of(w, c->a, x, y, d), plane_of(w, c->b, x, y, d)};
+    const double slack = fabs(dp_depth_step(&w->frame->view, d, SLACK));
+    const int px = (int)floorf(x), py = (int)floorf(y);
     for (int i = 0; i < 5; i++)
         if (is_clear(w, own, slack, px + beside[i][0], py + beside[i][1])) return true;
     return false;
@@ -67,8 +67,8 @@ void dp_stream_hide_by_samples(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->candidate_count; i++) {
         const dp_candidate *const c = &w->candidates[i];
         for (uint32_t k = 0; k < c->k1 - c->k0; k++) {
-            dp_probe *const p = &w->probes[c->probe + k];
-            if (!p->hidden) p->hidden = !is_visible(w, c, p);
+            float *const limit = &w->probes.limit[c->probe + k];
+            if (*limit < INFINITY && !is_visible(w, c, c->probe + k)) *limit = INFINITY;
         }
     }
 }

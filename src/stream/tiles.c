@@ -143,24 +143,51 @@ static void paint_surface(void *arg, uint32_t tile, uint32_t worker) {
 static void want_pixels(const dp_tile_lines *lines, uint64_t rows[DP_TILE]) {
     memset(rows, 0, DP_TILE * sizeof *rows);
     for (uint32_t i = 0; i < lines->probe_count; i++) {
-        const dp_probe *const p = &lines->probes[i];
-        if (p->hidden) continue;
-        const uint32_t x = p->x <= 0 ? 0 : p->x >= DP_TILE ? DP_TILE - 1 : (uint32_t)p->x;
-        const uint32_t y = p->y <= 0 ? 0 : p->y >= DP_TILE ? DP_TILE - 1 : (uint32_t)p->y;
+        const float px = lines->probes.x[i], py = lines->probes.y[i];
+        if (lines->probes.limit[i] == INFINITY) continue;
+        const uint32_t x = px <= 0 ? 0 : px >= DP_TILE ? DP_TILE - 1 : (uint32_t)px;
+        const uint32_t y = py <= 0 ? 0 : py >= DP_TILE ? DP_TILE - 1 : (uint32_t)py;
         rows[y] |= (uint64_t)1 << x;
     }
 }
 
-static bool store_lines(const dp_stream_draw *s, const dp_tile_worker *w, dp_tile_lines *out) {
-    const size_t head = w->candidate_count * sizeof *w->candidates,
-                 tail = w->probe_count * sizeof *w->probes;
-    if (!w->candidate_count) return true;
-    uint8_t *const block = dp_alloc(s->memory, head + tail);
+bool dp_stream_make_lines(const dp_stream_draw *s, uint32_t candidates, uint32_t probes,
+                          dp_tile_lines *out) {
+    const size_t head = candidates * sizeof *out->candidates,
+                 member = probes * sizeof *out->probes.x;
+    uint8_t *const block =
+        dp_alloc(s->memory, head + 3 * member + DP_PROBES_ROOM * sizeof *out->probes.x);
     if (!block) return false;
-    memcpy(block, w->candidates, head);
-    memcpy(block + head, w->probes, tail);
-    *out = (dp_tile_lines){(dp_candidate *)(void *)block, (dp_probe *)(void *)(block + head),
-                           w->candidate_count, w->probe_count};
+    float *const x = (float *)(void *)(block + head);
+    memset(x + 3 * (size_t)probes, 0, DP_PROBES_ROOM * sizeof *x);
+    *out = (dp_tile_lines){
+        (dp_candidate *)(void *)block, {x, x + probes, x + 2 * (size_t)probes}, candidates, probes};
+    return true;
+}
+
+void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
+                         uint32_t probe) {
+    const size_t bytes = from->probe_count * sizeof *from->probes.x;
+    if (!from->candidate_count) return;
+    memcpy(to->candidates + candidate, from->candidates,
+           from->candidate_count * sizeof *from->candidates);
+    for (uint32_t i = 0; i < from->candidate_count; i++)
+        to->candidates[candidate + i].probe += probe;
+    if (!bytes) return;
+    memcpy(to->probes.x + probe, from->probes.x, bytes);
+    memcpy(to->probes.y + probe, from->probes.y, bytes);
+    memcpy(to->probes.limit + probe, from->probes.limit, bytes);
+}
+
+static dp_tile_lines lines_of(const dp_tile_worker *w) {
+    return (dp_tile_lines){w->candidates, w->probes, w->candidate_count, w->probe_count};
+}
+
+static bool store_lines(const dp_stream_draw *s, const dp_tile_worker *w, dp_tile_lines *out) {
+    const dp_tile_lines own = lines_of(w);
+    if (!own.candidate_count) return true;
+    if (!dp_stream_make_lines(s, own.candidate_count, own.probe_count, out)) return false;
+    dp_stream_put_lines(&own, out, 0, 0);
     return true;
 }
 
@@ -238,7 +265,7 @@ static bool find_owners(const dp_stream_draw *s, dp_tile_worker *w, dp_stream_wo
 
 /* Lends a tile's lines to the worker, and takes its own back. */
 static void swap_lines(dp_tile_worker *w, dp_tile_lines *lines) {
-    const dp_tile_lines own = {w->candidates, w->probes, w->candidate_count, w->probe_count};
+    const dp_tile_lines own = lines_of(w);
     w->candidates = lines->candidates, w->probes = lines->probes;
     w->candidate_count = lines->candidate_count, w->probe_count = lines->probe_count;
     *lines = own;

@@ -345,36 +345,64 @@ static void suspicions_agree(void **state) {
     }
 }
 
-/* Who comes near blocks of pixels, against a look at each. */
+/* Cells from (x, y) on, as far as there are any, among which a table of spans is to look. */
+static uint32_t bits_of_cells(dp_cell_bits cells, uint32_t x, uint32_t y, uint32_t sx,
+                              uint32_t sy) {
+    uint32_t bits = 0;
+    for (uint32_t v = y; v <= y + sy && v < DP_CELLS; v++)
+        for (uint32_t u = x; u <= x + sx && u < DP_CELLS; u++)
+            bits |= cells[0][0][v * DP_CELLS + u];
+    return bits;
+}
+
+static void put_cells(dp_cell_bits cells, uint32_t *seed) {
+    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++)
+        cells[0][0][i] = next_random(seed) % 8 ? 0 : 1 + next_random(seed) % 3;
+    for (uint32_t s = 1; s < DP_CELL_SPANS * DP_CELL_SPANS; s++)
+        for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++)
+            cells[s / DP_CELL_SPANS][s % DP_CELL_SPANS][i] = bits_of_cells(
+                cells, i % DP_CELLS, i / DP_CELLS, s % DP_CELL_SPANS, s / DP_CELL_SPANS);
+}
+
+static bool is_near(dp_cell_bits cells, uint32_t box, uint32_t flags) {
+    const uint32_t x0 = box & 255, y0 = box >> 8 & 255, x1 = box >> 16 & 255, y1 = box >> 24;
+    const uint32_t cx = x0 / DP_CELL, cy = y0 / DP_CELL;
+    if (!(flags & DP_POLYGON_TOUCHES)) return false;
+    if (x1 - x0 >= DP_CELL_SMALL || y1 - y0 >= DP_CELL_SMALL) return true;
+    return bits_of_cells(cells, cx, cy, x1 / DP_CELL - cx, y1 / DP_CELL - cy) &
+           (flags & DP_POLYGON_FRONT ? DP_NEAR_FRONT : DP_NEAR_BACK);
+}
+
+/* Who comes near cells of pixels, against a look at each. */
 static void approaches_agree(void **state) {
     enum { SEEN = 300 };
     static uint32_t words[DP_SEEN_MEMBERS * (SEEN + DP_SEEN_ROOM)], list[SEEN + DP_SEEN_ROOM];
     static dp_tile_worker w;
-    uint32_t seed = 5, windows[DP_CROWD_BLOCKS * DP_CROWD_BLOCKS];
+    static dp_cell_bits cells;
+    uint32_t seed = 5;
     (void)state;
     w.seen_count = SEEN, w.seen_stride = SEEN + DP_SEEN_ROOM, w.seen_words = words;
-    for (uint32_t i = 0; i < DP_CROWD_BLOCKS * DP_CROWD_BLOCKS; i++)
-        windows[i] = next_random(&seed) % 4 == 0;
+    put_cells(cells, &seed);
     for (uint32_t i = 0; i < SEEN; i++) {
         const uint32_t x0 = next_random(&seed) % DP_TILE, y0 = next_random(&seed) % DP_TILE,
                        most = DP_TILE - 1;
         const uint32_t x1 = x0 + next_random(&seed) % 12, y1 = y0 + next_random(&seed) % 12;
         words[DP_SEEN_BOX * w.seen_stride + i] =
             x0 | y0 << 8 | (x1 < most ? x1 : most) << 16 | (y1 < most ? y1 : most) << 24;
+        words[DP_SEEN_FLAGS * w.seen_stride + i] =
+            (next_random(&seed) % 4 ? DP_POLYGON_TOUCHES : 0) |
+            (next_random(&seed) % 2 ? DP_POLYGON_FRONT : 0);
     }
     const dp_kernels *kinds[DP_KERNELS_MAX];
     const uint32_t count = dp_kernels_list(kinds);
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t near = kinds[k]->come_near(&w, windows, list);
+        const uint32_t near = kinds[k]->come_near(&w, &cells[0][0][0], list);
         uint32_t expected = 0;
-        for (uint32_t i = 0; i < SEEN; i++) {
-            const uint32_t box = words[i], x0 = box & 255, y0 = box >> 8 & 255,
-                           x1 = box >> 16 & 255, y1 = box >> 24;
-            const bool wide = x1 - x0 > DP_CROWD_BLOCK || y1 - y0 > DP_CROWD_BLOCK;
-            if (wide || windows[y0 / DP_CROWD_BLOCK * DP_CROWD_BLOCKS + x0 / DP_CROWD_BLOCK])
+        for (uint32_t i = 0; i < SEEN; i++)
+            if (is_near(cells, words[i], words[DP_SEEN_FLAGS * w.seen_stride + i]))
                 assert_int_equal(list[expected++], i);
-        }
         assert_int_equal(near, expected);
+        assert_in_range(near, 10, SEEN - 10);
     }
 }
 

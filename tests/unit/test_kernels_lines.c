@@ -26,16 +26,13 @@ static dp_pointd random_point(uint32_t *seed, bool orthographic) {
     return (dp_pointd){x, y, orthographic ? -10 * d : d};
 }
 
-static void expect_point(const dp_view *view, const dp_spine *s, uint32_t k, const dp_probe *p) {
+static void expect_point(const dp_view *view, const dp_spine *s, uint32_t k, const dp_probes *p,
+                         uint32_t i) {
     const dp_pointd at = dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
     const float x = (float)(at.x - TILE_X), y = (float)at.y;
-    const double px = dp_min(dp_max(floor((double)x), 0), DP_TILE - 1),
-                 py = dp_min(dp_max(floor((double)y), 0), DP_TILE - 1);
-    assert_memory_equal(&p->x, &x, sizeof x);
-    assert_memory_equal(&p->y, &y, sizeof y);
-    assert_true(p->limit == (float)(at.d + dp_depth_step(view, at.d, DP_PROBE_SLACK)));
-    assert_int_equal(p->pixel, (int)py * DP_TILE + (int)px);
-    assert_false(p->hidden);
+    assert_memory_equal(&p->x[i], &x, sizeof x);
+    assert_memory_equal(&p->y[i], &y, sizeof y);
+    assert_true(p->limit[i] == (float)(at.d + dp_depth_step(view, at.d, DP_PROBE_SLACK)));
 }
 
 /* Any run of a spine's points. */
@@ -46,7 +43,8 @@ static void points_agree(void **state) {
     uint32_t seed = 7;
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
-        dp_probe truth[POINTS + DP_PROBES_ROOM], out[POINTS + DP_PROBES_ROOM];
+        float truth[3][POINTS + DP_PROBES_ROOM], own[3][POINTS + DP_PROBES_ROOM];
+        const dp_probes expected = {truth[0], truth[1], truth[2]}, out = {own[0], own[1], own[2]};
         const bool orthographic = round & 1;
         const dp_frame frame = {.view = make_view(orthographic)};
         const dp_spine s = {.probe_a = random_point(&seed, orthographic),
@@ -55,11 +53,13 @@ static void points_agree(void **state) {
         const uint32_t k0 = next_random(&seed) % s.n, k1 = k0 + 1 + next_random(&seed) % (s.n - k0);
         w.frame = &frame;
         w.tile_x = TILE_X;
-        dp_kernels_plain.points(&w, &s, k0, k1, truth);
-        for (uint32_t k = k0; k < k1; k++) expect_point(&frame.view, &s, k, &truth[k - k0]);
+        const uint32_t at = next_random(&seed) % (POINTS - (k1 - k0) + 1);
+        dp_kernels_plain.points(&w, &s, k0, k1, &expected, at);
+        for (uint32_t k = k0; k < k1; k++) expect_point(&frame.view, &s, k, &expected, at + k - k0);
         for (uint32_t i = 0; i < count; i++) {
-            list[i]->points(&w, &s, k0, k1, out);
-            assert_memory_equal(out, truth, (k1 - k0) * sizeof *out);
+            list[i]->points(&w, &s, k0, k1, &out, at);
+            for (int m = 0; m < 3; m++)
+                assert_memory_equal(own[m] + at, truth[m] + at, (k1 - k0) * sizeof(float));
         }
     }
 }
