@@ -123,9 +123,6 @@ static bounds bounds_of(const dp_probes *probes, uint32_t first, uint32_t last) 
 }
 
 enum { CELL_QUARTERS = 4 * DP_CELL };
-static uint32_t cell_of(const bounds *b) {
-    return b->y0 / CELL_QUARTERS * DP_CELLS + b->x0 / CELL_QUARTERS;
-}
 
 /* Number of a candidate's last point in the group that begins with point `first`. */
 static uint32_t group_last(const dp_candidate *c, uint32_t first) {
@@ -133,16 +130,20 @@ static uint32_t group_last(const dp_candidate *c, uint32_t first) {
     return (end - first < DP_GROUP ? end : first + DP_GROUP) - 1;
 }
 
-static void put_group(dp_probe_groups *out, uint32_t at, dp_probe_group group, const bounds *b) {
-    const uint32_t cx0 = b->x0 / CELL_QUARTERS, cy0 = b->y0 / CELL_QUARTERS,
-                   cx1 = b->x1 / CELL_QUARTERS, cy1 = b->y1 / CELL_QUARTERS;
+static uint32_t cell_of(const bounds *b) {
+    return b->y0 / CELL_QUARTERS * DP_CELLS + b->x0 / CELL_QUARTERS;
+}
+
+/* The ends of cells go down to their starts. */
+static void put_group(dp_probe_groups *out, dp_probe_group group, const bounds *b) {
+    const uint32_t at = --out->first[cell_of(b)];
     out->group[at] = group;
     out->box[at] = b->x0 | b->y0 << 8 | (255 - b->x1) << 16 | (255 - b->y1) << 24;
     out->limit[at] = b->limit;
-    if (cx1 - cx0 > out->wide) out->wide = cx1 - cx0;
-    if (cy1 - cy0 > out->high) out->high = cy1 - cy0;
-    for (uint32_t y = cy0; y <= cy1; y++)
-        for (uint32_t x = cx0; x <= cx1; x++) {
+    if (b->x1 - b->x0 > out->width) out->width = b->x1 - b->x0;
+    if (b->y1 - b->y0 > out->height) out->height = b->y1 - b->y0;
+    for (uint32_t y = b->y0 / CELL_QUARTERS; y <= b->y1 / CELL_QUARTERS; y++)
+        for (uint32_t x = b->x0 / CELL_QUARTERS; x <= b->x1 / CELL_QUARTERS; x++) {
             float *const least = &out->least[0][0][y * DP_CELLS + x];
             *least = dp_minf(b->limit, *least);
         }
@@ -155,32 +156,33 @@ static bool reserve_groups(dp_tile_worker *w, uint32_t count) {
            DP_WORKER_RESERVE(w, groups.limit, groups.limit_cap, room);
 }
 
-/* Sorts them by cell (counting sort), and finds each cell's least limit. */
-static bool make_groups(dp_tile_worker *w) {
-    dp_probe_groups *const out = &w->groups;
-    uint32_t *const first = out->first, sum = 0;
-    for (uint32_t i = 0; i < DP_CELL_ROOM; i++) out->least[0][0][i] = INFINITY;
-    memset(first, 0, sizeof out->first);
-    for (uint32_t k = 0; k < w->candidate_count; k++) {
-        const dp_candidate *const c = &w->candidates[k];
-        for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
-            const bounds b = bounds_of(&w->probes, i, group_last(c, i));
-            first[cell_of(&b)]++;
-        }
-    }
-    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) first[i] = sum += first[i];
-    first[DP_CELLS * DP_CELLS] = sum;
-    out->wide = out->high = 0;
-    if (!reserve_groups(w, sum)) return false;
-    /* the ends of cells go down to their starts */
+/* Counts them by cell, or puts them there. */
+static void visit_groups(dp_tile_worker *w, bool counting) {
     for (uint32_t k = 0; k < w->candidate_count; k++) {
         const dp_candidate *const c = &w->candidates[k];
         for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
             const uint32_t last = group_last(c, i);
             const bounds b = bounds_of(&w->probes, i, last);
-            put_group(out, --first[cell_of(&b)], (dp_probe_group){i, last + 1 - i, k}, &b);
+            if (counting)
+                w->groups.first[cell_of(&b)]++;
+            else
+                put_group(&w->groups, (dp_probe_group){i, last + 1 - i, k}, &b);
         }
     }
+}
+
+/* Sorts them by cell (counting sort), and finds each cell's least limit. */
+static bool make_groups(dp_tile_worker *w) {
+    dp_probe_groups *const out = &w->groups;
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < DP_CELL_ROOM; i++) out->least[0][0][i] = INFINITY;
+    memset(out->first, 0, sizeof out->first);
+    out->width = out->height = 0;
+    visit_groups(w, true);
+    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) out->first[i] = sum += out->first[i];
+    out->first[DP_CELLS * DP_CELLS] = sum;
+    if (!reserve_groups(w, sum)) return false;
+    visit_groups(w, false);
     return true;
 }
 

@@ -149,7 +149,7 @@ typedef struct dp_probe_groups {
     float *limit;  /* the least of its points' */
     size_t group_cap, box_cap, limit_cap;
     uint32_t first[DP_CELLS * DP_CELLS + 1]; /* by cell */
-    uint32_t wide, high; /* so many cells begin before the last one that a box reaches, at most */
+    uint32_t width, height; /* of the largest boxes, from the first quarter to the last */
     /* the least limit in 1 + sx times 1 + sy cells, the first of which is cx, cy; infinite where
      * there are no points */
     float least[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM]; /* [sy][sx][cy, cx] */

@@ -1,6 +1,6 @@
-/* pipe/probes.c and kernel/hide.inc: which sample points lie hidden is what asking every point about
- * every polygon gives, with kernels of any width, for all but points that rounding may put on either
- * side. */
+/* pipe/probes.c and kernel/hide.inc: which sample points lie hidden is what asking every point
+ * about every polygon gives, with kernels of any width, for all but points that rounding may put on
+ * either side. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -99,8 +99,8 @@ static void hide(scene *s, const dp_kernels *kernels) {
     w->candidate_count = w->probe_count = 0;
     assert_true(dp_tile_see(w, false));
     for (uint32_t i = 0; i < SPINES; i++)
-        dp_tile_add_candidate(
-            w, (dp_candidate){.a = 2 * i, .b = 2 * i + 1, .k1 = UINT32_MAX}, &s->spines[i]);
+        dp_tile_add_candidate(w, (dp_candidate){.a = 2 * i, .b = 2 * i + 1, .k1 = UINT32_MAX},
+                              &s->spines[i]);
     for (uint32_t i = 0; i < w->probe_count; i += 7) w->probes.limit[i] = INFINITY;
     dp_tile_hide(w);
 }
@@ -167,7 +167,8 @@ static void points_behind_polygons_are_hidden(void **state) {
         const dp_tile_worker *const w = &s.worker;
         hide(&s, &dp_kernels_plain);
         const uint32_t count = w->probe_count;
-        float *const plain = malloc(2 * (size_t)count * sizeof *plain), *const before = plain + count;
+        float *const plain = malloc(2 * (size_t)count * sizeof *plain), *const before =
+                                                                            plain + count;
         assert_non_null(plain);
         memcpy(plain, w->probes.limit, count * sizeof *plain);
         for (uint32_t k = 0; k < w->candidate_count; k++) {
