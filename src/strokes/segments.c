@@ -78,11 +78,13 @@ static dp_pointd spine_point(const dp_spine *spine, double u) {
     return dp_point_mix(spine->a, spine->b, u);
 }
 
-static void store_end(const dp_frame *frame, dp_pointd p, float screen[3], float world[3]) {
+/* Returns the end in the world. */
+static dp_vec3 store_end(const dp_frame *frame, dp_pointd p, float screen[3], float world[3]) {
     const dp_vec3 q = dp_unproject(&frame->view, p);
     screen[0] = (float)p.x, screen[1] = (float)p.y,
     screen[2] = (float)dp_distance(&frame->view, p.d);
     world[0] = (float)q.x, world[1] = (float)q.y, world[2] = (float)q.z;
+    return q;
 }
 
 /* Depth of the plane through `at` with unit normal `n`, as an affine function of the screen. */
@@ -168,19 +170,19 @@ static void make_segment(const dp_frame *frame, const dp_piece *piece, const bon
                             .edge = piece->edge,
                             .width = line->width,
                             .color = line->color};
-    store_end(frame, a, segment->a, segment->world_a);
-    store_end(frame, b, segment->b, segment->world_b);
+    const dp_vec3 at = store_end(frame, a, segment->a, segment->world_a);
+    (void)store_end(frame, b, segment->b, segment->world_b);
+    const dp_vec3 sight = dp_view_vector(&frame->view, at);
     *stroke = (dp_stroke){.a = {(float)a.x, (float)a.y, (float)a.d},
                           .b = {(float)b.x, (float)b.y, (float)b.d},
                           .half_width = line->width / 2,
                           .color = line->color,
                           .line = piece->line};
     const uint32_t polygons[2] = {piece->a, piece->b};
-    const dp_vec3 at = dp_unproject(&frame->view, a);
     for (int i = 0; i < 2; i++) {
         stroke->plane[i][0] = NAN;
         if (polygons[i] == UINT32_MAX) continue;
-        const bool back = dp_dot(found->normal[i], dp_view_vector(&frame->view, at)) >= 0;
+        const bool back = dp_dot(found->normal[i], sight) >= 0;
         if (back && piece->line == DP_LINE_SILHOUETTE)
             continue; /* it leads towards the eye outside */
         screen_plane(&frame->view, at, found->normal[i], stroke->plane[i]);
