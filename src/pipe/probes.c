@@ -107,7 +107,7 @@ typedef struct bounds {
 } bounds;
 
 static uint32_t quarter_at(float px) {
-    return px <= 0 ? 0 : px >= DP_TILE ? DP_QUARTERS - 1 : (uint32_t)(4 * px);
+    return !(px > 0) ? 0 : px >= DP_TILE ? DP_QUARTERS - 1 : (uint32_t)(4 * px);
 }
 
 /* Of points along a spine: those at the ends tell, unless one is hidden. */
@@ -163,6 +163,7 @@ static void visit_groups(dp_tile_worker *w, bool counting) {
         for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
             const uint32_t last = group_last(c, i);
             const bounds b = bounds_of(&w->probes, i, last);
+            if (b.limit == INFINITY) continue; /* all are hidden */
             if (counting)
                 w->groups.first[cell_of(&b)]++;
             else
