@@ -139,14 +139,9 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_worker *const own = &s->workers[worker];
     const uint64_t *const crowded = s->crowded + (size_t)tile * DP_TILE;
     if (!dp_bins_tile_count(&w->frame->polygon_bins, tile)) return;
-    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->frame->tile_samples,
-                    sizeof *own->depth)) {
-        own->failed = true;
-        return;
-    }
     w->finds_edges = false;
     dp_tile_open(w, tile);
-    w->depth = own->depth;
+    if (!dp_stream_draw_apart(s, w, own)) return;
     for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(w);
     dp_tile_faces(w);

@@ -38,7 +38,7 @@ typedef struct dp_stream_worker {
     size_t crowd_cap, crowd_count;
     dp_mate *mates; /* of the part at hand */
     size_t mates_cap, mate_count;
-    float *depth; /* of a tile's samples, for crossings.c */
+    float *depth; /* of a tile's samples, while others may read those of the picture */
     size_t depth_cap;
     uint32_t (*owners)[2]; /* of a tile's candidates */
     size_t owners_cap;
@@ -149,6 +149,11 @@ bool dp_stream_make_lines(const dp_stream_draw *stream, uint32_t candidates, uin
                           dp_tile_lines *out);
 void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
                          uint32_t probe);
+
+/* From now on the tile draws into depth of the worker's own, whatever that holds, and not into the
+ * picture's (tiles.c). False when memory is out. */
+bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_tile_worker *worker,
+                          dp_stream_worker *own);
 
 /* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is
  * out. */

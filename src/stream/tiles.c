@@ -205,6 +205,15 @@ static void drop_halves(const dp_stream_draw *s, dp_tile_worker *w) {
     w->loose_count = left;
 }
 
+bool dp_stream_draw_apart(const dp_stream_draw *s, dp_tile_worker *w, dp_stream_worker *own) {
+    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->frame->tile_samples,
+                    sizeof *own->depth))
+        return !(own->failed = true);
+    w->depth = own->depth;
+    return true;
+}
+
+/* In one reading, samples beside the tile are looked at too, which others may be drawing again. */
 static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_tile_worker *const w = &s->context->tile_workers[worker];
@@ -212,6 +221,11 @@ static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     if (!dp_bins_tile_count(&s->context->frame.polygon_bins, tile)) return;
     w->finds_edges = true;
     dp_tile_open(w, tile);
+    if (!s->read_again) {
+        const float *const drawn = w->depth;
+        if (!dp_stream_draw_apart(s, w, &s->workers[worker])) return;
+        memcpy(w->depth, drawn, w->frame->tile_samples * sizeof *drawn);
+    }
     dp_tile_assemble(w);
     dp_tile_faces(w);
     dp_tile_edges(w);
