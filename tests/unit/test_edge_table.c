@@ -245,6 +245,26 @@ static void clipped(scene *s) {
     assert_int_equal(count_spokes(s), 12);
 }
 
+/* Triangles elsewhere, so that `count` more make `all`. */
+static void fill_up(scene *s, uint32_t count, uint32_t all) {
+    while (s->count + count < all) add_triangle(s, spread_key(7), spread_key(10), spread_key(11));
+}
+
+/* However many triangles there are, the last one closes its umbrella, or opens it. */
+static void last_one(scene *s) {
+    for (uint32_t all = 7; all <= MOST; all++) {
+        s->count = 0;
+        fill_up(s, 6, all);
+        add_umbrella(s, 6);
+        expect_calm(s);
+        s->count = 0;
+        add_umbrella(s, 6);
+        fill_up(s, 1, all);
+        add_triangle(s, spread_key(0), spread_key(14), spread_key(15));
+        assert_int_equal(count_spokes(s), 14);
+    }
+}
+
 /* What a test fills the table with, and finds there. */
 typedef struct trial {
     void (*run)(scene *);
@@ -265,9 +285,9 @@ static void for_all_kernels(void **state) {
 }
 
 int main(void) {
-    static trial trials[] = {{tells_apart},   {pairs_apart},   {fans_apart}, {same_way},
-                             {calm},          {open_umbrella}, {bent},       {unknown},
-                             {wound_wrongly}, {clipped},       {same_slot},  {rim}};
+    static trial trials[] = {
+        {tells_apart}, {pairs_apart},   {fans_apart}, {same_way},  {calm}, {open_umbrella}, {bent},
+        {unknown},     {wound_wrongly}, {clipped},    {same_slot}, {rim},  {last_one}};
     const struct CMUnitTest tests[] = {
         {"edges of one name are told apart", for_all_kernels, NULL, NULL, &trials[0]},
         {"pairs of one name are told apart", for_all_kernels, NULL, NULL, &trials[1]},
@@ -282,6 +302,8 @@ int main(void) {
         {"umbrellas of one slot do not close each other", for_all_kernels, NULL, NULL, &trials[10]},
         {"on a rim, edges between both facings are listed", for_all_kernels, NULL, NULL,
          &trials[11]},
+        {"umbrellas know of all triangles, the last one too", for_all_kernels, NULL, NULL,
+         &trials[12]},
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
