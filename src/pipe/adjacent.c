@@ -46,7 +46,7 @@ static void add_line(dp_tile_worker *w, const shared_edge *e, dp_line line, dp_v
         w,
         (dp_candidate){
             .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
-        &spine);
+        &spine, NULL);
 }
 
 /* The normals as the eye sees them: of two polygons that are wound differently one is turned

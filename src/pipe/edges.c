@@ -36,7 +36,7 @@ static bool draws(const dp_tile_worker *w, const dp_edge_entry *e, dp_line line)
 
 /* A line of class `line` along an edge of polygon a. */
 static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line,
-                      const dp_spine *spine) {
+                      const dp_spine *spine, const dp_vec3 normals[2]) {
     dp_tile_add_candidate(
         w,
         (dp_candidate){.a = w->polygons[e->a].id,
@@ -44,7 +44,7 @@ static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line,
                        .edge = e->edge_a,
                        .k1 = UINT32_MAX,
                        .line = (uint8_t)line},
-        spine);
+        spine, normals);
 }
 
 /* The same facing along `normal`. */
@@ -54,7 +54,7 @@ static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp
     if (draws(w, e, line) &&
         dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                       dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
-        add_spine(w, e, line, &spine);
+        add_spine(w, e, line, &spine, NULL);
 }
 
 static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *fold) {
@@ -145,9 +145,10 @@ static void resolve_put(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold
         return;
     }
     const int line = pair_line(w, e, f, i);
+    const dp_vec3 normals[2] = {dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i)};
     dp_spine spine = dp_fold_spine(f, i);
     if (line >= 0 && draws(w, e, (dp_line)line) && dp_spine_divide(&spine))
-        add_spine(w, e, (dp_line)line, &spine);
+        add_spine(w, e, (dp_line)line, &spine, normals);
 }
 
 /* ------- fans ------- */

@@ -195,7 +195,7 @@ static void add_run(dp_tile_worker *w, const emerging *e, finding f, uint32_t k0
         w,
         (dp_candidate){
             .a = e->id, .b = b, .edge = e->loose.edge, .k0 = k0, .k1 = k1, .line = (uint8_t)f.line},
-        &spine);
+        &spine, NULL);
 }
 
 static bool is_same(const finding *a, const finding *b) {

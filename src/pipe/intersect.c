@@ -154,7 +154,7 @@ static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
                                          .edge = DP_CROSSING,
                                          .k1 = UINT32_MAX,
                                          .line = DP_LINE_INTERSECTION},
-                          &spine);
+                          &spine, NULL);
 }
 
 /* ------- the crowd ------- */

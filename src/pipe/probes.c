@@ -67,7 +67,17 @@ static bool reserve_probes(dp_tile_worker *w, size_t need) {
            DP_WORKER_RESERVE(w, probes.limit, probe_limit_cap, need);
 }
 
-void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine) {
+/* Keeps what segments will be made of; where there are too many, that is found again. */
+static uint32_t keep_bones(dp_tile_worker *w, const dp_spine *spine, const dp_vec3 normals[2]) {
+    const uint32_t most = (1u << 24) - 1;
+    if (w->bone_count == most || !DP_WORKER_RESERVE(w, bones, bones_cap, w->bone_count + 1u))
+        return 0;
+    w->bones[w->bone_count++] = (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
+    return w->bone_count;
+}
+
+void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine,
+                           const dp_vec3 normals[2]) {
     if (c.k1 > spine->n) c.k1 = spine->n;
     if (!find_range(w, spine, &c.k0, &c.k1)) return;
     if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
@@ -75,6 +85,7 @@ void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *sp
         return;
     c.n = spine->n;
     c.probe = w->probe_count;
+    c.bones = (normals ? keep_bones(w, spine, normals) : 0) & 0xffffff;
     w->candidates[w->candidate_count++] = c;
     w->frame->kernels->points(w, spine, c.k0, c.k1, &w->probes, c.probe);
     w->probe_count += c.k1 - c.k0;
@@ -196,6 +207,7 @@ static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uin
                    .k0 = k0,
                    .k1 = k1,
                    .n = c->n,
+                   .bones = c->bones,
                    .line = c->line,
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
 }

@@ -11,7 +11,7 @@ bool dp_tile_worker_init(dp_tile_worker *worker, const dp_frame *frame) {
     worker->memory = *frame->memory;
     worker->failed = false;
     worker->stats = (dp_stats){0};
-    worker->piece_count = 0;
+    worker->piece_count = worker->bone_count = 0;
     worker->away = NULL;
     worker->owners = NULL;
     worker->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
@@ -63,6 +63,7 @@ void dp_tile_worker_free(dp_tile_worker *worker) {
     dp_free(&memory, worker->groups.box);
     dp_free(&memory, worker->groups.limit);
     dp_free(&memory, worker->pieces);
+    dp_free(&memory, worker->bones);
     dp_free(&memory, worker->ink);
     dp_free(&memory, worker->ink_depth);
     dp_free(&memory, worker->stencil);
@@ -90,6 +91,7 @@ uint64_t dp_tile_worker_bytes(const dp_tile_worker *w) {
             w->groups.limit_cap) *
                4 +
            w->groups.group_cap * sizeof *w->groups.group + w->pieces_cap * sizeof *w->pieces +
+           w->bones_cap * sizeof *w->bones +
            w->ink_cap * (sizeof *w->ink + sizeof *w->ink_depth + sizeof *w->stencil);
 }
 

@@ -101,6 +101,12 @@ enum { DP_UMBRELLA_BACKS = 15 /* so many back faces, or fewer, are counted */ };
 #define DP_UMBRELLA_BACK         0x9e3779b1u /* each adds this to `open` */
 #define DP_UMBRELLA_BACK_INVERSE 0xe8b2f51u  /* times that: 1 */
 
+/* What segments along a candidate's spine are made of (strokes/segments.c). */
+typedef struct dp_bones {
+    dp_pointd a, b;    /* the spine's ends */
+    dp_vec3 normal[2]; /* of the candidate's polygons; unit */
+} dp_bones;
+
 /* A line that may be visible: its spine's part in this tile is to be probed. */
 typedef struct dp_candidate {
     uint32_t a, b;   /* frame polygons: owner, partner or UINT32_MAX */
@@ -108,7 +114,8 @@ typedef struct dp_candidate {
     uint32_t n;      /* sample points on the whole spine */
     uint32_t k0, k1; /* those in this tile: [k0, k1) */
     uint32_t probe;  /* first of its probes */
-    uint8_t line;
+    uint32_t line : 8;
+    uint32_t bones : 24; /* 1 + number of the worker's; 0: they are to be found again */
 } dp_candidate;
 
 /* Sample points of spines (px, d), each member for itself, with room for one vector beyond the
@@ -275,17 +282,18 @@ struct dp_tile_worker {
     dp_probes probes;
     const uint32_t (*owners)[2]; /* the candidates' own polygons; NULL: as the candidates say */
     dp_piece *pieces;            /* of all the worker's tiles in this frame */
+    dp_bones *bones;             /* the same */
     size_t winner_cap, ids_cap, backs_cap, normals_cap, seen_cap, slot_meetings_cap, polygons_cap,
         points_cap, meetings_cap, slots_cap;
     size_t unsure_cap, umbrellas_cap, edge_marks_cap, pair_first_cap, pair_second_cap;
-    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, pieces_cap;
+    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, pieces_cap, bones_cap;
     uint32_t
         undrawn; /* back faces among the first so many polygons are not drawn by dp_tile_assemble */
     size_t keys_cap, seen_words_cap;
     uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count, meeting_count, slot_count;
     uint32_t edge_pairs, calm_edges; /* calm: not listed, as both polygons have them */
-    uint32_t candidate_count, probe_count;
+    uint32_t candidate_count, probe_count, bone_count;
     size_t piece_count;
 
     dp_close_samples close; /* to be looked at */
@@ -404,9 +412,11 @@ void dp_tile_watch(dp_tile_worker *worker);
 void dp_drop_lone(uint64_t suspects[DP_TILE]);
 bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]);
 
-/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe and the
- * final k0, k1 are filled here (probes.c). */
-void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine);
+/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe, bones and
+ * the final k0, k1 are filled here (probes.c). `normals`: of its polygons, a's and b's (a's, if
+ * there is none), or NULL where they are not at hand. */
+void dp_tile_add_candidate(dp_tile_worker *worker, dp_candidate candidate, const dp_spine *spine,
+                           const dp_vec3 normals[2]);
 
 /* Puts item `index` into the list of the pixel that holds (x, y), or the tile's nearest one;
  * returns what was first there, or UINT32_MAX. */

@@ -171,8 +171,10 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
     if (!from->candidate_count) return;
     memcpy(to->candidates + candidate, from->candidates,
            from->candidate_count * sizeof *from->candidates);
-    for (uint32_t i = 0; i < from->candidate_count; i++)
+    for (uint32_t i = 0; i < from->candidate_count; i++) {
         to->candidates[candidate + i].probe += probe;
+        to->candidates[candidate + i].bones = 0; /* they stay with the worker */
+    }
     if (!bytes) return;
     memcpy(to->probes.x + probe, from->probes.x, bytes);
     memcpy(to->probes.y + probe, from->probes.y, bytes);
@@ -183,8 +185,9 @@ static dp_tile_lines lines_of(const dp_tile_worker *w) {
     return (dp_tile_lines){w->candidates, w->probes, w->candidate_count, w->probe_count};
 }
 
-static bool store_lines(const dp_stream_draw *s, const dp_tile_worker *w, dp_tile_lines *out) {
+static bool store_lines(const dp_stream_draw *s, dp_tile_worker *w, dp_tile_lines *out) {
     const dp_tile_lines own = lines_of(w);
+    w->bone_count = 0;
     if (!own.candidate_count) return true;
     if (!dp_stream_make_lines(s, own.candidate_count, own.probe_count, out)) return false;
     dp_stream_put_lines(&own, out, 0, 0);

@@ -55,8 +55,14 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
         const dp_tile_pieces *const list = &frame->tile_pieces[t];
         const dp_piece *const pieces =
             list->count ? workers[list->worker].pieces + list->first : NULL;
-        for (size_t i = 0; i < list->count; i++)
-            store->pieces[pieces[i].open ? --open : closed++] = pieces[i];
+        for (size_t i = 0; i < list->count; i++) {
+            dp_piece *const to = &store->pieces[pieces[i].open ? --open : closed++];
+            *to = pieces[i];
+            if (list->worker <= UINT16_MAX)
+                to->worker = (uint16_t)list->worker;
+            else
+                to->bones = 0;
+        }
     }
     if (total > closed)
         qsort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
@@ -71,11 +77,6 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
     if (dp_is_by_hand(frame) && last) qsort(store->pieces, last, sizeof *store->pieces, by_edge);
     *count = last;
     return true;
-}
-
-/* The world point a share u along the spine as seen on the screen. */
-static dp_pointd spine_point(const dp_spine *spine, double u) {
-    return dp_point_mix(spine->a, spine->b, u);
 }
 
 /* Returns the end in the world. */
@@ -100,12 +101,6 @@ static void screen_plane(const dp_view *view, dp_vec3 at, dp_vec3 n, float plane
     plane[2] = (float)(dp_dot(n, y) / under);
 }
 
-/* What segments are made of. */
-typedef struct bones {
-    dp_spine spine;
-    dp_vec3 normal[2]; /* of the piece's polygons */
-} bones;
-
 static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t *va,
                     uint32_t *vb) {
     const uint32_t first = dp_first_corner(polygons, piece->a),
@@ -114,43 +109,25 @@ static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t
     *vb = dp_corner_vertex(polygons, first + (piece->edge + 1) % n);
 }
 
-/* The spine could be made when the piece was found: it can now. */
-static bones find_bones(const dp_frame *frame, const dp_piece *piece) {
+/* What a segment is made of, found again. The spine could be made when the piece was found: it can
+ * now. */
+static dp_bones find_bones(const dp_frame *frame, const dp_piece *piece) {
     const dp_polygons *const polygons = &frame->polygons;
-    bones out = {0};
+    dp_bones out = {0};
+    dp_spine spine = {0};
     dp_vec3 a, b, normal;
     if (piece->edge != DP_CROSSING) {
         uint32_t va, vb;
         edge_of(polygons, piece, &va, &vb);
         (void)dp_spine_ends(&frame->view, dp_v3f(dp_vertex_position(polygons, va)),
-                            dp_v3f(dp_vertex_position(polygons, vb)), &out.spine);
+                            dp_v3f(dp_vertex_position(polygons, vb)), &spine);
     } else if (dp_crossing_find(frame, piece->a, piece->b, &a, &b, &normal)) {
-        (void)dp_spine_ends(&frame->view, a, b, &out.spine);
+        (void)dp_spine_ends(&frame->view, a, b, &spine);
     }
+    out.a = spine.a, out.b = spine.b;
     out.normal[0] = dp_polygon_normal(frame, piece->a);
     if (piece->b != UINT32_MAX) out.normal[1] = dp_polygon_normal(frame, piece->b);
     return out;
-}
-
-/* The same of up to DP_FOLDS pieces: of edges of triangles, many at once. */
-static void find_many_bones(const dp_frame *frame, const dp_piece *pieces, uint32_t count,
-                            dp_fold_batch *f, bones out[DP_FOLDS]) {
-    const dp_polygons *const polygons = &frame->polygons;
-    bool put[DP_FOLDS];
-    for (uint32_t i = 0; i < count; i++) {
-        const dp_piece *const p = &pieces[i];
-        put[i] = !polygons->firsts && p->edge != DP_CROSSING;
-        if (!put[i]) continue;
-        uint32_t va, vb;
-        edge_of(polygons, p, &va, &vb);
-        dp_fold_put(polygons, p->a, p->b == UINT32_MAX ? p->a : p->b, va, vb, f, i);
-    }
-    frame->kernels->folds(&frame->view, f, count);
-    for (uint32_t i = 0; i < count; i++)
-        out[i] = put[i] && f->plain[i] != 0
-                     ? (bones){dp_fold_spine(f, i),
-                               {dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i)}}
-                     : find_bones(frame, &pieces[i]);
 }
 
 static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
@@ -158,12 +135,12 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
     return frame->polygons.source_polygon ? frame->polygons.source_polygon[polygon] : polygon;
 }
 
-static void make_segment(const dp_frame *frame, const dp_piece *piece, const bones *found,
+static void make_segment(const dp_frame *frame, const dp_piece *piece, const dp_bones *found,
                          dp_segment *segment, dp_stroke *stroke) {
     const dp_style *const style = dp_polygon_style(frame, piece->a);
     const dp_line_style *const line = &style->line[piece->line];
-    const dp_pointd a = spine_point(&found->spine, (double)piece->k0 / piece->n);
-    const dp_pointd b = spine_point(&found->spine, (double)piece->k1 / piece->n);
+    const dp_pointd a = dp_point_mix(found->a, found->b, (double)piece->k0 / piece->n);
+    const dp_pointd b = dp_point_mix(found->a, found->b, (double)piece->k1 / piece->n);
     *segment = (dp_segment){.line = (dp_line)piece->line,
                             .polygon = source_number(frame, piece->a),
                             .other = source_number(frame, piece->b),
@@ -191,37 +168,21 @@ static void make_segment(const dp_frame *frame, const dp_piece *piece, const bon
 
 typedef struct job {
     dp_frame *frame;
+    const dp_tile_worker *workers;
     const dp_stroke_store *store;
 } job;
 
-typedef void ask(const dp_polygons *polygons, uint32_t polygon);
-
-static void ask_for_piece(const job *j, size_t piece, ask *ask_for) {
-    if (piece >= j->frame->segment_count) return;
-    const dp_piece *const p = &j->store->pieces[piece];
-    ask_for(&j->frame->polygons, p->a);
-    if (p->b != UINT32_MAX) ask_for(&j->frame->polygons, p->b);
-}
-
-/* What segments are made of lies scattered, and is asked for before their turn comes. */
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     const dp_stroke_store *const store = j->store;
     const size_t first = (size_t)index * BLOCK, count = j->frame->segment_count;
     const size_t end = first + BLOCK < count ? first + BLOCK : count;
-    dp_fold_batch folds = {0};
-    bones found[DP_FOLDS];
     (void)worker;
-    for (size_t at = first; at < end; at += DP_FOLDS) {
-        const uint32_t n = end - at < DP_FOLDS ? (uint32_t)(end - at) : DP_FOLDS;
-        for (size_t i = at; i < at + n; i++) {
-            ask_for_piece(j, i + DP_FOLDS, dp_ask_for_corners);
-            ask_for_piece(j, i, dp_ask_for_positions);
-        }
-        find_many_bones(j->frame, &store->pieces[at], n, &folds, found);
-        for (uint32_t i = 0; i < n; i++)
-            make_segment(j->frame, &store->pieces[at + i], &found[i], &store->segments[at + i],
-                         &store->strokes[at + i]);
+    for (size_t i = first; i < end; i++) {
+        const dp_piece *const p = &store->pieces[i];
+        const dp_bones found = p->bones ? j->workers[p->worker].bones[p->bones - 1]
+                                        : find_bones(j->frame, p);
+        make_segment(j->frame, p, &found, &store->segments[i], &store->strokes[i]);
     }
 }
 
@@ -237,7 +198,7 @@ bool dp_make_segments(dp_frame *frame, const dp_tile_worker *workers, dp_stroke_
     frame->segments = store->segments;
     frame->strokes = store->strokes;
     frame->segment_count = count;
-    job j = {frame, store};
+    job j = {frame, workers, store};
     dp_parallel(frame->threads, (uint32_t)(count / BLOCK + (count % BLOCK != 0)), make_block, &j);
     return true;
 }

@@ -100,7 +100,7 @@ static void hide(scene *s, const dp_kernels *kernels) {
     assert_true(dp_tile_see(w, false));
     for (uint32_t i = 0; i < SPINES; i++)
         dp_tile_add_candidate(w, (dp_candidate){.a = 2 * i, .b = 2 * i + 1, .k1 = UINT32_MAX},
-                              &s->spines[i]);
+                              &s->spines[i], NULL);
     for (uint32_t i = 0; i < w->probe_count; i += 7) w->probes.limit[i] = INFINITY;
     dp_tile_hide(w);
 }
