@@ -16,6 +16,7 @@ struct dp_crowd;
 struct dp_fold_batch;
 struct dp_spine;
 struct dp_probes;
+struct dp_segment_batch;
 struct dp_frame;
 struct dp_tile_rect;
 struct dp_brush;
@@ -76,6 +77,8 @@ typedef struct dp_kernels {
      * (points.inc). */
     void (*points)(const struct dp_tile_worker *worker, const struct dp_spine *spine, uint32_t k0,
                    uint32_t k1, const struct dp_probes *out, uint32_t at);
+    /* Ends and planes of the first `count` segments of a batch (segments.inc). */
+    void (*segments)(const dp_view *view, struct dp_segment_batch *batch, uint32_t count);
     /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is
      * a front face, and which, if they are triangles, share no corner (meet.inc). */
     void (*cross)(struct dp_tile_worker *worker);

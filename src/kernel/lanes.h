@@ -281,6 +281,11 @@ DP_LANES_INLINE dp_ld ld_sqrt(dp_ld v) {
 #endif
 }
 #endif
+DP_LANES_INLINE dp_ld ld_at(const double *p) {
+    dp_ld v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
 DP_LANES_INLINE void ld_put(double *p, dp_ld v) { memcpy(p, &v, sizeof v); }
 
 /* ------- records of four words, one per lane -------

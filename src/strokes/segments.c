@@ -5,13 +5,13 @@
  * edge and joined. All others are segments as they are. The order (tile by tile, then the joined
  * ones by polygon) does not depend on threads. */
 #include "strokes/mark.h"
+#include "strokes/segment_batch.h"
 #include "strokes/stroke.h"
 
 #include "base/hostile.h"
 #include "kernel/kernels.h"
 #include "pipe/classify.h"
 #include "pipe/crossing.h"
-#include "pipe/fold_batch.h"
 #include "pipe/tile.h"
 
 #include <stdlib.h>
@@ -79,28 +79,6 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
     return true;
 }
 
-/* Returns the end in the world. */
-static dp_vec3 store_end(const dp_frame *frame, dp_pointd p, float screen[3], float world[3]) {
-    const dp_vec3 q = dp_unproject(&frame->view, p);
-    screen[0] = (float)p.x, screen[1] = (float)p.y,
-    screen[2] = (float)dp_distance(&frame->view, p.d);
-    world[0] = (float)q.x, world[1] = (float)q.y, world[2] = (float)q.z;
-    return q;
-}
-
-/* Depth of the plane through `at` with unit normal `n`, as an affine function of the screen. */
-static void screen_plane(const dp_view *view, dp_vec3 at, dp_vec3 n, float plane[3]) {
-    const double c = dp_dot(n, at);
-    const dp_vec3 o = view->corner, x = view->across, y = view->down;
-    /* perspective: rays from the eye, d = n·ray / (c - n·eye); orthographic: o lies at d = 1 and
-     * the plane is met after (c - n·o) / n·forward */
-    const double under = view->perspective ? c - dp_dot(n, view->eye) : dp_dot(n, view->forward);
-    const double over = view->perspective ? dp_dot(n, dp_sub(o, view->eye)) : dp_dot(n, o) - c;
-    plane[0] = (float)(over / under) + (view->perspective ? 0 : 1);
-    plane[1] = (float)(dp_dot(n, x) / under);
-    plane[2] = (float)(dp_dot(n, y) / under);
-}
-
 static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t *va,
                     uint32_t *vb) {
     const uint32_t first = dp_first_corner(polygons, piece->a),
@@ -135,54 +113,74 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
     return frame->polygons.source_polygon ? frame->polygons.source_polygon[polygon] : polygon;
 }
 
-static void make_segment(const dp_frame *frame, const dp_piece *piece, const dp_bones *found,
-                         dp_segment *segment, dp_stroke *stroke) {
-    const dp_style *const style = dp_polygon_style(frame, piece->a);
-    const dp_line_style *const line = &style->line[piece->line];
-    const dp_pointd a = dp_point_mix(found->a, found->b, (double)piece->k0 / piece->n);
-    const dp_pointd b = dp_point_mix(found->a, found->b, (double)piece->k1 / piece->n);
-    *segment = (dp_segment){.line = (dp_line)piece->line,
-                            .polygon = source_number(frame, piece->a),
-                            .other = source_number(frame, piece->b),
-                            .edge = piece->edge,
-                            .width = line->width,
-                            .color = line->color};
-    const dp_vec3 at = store_end(frame, a, segment->a, segment->world_a);
-    (void)store_end(frame, b, segment->b, segment->world_b);
-    const dp_vec3 sight = dp_view_vector(&frame->view, at);
-    *stroke = (dp_stroke){.a = {(float)a.x, (float)a.y, (float)a.d},
-                          .b = {(float)b.x, (float)b.y, (float)b.d},
-                          .half_width = line->width / 2,
-                          .color = line->color,
-                          .line = piece->line};
-    const uint32_t polygons[2] = {piece->a, piece->b};
-    for (int i = 0; i < 2; i++) {
-        stroke->plane[i][0] = NAN;
-        if (polygons[i] == UINT32_MAX) continue;
-        const bool back = dp_dot(found->normal[i], sight) >= 0;
-        if (back && piece->line == DP_LINE_SILHOUETTE)
-            continue; /* it leads towards the eye outside */
-        screen_plane(&frame->view, at, found->normal[i], stroke->plane[i]);
-    }
-}
-
 typedef struct job {
     dp_frame *frame;
     const dp_tile_worker *workers;
     const dp_stroke_store *store;
 } job;
 
+static void put_bones(const job *j, const dp_piece *piece, dp_segment_batch *out, uint32_t i) {
+    const dp_bones bones = piece->bones ? j->workers[piece->worker].bones[piece->bones - 1]
+                                        : find_bones(j->frame, piece);
+    out->a[0][i] = bones.a.x, out->a[1][i] = bones.a.y, out->a[2][i] = bones.a.d;
+    out->b[0][i] = bones.b.x, out->b[1][i] = bones.b.y, out->b[2][i] = bones.b.d;
+    out->share[0][i] = (double)piece->k0 / piece->n;
+    out->share[1][i] = (double)piece->k1 / piece->n;
+    for (int k = 0; k < 2; k++)
+        out->normal[k][0][i] = bones.normal[k].x, out->normal[k][1][i] = bones.normal[k].y,
+        out->normal[k][2][i] = bones.normal[k].z;
+}
+
+/* What a stroke may not lie in front of: not a polygon that leads towards the eye outside an
+ * outline. */
+static void take_plane(const dp_segment_batch *made, uint32_t i, int k, const dp_piece *piece,
+                       float plane[3]) {
+    const bool away = made->away[k][i] >= 0;
+    plane[0] = NAN, plane[1] = plane[2] = 0;
+    if ((k ? piece->b : piece->a) == UINT32_MAX || (away && piece->line == DP_LINE_SILHOUETTE))
+        return;
+    for (int c = 0; c < 3; c++) plane[c] = made->plane[k][c][i];
+}
+
+static dp_point take_end(const dp_segment_batch *made, uint32_t i, int k, float screen[3],
+                         float world[3]) {
+    const dp_point p = {made->screen[k][0][i], made->screen[k][1][i], made->screen[k][2][i]};
+    screen[0] = p.x, screen[1] = p.y, screen[2] = made->distance[k][i];
+    for (int c = 0; c < 3; c++) world[c] = made->world[k][c][i];
+    return p;
+}
+
+static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_segment_batch *made,
+                         uint32_t i, dp_segment *segment, dp_stroke *stroke) {
+    const dp_line_style *const line = &dp_polygon_style(frame, piece->a)->line[piece->line];
+    segment->line = (dp_line)piece->line;
+    segment->polygon = source_number(frame, piece->a);
+    segment->other = source_number(frame, piece->b);
+    segment->edge = piece->edge;
+    segment->width = line->width;
+    segment->color = line->color;
+    stroke->a = take_end(made, i, 0, segment->a, segment->world_a);
+    stroke->b = take_end(made, i, 1, segment->b, segment->world_b);
+    stroke->half_width = line->width / 2;
+    stroke->color = line->color;
+    stroke->line = piece->line;
+    for (int k = 0; k < 2; k++) take_plane(made, i, k, piece, stroke->plane[k]);
+}
+
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
     const dp_stroke_store *const store = j->store;
     const size_t first = (size_t)index * BLOCK, count = j->frame->segment_count;
     const size_t end = first + BLOCK < count ? first + BLOCK : count;
+    dp_segment_batch batch = {0};
     (void)worker;
-    for (size_t i = first; i < end; i++) {
-        const dp_piece *const p = &store->pieces[i];
-        const dp_bones found = p->bones ? j->workers[p->worker].bones[p->bones - 1]
-                                        : find_bones(j->frame, p);
-        make_segment(j->frame, p, &found, &store->segments[i], &store->strokes[i]);
+    for (size_t at = first; at < end; at += DP_SEGMENTS) {
+        const uint32_t n = end - at < DP_SEGMENTS ? (uint32_t)(end - at) : DP_SEGMENTS;
+        for (uint32_t i = 0; i < n; i++) put_bones(j, &store->pieces[at + i], &batch, i);
+        j->frame->kernels->segments(&j->frame->view, &batch, n);
+        for (uint32_t i = 0; i < n; i++)
+            take_segment(j->frame, &store->pieces[at + i], &batch, i, &store->segments[at + i],
+                         &store->strokes[at + i]);
     }
 }
 

@@ -2,6 +2,7 @@
  * for bit, and plain C with what is defined. */
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
+#include "strokes/segment_batch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -144,9 +145,89 @@ static void edges_alone_are_unmarked_where_hidden(void **state) {
     assert_true(unmarked > 1000 && kept > 1000);
 }
 
+static double random_share(uint32_t *seed) { return (double)(next_random(seed) % 1001) / 1000; }
+
+static void put_unit(uint32_t *seed, double out[3][DP_SEGMENTS], uint32_t i) {
+    const dp_vec3 n = dp_unit(dp_v3(random_share(seed) - 0.5, random_share(seed) - 0.5, 0.1));
+    out[0][i] = n.x, out[1][i] = n.y, out[2][i] = n.z;
+}
+
+static void put_place(uint32_t *seed, bool orthographic, double out[3][DP_SEGMENTS], uint32_t i) {
+    const dp_pointd p = random_point(seed, orthographic);
+    out[0][i] = p.x, out[1][i] = p.y, out[2][i] = p.d;
+}
+
+static dp_vec3 vector_at(const double v[3][DP_SEGMENTS], uint32_t i) {
+    return dp_v3(v[0][i], v[1][i], v[2][i]);
+}
+
+/* Ends lie where the shares say, on the screen and in the world; planes hold the point in whose
+ * place they are. */
+static void expect_segment(const dp_view *view, const dp_segment_batch *s, uint32_t i) {
+    const dp_pointd a = {s->a[0][i], s->a[1][i], s->a[2][i]},
+                    b = {s->b[0][i], s->b[1][i], s->b[2][i]};
+    dp_vec3 first = {0, 0, 0};
+    for (int k = 0; k < 2; k++) {
+        const dp_pointd p = dp_point_mix(a, b, s->share[k][i]);
+        const dp_vec3 at = dp_unproject(view, p);
+        const float screen[3] = {(float)p.x, (float)p.y, (float)p.d},
+                    world[3] = {(float)at.x, (float)at.y, (float)at.z};
+        for (int c = 0; c < 3; c++) {
+            assert_true(s->screen[k][c][i] == screen[c]);
+            assert_true(s->world[k][c][i] == world[c]);
+        }
+        assert_true(s->distance[k][i] == (float)dp_distance(view, p.d));
+        if (!k) first = at;
+    }
+    for (int k = 0; k < 2; k++) {
+        const dp_vec3 n = vector_at(s->normal[k], i);
+        const double facing = dp_dot(n, dp_view_vector(view, first)),
+                     d = s->plane[k][0][i] + (double)s->plane[k][1][i] * s->screen[0][0][i] +
+                         (double)s->plane[k][2][i] * s->screen[0][1][i];
+        assert_true(fabs(facing) < 1e-9 || (s->away[k][i] >= 0) == (facing >= 0));
+        if (fabs(facing) > 0.05) assert_float_equal(d, s->screen[0][2][i], 1e-3);
+    }
+}
+
+static void segments_agree(void **state) {
+    const dp_kernels *list[DP_KERNELS_MAX];
+    const uint32_t kinds = dp_kernels_list(list);
+    uint32_t seed = 13;
+    (void)state;
+    for (int round = 0; round < ROUNDS; round++) {
+        const bool orthographic = round & 1;
+        const dp_view view = make_view(orthographic);
+        const uint32_t count = 1 + next_random(&seed) % DP_SEGMENTS;
+        dp_segment_batch truth = {0};
+        for (uint32_t i = 0; i < DP_SEGMENTS; i++) {
+            put_place(&seed, orthographic, truth.a, i);
+            put_place(&seed, orthographic, truth.b, i);
+            for (int k = 0; k < 2; k++) {
+                truth.share[k][i] = random_share(&seed);
+                put_unit(&seed, truth.normal[k], i);
+            }
+        }
+        const dp_segment_batch asked = truth;
+        dp_kernels_plain.segments(&view, &truth, DP_SEGMENTS);
+        for (uint32_t i = 0; i < DP_SEGMENTS; i++) expect_segment(&view, &truth, i);
+        for (uint32_t k = 0; k < kinds; k++) {
+            const float *const want = &truth.screen[0][0][0];
+            dp_segment_batch own = asked;
+            const float *const got = &own.screen[0][0][0];
+            list[k]->segments(&view, &own, count);
+            const size_t members =
+                (sizeof own - offsetof(dp_segment_batch, screen)) / (DP_SEGMENTS * sizeof(float));
+            for (size_t m = 0; m < members; m++)
+                assert_memory_equal(got + m * DP_SEGMENTS, want + m * DP_SEGMENTS,
+                                    count * sizeof(float));
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_agree),
+        cmocka_unit_test(segments_agree),
         cmocka_unit_test(edges_alone_are_unmarked_where_hidden),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
