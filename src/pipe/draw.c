@@ -77,6 +77,7 @@ void dp_context_destroy(dp_context *c) {
         if (c->bin_workers) dp_outline_scratch_free(&c->bin_workers[i].scratch, &memory);
         if (c->tile_workers) dp_tile_worker_free(&c->tile_workers[i]);
         if (c->ink_workers) dp_free(&memory, c->ink_workers[i].strokes);
+        if (c->ink_workers) dp_free(&memory, c->ink_workers[i].sorted);
     }
     dp_free(&memory, c->bin_workers);
     dp_free(&memory, c->tile_workers);

@@ -197,26 +197,46 @@ bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, si
 /* So many strokes ahead they, and the samples under them, are asked for. */
 enum { LATER = 12, SOON = 4 };
 
+/* Puts the tile's strokes in the order of their classes, each class's as they came: `first` is
+ * where each begins, by dp_line. */
+static bool sort_strokes(const dp_frame *frame, dp_ink_worker *w, size_t count,
+                         size_t first[DP_LINE_COUNT + 1]) {
+    if (!dp_reserve(frame->memory, &w->sorted, &w->sorted_cap, count, sizeof *w->sorted))
+        return false;
+    size_t next[DP_LINE_COUNT] = {0}, sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i + LATER < count) __builtin_prefetch(&frame->strokes[w->strokes[i + LATER]]);
+        next[frame->strokes[w->strokes[i]].line]++;
+    }
+    for (int k = 0; k < DP_LINE_COUNT; k++) {
+        const size_t n = next[k];
+        first[k] = next[k] = sum;
+        sum += n;
+    }
+    first[DP_LINE_COUNT] = sum;
+    for (size_t i = 0; i < count; i++)
+        w->sorted[next[frame->strokes[w->strokes[i]].line]++] = w->strokes[i];
+    return true;
+}
+
+/* Strokes of one class. */
 static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count, dp_line line) {
     dp_color color = 0;
-    bool any = false;
     for (size_t i = 0; i < count; i++) {
         const dp_stroke *const s = &ink->frame->strokes[strokes[i]];
-        if (i + LATER < count) __builtin_prefetch(&ink->frame->strokes[strokes[i + LATER]]);
-        if (i + SOON < count && ink->hides && ink->frame->strokes[strokes[i + SOON]].line == line)
+        if (i + SOON < count && ink->hides)
             ask_for_samples(ink, &ink->frame->strokes[strokes[i + SOON]]);
-        if (s->line != line) continue;
-        if (any && s->color != color) flush(ink, line, color);
+        if (i && s->color != color) flush(ink, line, color);
         color = s->color;
-        any = true;
         cover(ink, s);
     }
-    if (any) flush(ink, line, color);
+    if (count) flush(ink, line, color);
 }
 
 void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
-    size_t count;
-    if (!dp_fetch_strokes(frame, worker, tile, &count)) {
+    size_t count, first[DP_LINE_COUNT + 1];
+    if (!dp_fetch_strokes(frame, worker, tile, &count) ||
+        !sort_strokes(frame, worker, count, first)) {
         worker->failed = true;
         return;
     }
@@ -233,5 +253,8 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
                           .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                           .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);
-    for (int i = 0; i < DP_LINE_COUNT; i++) ink_layer(&ink, worker->strokes, count, dp_layers[i]);
+    for (int i = 0; i < DP_LINE_COUNT; i++) {
+        const dp_line line = dp_layers[i];
+        ink_layer(&ink, worker->sorted + first[line], first[line + 1] - first[line], line);
+    }
 }

@@ -76,8 +76,8 @@ typedef struct dp_ink_worker {
     uint64_t row[64];       /* pixels of `coverage` that are set */
     float nearest[64 * 64]; /* brush.c: px from the spine; colour */
     dp_color color[64 * 64];
-    uint32_t *strokes;
-    size_t strokes_cap;
+    uint32_t *strokes, *sorted; /* of the tile: as they come; ink.c: by class */
+    size_t strokes_cap, sorted_cap;
     bool failed;
 } dp_ink_worker;
 /* Which strokes a tile holds, into worker->strokes. False when memory is out. */
