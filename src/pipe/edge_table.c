@@ -101,13 +101,14 @@ static bool reserve_list(dp_tile_worker *w, size_t edges) {
 }
 
 /* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices,
- * or more. */
+ * or more; half as many where they are far. */
 static const uint32_t UMBRELLAS = DP_TUNED(2, 1);
 
 static bool reserve_umbrellas(dp_tile_worker *w) {
     const uint64_t least = (uint64_t)UMBRELLAS * w->seen_count;
     uint32_t bits = 4;
     while (bits < 31 && (uint64_t)1 << bits < least) bits++;
+    if ((uint64_t)sizeof(dp_umbrella) << bits > DP_UMBRELLAS_FAR) bits--;
     w->umbrella_shift = 32 - bits;
     return DP_WORKER_RESERVE(w, umbrellas, umbrellas_cap, (size_t)1 << bits);
 }

@@ -93,6 +93,9 @@ typedef struct dp_umbrella {
 
 _Static_assert(sizeof(dp_umbrella) == 16, "kernel/umbrellas.inc takes it for a vector");
 
+/* So many bytes of them, or more, are too much for the second-level cache. */
+enum { DP_UMBRELLAS_FAR = DP_TUNED(1 << 19, 1 << 10) };
+
 #define DP_UMBRELLA_BYTE   0x7f       /* all bytes of an empty one */
 #define DP_UMBRELLA_CLOSED 0x7f7f7f7f /* its `open` */
 #define DP_UMBRELLA_ONE    8192
