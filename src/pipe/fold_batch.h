@@ -1,5 +1,4 @@
-/* Edges where two triangles meet, taken many at once (kernel/folds.inc, edges.c,
- * strokes/segments.c). */
+/* Edges where two triangles meet, taken many at once (kernel/folds.inc, edges.c). */
 #ifndef DP_PIPE_FOLD_BATCH_H
 #define DP_PIPE_FOLD_BATCH_H
 

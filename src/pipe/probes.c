@@ -10,6 +10,7 @@
  * that those near a polygon follow each other; and the least limit in a few cells side by side
  * tells that most polygons hide none. A spine's points belong to the tile whose pixel they lie in.
  * Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
+#include "base/hostile.h"
 #include "kernel/kernels.h"
 #include "pipe/tile.h"
 
@@ -69,7 +70,7 @@ static bool reserve_probes(dp_tile_worker *w, size_t need) {
 
 /* Keeps what segments will be made of; where there are too many, that is found again. */
 static uint32_t keep_bones(dp_tile_worker *w, const dp_spine *spine, const dp_vec3 normals[2]) {
-    const uint32_t most = (1u << 24) - 1;
+    const uint32_t most = DP_TUNED((1u << 24) - 1, 100);
     if (w->bone_count == most || !DP_WORKER_RESERVE(w, bones, bones_cap, w->bone_count + 1u))
         return 0;
     w->bones[w->bone_count++] = (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};

@@ -2,15 +2,15 @@
  *
  * A piece is a run of sample points [k0, k1) of an edge's spine. Where a spine crosses a tile
  * border its run continues in the neighbour with the next number: such open pieces are sorted by
- * edge and joined. All others are segments as they are. The order (tile by tile, then the joined
- * ones by polygon) does not depend on threads. */
+ * edge and joined. All others are segments as they are. What the tile knew of a piece's edge when
+ * it found it (its bones) need not be found again; ends and planes are made of that, many segments
+ * at once. The order (tile by tile, then the joined ones by polygon) does not depend on threads. */
 #include "strokes/mark.h"
 #include "strokes/segment_batch.h"
 #include "strokes/stroke.h"
 
 #include "base/hostile.h"
 #include "kernel/kernels.h"
-#include "pipe/classify.h"
 #include "pipe/crossing.h"
 #include "pipe/tile.h"
 
