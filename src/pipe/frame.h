@@ -32,8 +32,8 @@ typedef struct dp_piece {
     uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
     uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
     uint32_t k0, k1, n; /* sample points */
-    uint32_t bones;     /* as of its candidate (tile.h) */
-    uint16_t worker;    /* whose, set where pieces are joined */
+    uint32_t bones;     /* as of its candidate (tile.h) … */
+    uint32_t worker;    /* … of this worker: set where pieces are joined */
     uint8_t line;       /* dp_line */
     bool open;          /* it touches the tile's border: a neighbour may hold its continuation */
 } dp_piece;

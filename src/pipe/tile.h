@@ -99,7 +99,7 @@ enum { DP_UMBRELLAS_FAR = DP_TUNED(1 << 19, 1 << 10) };
 #define DP_UMBRELLA_BYTE   0x7f       /* all bytes of an empty one */
 #define DP_UMBRELLA_CLOSED 0x7f7f7f7f /* its `open` */
 #define DP_UMBRELLA_ONE    8192
-enum { DP_UMBRELLA_NONE = INT16_MAX, DP_UMBRELLA_UNKNOWN = -DP_UMBRELLA_NONE };
+enum { DP_UMBRELLA_NONE = INT16_MAX };
 enum { DP_UMBRELLA_BACKS = 15 /* so many back faces, or fewer, are counted */ };
 #define DP_UMBRELLA_BACK         0x9e3779b1u /* each adds this to `open` */
 #define DP_UMBRELLA_BACK_INVERSE 0xe8b2f51u  /* times that: 1 */

@@ -58,10 +58,7 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
         for (size_t i = 0; i < list->count; i++) {
             dp_piece *const to = &store->pieces[pieces[i].open ? --open : closed++];
             *to = pieces[i];
-            if (list->worker <= UINT16_MAX)
-                to->worker = (uint16_t)list->worker;
-            else
-                to->bones = 0;
+            to->worker = list->worker;
         }
     }
     if (total > closed)
