@@ -11,7 +11,7 @@
 #ifndef DP_FEATURES_EXTRUDE_H
 #define DP_FEATURES_EXTRUDE_H
 
-#include "pipe/view.h"
+#include "core/view.h"
 
 /* A vertex for the pixel stage: (x, y) that u is made of, and v. */
 typedef struct dp_fringe_point {

@@ -19,7 +19,7 @@
 #define DP_FEATURES_FEATURES_H
 
 #include "mesh/polygons.h"
-#include "pipe/view.h"
+#include "core/view.h"
 #include <drypoint/style.h>
 
 /* What a step from the edge's middle along a direction of space does on the screen, per world unit.

@@ -4,7 +4,7 @@
 #define DP_GBUFFER_GBUFFER_H
 
 #include "mesh/normals.h"
-#include "pipe/tile.h"
+#include "raster/tile.h"
 
 /* Pixels around the picture that repeat its border, so that operators need not look where they
  * are. */

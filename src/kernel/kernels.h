@@ -6,7 +6,7 @@
 #ifndef DP_KERNEL_KERNELS_H
 #define DP_KERNEL_KERNELS_H
 
-#include "pipe/view.h"
+#include "core/view.h"
 #include <drypoint/style.h>
 
 struct dp_tile_worker;
@@ -34,7 +34,7 @@ struct dp_chunk_view;
 typedef struct dp_kernels {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;
-    /* `count` positions, `stride` bytes apart, to the screen (transform.inc, pipe/vertices.c).
+    /* `count` positions, `stride` bytes apart, to the screen (transform.inc, raster/vertices.c).
      * `past_caches`: others will read most of it, or it is too much for caches to hold till then.
      */
     void (*transform)(const dp_view *view, const float *positions, size_t stride, uint32_t count,

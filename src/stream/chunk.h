@@ -3,7 +3,7 @@
 #ifndef DP_STREAM_CHUNK_H
 #define DP_STREAM_CHUNK_H
 
-#include "pipe/tile.h"
+#include "raster/tile.h"
 
 #include <string.h>
 

@@ -2,7 +2,8 @@
 #ifndef DP_STREAM_DRAW_H
 #define DP_STREAM_DRAW_H
 
-#include "pipe/classify.h"
+#include "core/fold.h"
+#include "raster/tile.h"
 #include "stream/input.h"
 #include "stream/kept.h"
 #include "stream/stream.h"

@@ -5,7 +5,7 @@
  * known of the surface; and one whose box holds no sample point covers nothing, but may still have
  * edges. In the second reading those are left that touch a pixel that is looked at.
  *
- * Kernels do so for most (kernel/sift.inc), this is the general way: what has to be clipped, is
+ * Kernels do so for most (stream/sift.inc), this is the general way: what has to be clipped, is
  * seen nearly edge-on or reaches over more than two pixels or blocks. Both decide the same of what
  * both can. */
 #include "stream/chunk.h"

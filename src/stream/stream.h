@@ -2,7 +2,7 @@
 #ifndef DP_STREAM_STREAM_H
 #define DP_STREAM_STREAM_H
 
-#include "pipe/context.h"
+#include "draw/context.h"
 
 /* Memory beyond the picture, bytes: what is taken when nothing is said, and the least that
  * works. */

@@ -11,9 +11,9 @@
  * picture. */
 #include "strokes/mark.h"
 
-#include "pipe/fringe.h"
-#include "pipe/normals.h"
-#include "pipe/outline.h"
+#include "printed/fringe.h"
+#include "features/silhouette_edge.h"
+#include "core/outline.h"
 #include "texture/texture.h"
 
 enum { SMOOTHINGS = 3 };

@@ -1,4 +1,4 @@
-/* Segments made many at once (kernel/segments.inc, segments.c). */
+/* Segments made many at once (strokes/segments.inc, segments.c). */
 #ifndef DP_STROKES_SEGMENT_BATCH_H
 #define DP_STROKES_SEGMENT_BATCH_H
 

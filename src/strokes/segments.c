@@ -11,8 +11,8 @@
 
 #include "base/hostile.h"
 #include "kernel/kernels.h"
-#include "pipe/crossing.h"
-#include "pipe/tile.h"
+#include "features/crossing.h"
+#include "raster/tile.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 #ifndef DP_STROKES_STROKE_H
 #define DP_STROKES_STROKE_H
 
-#include "pipe/frame.h"
+#include "core/frame.h"
 
 /* A capsule on the screen: all points within half_width of the spine. */
 typedef struct dp_stroke {

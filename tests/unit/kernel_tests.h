@@ -2,7 +2,7 @@
 #ifndef TESTS_UNIT_KERNEL_TESTS_H
 #define TESTS_UNIT_KERNEL_TESTS_H
 
-#include "pipe/view.h"
+#include "core/view.h"
 
 #include <time.h>
 

@@ -1,9 +1,9 @@
-/* pipe/edge_table.c: edges that the table takes for one at first, as their keys have what it
+/* find/edge_table.c: edges that the table takes for one at first, as their keys have what it
  * compares in common, are told apart, and edges around flat vertices are not listed at all, by
  * kernels of any width. */
 #include "base/hostile.h"
 #include "kernel/kernels.h"
-#include "pipe/edge_table.h"
+#include "find/edge_table.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
-/* pipe/probes.c and kernel/hide.inc: which sample points lie hidden is what asking every point
+/* find/probes.c and find/hide.inc: which sample points lie hidden is what asking every point
  * about every polygon gives, with kernels of any width, for all but points that rounding may put on
  * either side. */
 #include "kernel/kernels.h"
-#include "pipe/tile.h"
+#include "raster/tile.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

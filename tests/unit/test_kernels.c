@@ -3,12 +3,12 @@
  * Kernels that work on a whole tile are compared by the pictures and lines they make
  * (test_determinism.c). With DRYPOINT_BENCH in the environment, times are printed as well. */
 #include "kernel/kernels.h"
-#include "pipe/bin.h"
-#include "pipe/classify.h"
-#include "pipe/fold_batch.h"
-#include "pipe/frame.h"
-#include "pipe/outline.h"
-#include "pipe/tile.h"
+#include "core/bin.h"
+#include "core/fold.h"
+#include "find/fold_batch.h"
+#include "core/frame.h"
+#include "core/outline.h"
+#include "raster/tile.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

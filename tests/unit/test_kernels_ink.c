@@ -1,8 +1,8 @@
 /* The kernels that ink: all agree with plain C, bit for bit, and plain C with what is defined. With
  * DRYPOINT_BENCH set it reports their times. */
 #include "kernel/kernels.h"
-#include "pipe/blend.h"
-#include "pipe/frame.h"
+#include "core/blend.h"
+#include "core/frame.h"
 #include "strokes/stroke.h"
 
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* The kernels that find lines' sample points and edges that lie hidden: all agree with plain C, bit
  * for bit, and plain C with what is defined. */
 #include "kernel/kernels.h"
-#include "pipe/tile.h"
+#include "raster/tile.h"
 #include "strokes/segment_batch.h"
 
 #include <setjmp.h>

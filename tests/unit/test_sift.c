@@ -1,4 +1,4 @@
-/* kernel/sift.inc: what vectors of any width make of a chunk's triangles is what the general way
+/* stream/sift.inc: what vectors of any width make of a chunk's triangles is what the general way
  * makes of them (stream/sift.c), and what they leave to it does not depend on the width.
  *
  * With DRYPOINT_BENCH in the environment, times are printed as well. */

@@ -1,7 +1,7 @@
 /* Streaming: a drawing in parts is the drawing from memory, in bounded memory, for any source. */
 #include "base/hostile.h"
 #include "io/readers.h"
-#include "pipe/context.h"
+#include "draw/context.h"
 #include "stream/kept.h"
 #include "stream/stream.h"
 

@@ -1,0 +1,80 @@
+/* Edge classification: see classify.h. */
+#include "core/fold.h"
+
+static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
+    return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
+}
+
+/* The corner of `polygon` that is furthest from its edge number `edge`: which side of a plane it
+ * lies on tells whether the edge is folded towards it. */
+static dp_vec3 far_corner(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
+    return corner_position(polygons, first + (edge + 1 + n / 2) % n);
+}
+
+static dp_vec3 edge_position(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
+    return corner_position(polygons, dp_first_corner(polygons, polygon) + edge);
+}
+
+/* From an edge into the polygon. */
+static dp_vec3 from_edge(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
+    return dp_sub(far_corner(polygons, polygon, edge), edge_position(polygons, polygon, edge));
+}
+
+static dp_fold fold_towards(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b,
+                            bool b_as_wound, dp_vec3 at, dp_vec3 into_b) {
+    dp_fold fold = {.normal_a = dp_polygon_normal(frame, a),
+                    .normal_b = dp_polygon_normal(frame, b)};
+    if (!a_as_wound) fold.normal_a = dp_scale(fold.normal_a, -1);
+    if (!b_as_wound) fold.normal_b = dp_scale(fold.normal_b, -1);
+    const dp_vec3 mean = dp_add(fold.normal_a, fold.normal_b);
+    /* two sides of a sheet folded flat have no outside: towards the eye, then */
+    fold.normal =
+        dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(dp_view_vector(&frame->view, at), -1);
+    fold.concave = dp_dot(fold.normal_a, into_b) > 0;
+    return fold;
+}
+
+dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b,
+                     bool b_as_wound, uint32_t edge_b) {
+    const dp_vec3 on_edge = edge_position(&frame->polygons, b, edge_b);
+    const dp_vec3 into_b = from_edge(&frame->polygons, b, edge_b);
+    return fold_towards(frame, a, a_as_wound, b, b_as_wound, on_edge, into_b);
+}
+
+dp_fold dp_fold_between(const dp_frame *frame, dp_vec3 normal_a, dp_vec3 normal_b, dp_vec3 normal,
+                        uint32_t b, uint32_t edge_b) {
+    const dp_vec3 into_b = from_edge(&frame->polygons, b, edge_b);
+    return (dp_fold){normal_a, normal_b, normal, dp_dot(normal_a, into_b) > 0};
+}
+
+dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound,
+                   dp_vec3 at) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, b), n = dp_corner_count(polygons, b);
+    dp_vec3 far = at;
+    for (uint32_t i = 0; i < n; i++) {
+        const dp_vec3 p = corner_position(polygons, first + i);
+        const dp_vec3 na = dp_polygon_normal(frame, a);
+        if (i == 0 || fabs(dp_dot(na, dp_sub(p, at))) > fabs(dp_dot(na, dp_sub(far, at)))) far = p;
+    }
+    return fold_towards(frame, a, a_as_wound, b, b_as_wound, at, dp_sub(far, at));
+}
+
+double dp_fold_dihedral(const dp_fold *fold) {
+    const double sine = dp_length(dp_cross(fold->normal_a, fold->normal_b));
+    const double degrees =
+        atan2(sine, dp_dot(fold->normal_a, fold->normal_b)) * 180 / 3.14159265358979323846;
+    return fold->concave ? 180 + degrees : 180 - degrees;
+}
+
+/* Rounding of float32 coordinates, so that all edges that meet a threshold exactly fall on one side
+ * of it. */
+static const double ROUNDING = 1e-3; /* degrees */
+
+int dp_fold_line(const dp_fold *fold, const dp_style *style) {
+    const double dihedral = dp_fold_dihedral(fold);
+    if (dihedral <= style->ridge_angle + ROUNDING) return DP_LINE_RIDGE;
+    return dihedral > style->valley_angle + ROUNDING ? (int)DP_LINE_VALLEY : -1;
+}

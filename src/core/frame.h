@@ -1,0 +1,109 @@
+/* What one drawing works on: filled stage by stage by draw.c, read by every later stage. */
+#ifndef DP_CORE_FRAME_H
+#define DP_CORE_FRAME_H
+
+#include "base/hostile.h"
+#include "base/memory.h"
+#include "base/threads.h"
+#include "mesh/polygons.h"
+#include "core/bin.h"
+#include "core/view.h"
+#include <drypoint/draw.h>
+
+enum { DP_TILE = DP_TUNED(64, 16) /* px; a row of a tile is one 64-bit mask */ };
+
+/* A vertex after transformation; 16 bytes, so that a triangle's corners take three cache lines at
+ * most. */
+typedef struct dp_vertex {
+    float x, y, d; /* screen space; x is NaN where the vertex must be clipped or is not finite */
+    uint32_t key;  /* hash of the position's bits: equal positions have equal keys */
+} dp_vertex;
+
+static inline dp_point dp_place(dp_vertex v) { return (dp_point){v.x, v.y, v.d}; }
+
+/* True where a triangle's corners must go through clipping (x is NaN). */
+static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
+    const float sum = a.x + b.x + c.x;
+    return sum != sum;
+}
+
+/* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
+typedef struct dp_piece {
+    uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
+    uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
+    uint32_t k0, k1, n; /* sample points */
+    uint32_t bones;     /* as of its candidate (tile.h) … */
+    uint32_t worker;    /* … of this worker: set where pieces are joined */
+    uint8_t line;       /* dp_line */
+    bool open;          /* it touches the tile's border: a neighbour may hold its continuation */
+} dp_piece;
+
+#define DP_CROSSING UINT32_MAX
+
+typedef struct dp_tile_pieces {
+    uint32_t worker; /* whose list */
+    bool bare;       /* no polygon touches the tile; its depth samples are not set */
+    size_t first, count;
+} dp_tile_pieces;
+
+typedef struct dp_tile_worker dp_tile_worker; /* tile.h */
+
+typedef struct dp_frame {
+    const dp_allocator *memory;
+    dp_threads *threads;
+    const struct dp_kernels *kernels;
+    dp_view view;
+    float
+        nearly_edge_on; /* px: a polygon this thin on the screen needs a second look (outline.h) */
+    float step_scale, step_offset; /* depth over one pixel size is d * step_scale + step_offset */
+    const dp_style *styles;        /* by group, resolved; [style_count] */
+    uint32_t style_count;
+    dp_target target;
+    uint32_t lines;     /* classes that any group draws */
+    bool culls_backs;   /* back faces that are hidden make no lines */
+    bool painted_later; /* shading gives every pixel of a tile that holds polygons its colour, paper
+                           too … */
+    uint8_t *ink_layer; /* … and lays over it what tiles inked already: [height][width][4], not
+                           premultiplied; or NULL */
+    float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above
+                           1: unknown */
+    float calm_spread; /* squared, times DP_UMBRELLA_ONE squared: normals that lie together in a box
+                          with a diagonal less than this make no fold, although they are rough
+                          (tile.h); 0: none is so small */
+
+    dp_polygons polygons;
+    dp_vertex *vertices;
+    uint32_t tiles_x, tiles_y;
+    dp_bins polygon_bins;
+
+    const struct dp_adjacency *adjacency; /* mesh/adjacency.h; NULL: lines emerge without it */
+    float fringe;    /* px that textured silhouettes reach beyond outlined polygons; 0: none */
+    uint8_t *facing; /* with adjacency, by polygon: core/facing.h */
+    double centre[2], radius; /* px, polar stroke textures: features/silhouette_edge.h */
+    bool seen_through;        /* some polygons have no area */
+    uint8_t *outlined;        /* the same: has it an edge that dp_outline_of_edge says it draws? */
+
+    float *depth; /* [tile][cell sample], nearest surface; layout: samples.h */
+    size_t tile_samples;
+    dp_tile_pieces *tile_pieces; /* by tile */
+
+    dp_segment *segments;
+    struct dp_stroke *strokes; /* one per segment, strokes/stroke.h */
+    size_t segment_count;
+    struct dp_mark *marks; /* instead of strokes, where lines are drawn by hand: strokes/mark.h */
+    size_t mark_count;
+    dp_bins stroke_bins;
+} dp_frame;
+
+/* Where tiles put their ink; needs target.rgba. */
+static inline uint8_t *dp_ink_place(const dp_frame *f, uint32_t x, uint32_t y) {
+    return f->ink_layer ? f->ink_layer + 4 * ((size_t)y * f->target.width + x)
+                        : f->target.rgba + (size_t)y * f->target.rgba_stride + 4 * (size_t)x;
+}
+
+static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t polygon) {
+    const uint32_t group = frame->polygons.groups ? frame->polygons.groups[polygon] : 0;
+    return &frame->styles[group < frame->style_count ? group : 0];
+}
+
+#endif

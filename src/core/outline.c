@@ -1,0 +1,136 @@
+/* Primitive assembly: corners to an outline on the screen, clipped where it must be.
+ *
+ * Most polygons only gather their transformed corners. One with a corner outside the guarded
+ * frustum is transformed again in double precision and clipped in clip space; its outline is then
+ * no longer corner for corner the polygon, and its edges are clipped one by one where lines are
+ * looked for. */
+#include "core/outline.h"
+
+void dp_outline_scratch_free(dp_outline_scratch *scratch, const dp_allocator *memory) {
+    dp_free(memory, scratch->clip);
+    dp_free(memory, scratch->points);
+    *scratch = (dp_outline_scratch){0};
+}
+
+static dp_outline_state clip_outline(const dp_frame *frame, uint32_t first, uint32_t n,
+                                     dp_outline_scratch *scratch, dp_outline *out) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const size_t room = (size_t)n + 6;
+    if (!dp_reserve(frame->memory, &scratch->clip, &scratch->clip_cap, 2 * room,
+                    sizeof *scratch->clip))
+        return DP_OUTLINE_MEMORY;
+    int any = 0, all = ~0;
+    for (uint32_t i = 0; i < n; i++) {
+        const float *const p = dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i));
+        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) return DP_OUTLINE_FINITE;
+        scratch->clip[i] = dp_to_clip(&frame->view, dp_v3f(p));
+        const int code = dp_outcode(&frame->view, scratch->clip[i]);
+        any |= code, all &= code;
+    }
+    if (all) return DP_OUTLINE_OUTSIDE;
+    const uint32_t left =
+        dp_clip_polygon(&frame->view, any, scratch->clip, n, scratch->clip + room);
+    if (!left) return DP_OUTLINE_OUTSIDE;
+    for (uint32_t i = 0; i < left; i++) {
+        const dp_pointd s = dp_to_screen(&frame->view, scratch->clip[i]);
+        scratch->points[i] = (dp_point){(float)s.x, (float)s.y, (float)s.d};
+    }
+    *out = (dp_outline){scratch->points, left, true};
+    return DP_OUTLINE_OK;
+}
+
+dp_outline_state dp_outline_make(const dp_frame *frame, uint32_t polygon,
+                                 dp_outline_scratch *scratch, dp_outline *out) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
+    if (!dp_reserve(frame->memory, &scratch->points, &scratch->points_cap, (size_t)n + 6,
+                    sizeof *scratch->points))
+        return DP_OUTLINE_MEMORY;
+    bool clip = false;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t vertex = dp_corner_vertex(polygons, first + i);
+        if (vertex >= polygons->vertex_count) return DP_OUTLINE_INDEX;
+        const dp_vertex v = frame->vertices[vertex];
+        if (isnan(v.x)) clip = true;
+        scratch->points[i] = (dp_point){v.x, v.y, v.d};
+    }
+    if (clip) return clip_outline(frame, first, n, scratch, out);
+    *out = (dp_outline){scratch->points, n, false};
+    return DP_OUTLINE_OK;
+}
+
+static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
+    return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
+}
+
+dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
+    const dp_vec3 o = corner_position(polygons, first);
+    dp_vec3 sum = {0, 0, 0}, a = dp_sub(corner_position(polygons, first + 1), o);
+    for (uint32_t i = 2; i < n; i++) {
+        const dp_vec3 b = dp_sub(corner_position(polygons, first + i), o);
+        sum = dp_add(sum, dp_cross(a, b));
+        a = b;
+    }
+    return dp_unit(sum);
+}
+
+/* Thinner than this on the screen (px) a polygon covers nothing, and its area there is rounding. */
+static const double EDGE_ON = 1.0 / 4096;
+
+/* The sine of the angle at which a plane is seen; within rounding of zero it is seen edge-on. */
+bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const dp_vec3 at = corner_position(polygons, dp_first_corner(polygons, polygon));
+    return dp_dot(dp_polygon_normal(frame, polygon), dp_view_vector(&frame->view, at)) < -1e-12;
+}
+
+typedef struct extent {
+    double area;  /* twice that on the screen; the screen's y runs down, so a front face's is
+                     negative */
+    double reach; /* longest side of the box around the first point, px */
+} extent;
+
+static extent extent_of(const dp_outline *outline) {
+    const dp_point *const p = outline->points;
+    extent e = {0, 0};
+    for (uint32_t i = 1; i < outline->count; i++) {
+        const double ax = (double)p[i].x - p[0].x, ay = (double)p[i].y - p[0].y;
+        e.reach = dp_max(e.reach, dp_max(fabs(ax), fabs(ay)));
+        if (i + 1 == outline->count) break;
+        const double bx = (double)p[i + 1].x - p[0].x, by = (double)p[i + 1].y - p[0].y;
+        e.area += ax * by - ay * bx;
+    }
+    return e;
+}
+
+static bool is_edge_on(extent e) { return fabs(e.area) <= EDGE_ON * e.reach; }
+
+bool dp_outline_is_edge_on(const dp_outline *outline) { return is_edge_on(extent_of(outline)); }
+
+dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline) {
+    const extent e = extent_of(outline);
+    if (fabs(e.area) > (double)frame->nearly_edge_on * e.reach)
+        return (dp_facing){e.area < 0, false};
+    return (dp_facing){dp_polygon_faces_eye(frame, polygon), is_edge_on(e)};
+}
+
+bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
+    const dp_vec3 o = corner_position(polygons, first);
+    dp_vec3 sum = {0, 0, 0};
+    double size = 0;
+    for (uint32_t i = 1; i + 1 < n; i++) {
+        const dp_vec3 a = dp_sub(corner_position(polygons, first + i), o);
+        const dp_vec3 b = dp_sub(corner_position(polygons, first + i + 1), o);
+        sum = dp_add(sum, dp_cross(a, b));
+        size = dp_max(size, dp_max(dp_dot(a, a), dp_dot(b, b)));
+    }
+    /* the cross product of float32 coordinates is exact to about 1e-15 of the squared size */
+    return dp_length(sum) <= 1e-12 * size;
+}

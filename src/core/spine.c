@@ -1,0 +1,32 @@
+/* Spines: see spine.h. */
+#include "core/spine.h"
+
+static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal) {
+    const dp_vec3 q = dp_mad(p, normal, DP_PROBE_LIFT * dp_pixel_size(view, d));
+    return dp_to_screen(view, dp_to_clip(view, q));
+}
+
+/* What of [a, b] lies in the frustum, between t0 and t1, is the spine. */
+static bool place_spine(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine, double *t0,
+                        double *t1) {
+    const dp_clip_point ca = dp_to_clip(view, a), cb = dp_to_clip(view, b);
+    *t0 = 0, *t1 = 1;
+    if ((dp_outcode(view, ca) | dp_outcode(view, cb)) && !dp_clip_segment(view, ca, cb, t0, t1))
+        return false;
+    spine->a = dp_to_screen(view, dp_clip_mix(ca, cb, *t0));
+    spine->b = dp_to_screen(view, dp_clip_mix(ca, cb, *t1));
+    return dp_spine_divide(spine);
+}
+
+bool dp_spine_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 normal, dp_spine *spine) {
+    double t0, t1;
+    if (!place_spine(view, a, b, spine, &t0, &t1)) return false;
+    spine->probe_a = lifted(view, dp_mix(a, b, t0), spine->a.d, normal);
+    spine->probe_b = lifted(view, dp_mix(a, b, t1), spine->b.d, normal);
+    return true;
+}
+
+bool dp_spine_ends(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine) {
+    double t0, t1;
+    return place_spine(view, a, b, spine, &t0, &t1);
+}

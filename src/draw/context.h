@@ -1,0 +1,61 @@
+/* A context's inside: threads, and all memory that stays from frame to frame. */
+#ifndef DP_DRAW_CONTEXT_H
+#define DP_DRAW_CONTEXT_H
+
+#include "mesh/adjacency.h"
+#include "raster/stages.h"
+#include "mesh/normals.h"
+#include "raster/tile.h"
+#include "shade/shade.h"
+#include "strokes/mark.h"
+#include "strokes/stroke.h"
+
+typedef struct dp_recording dp_recording; /* immediate.c */
+
+struct dp_context {
+    dp_allocator memory;
+    int (*progress)(void *user, double fraction);
+    void *user;
+    dp_threads *threads;
+    uint32_t workers;
+
+    size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
+    dp_polygon_store polygons;
+    dp_stroke_store strokes;
+    dp_normal_store normals; /* made for models without */
+    dp_shade_store shade;    /* G-buffer and what is made of it */
+    int shade_pass;          /* the one that runs */
+    dp_mark_store marks;
+    struct {
+        dp_normal_store normals; /* of the reflected scene */
+        uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
+        float *distance;         /* the same, INFINITY: paper */
+        size_t rgba_cap, distance_cap;
+    } mirror;
+    dp_bin_worker *bin_workers;   /* [workers] */
+    dp_tile_worker *tile_workers; /* [workers] */
+    dp_ink_worker *ink_workers;   /* [workers] */
+    dp_frame frame;
+    dp_adjacency adjacency; /* of the last source that asked for it */
+    size_t vertices_cap, depth_cap, pieces_cap, facing_cap, outlined_cap;
+
+    dp_stats stats;
+    dp_recording *recording; /* made when first used */
+    bool recording_lost;     /* there was no memory to make it; dp_finish says so */
+};
+
+/* dp_draw with one resolved style per group; what holds for the whole picture comes from
+ * styles[0]. */
+dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera *camera,
+                         const dp_style *styles, uint32_t style_count, const dp_target *target,
+                         dp_diag *diag);
+
+enum { DP_PICTURE_MOST = 32768 /* px, either side */ };
+
+/* dp_draw with a mirror; the style is resolved (draw/mirror.c). */
+dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,
+                           const dp_style *style, const dp_target *target, dp_diag *diag);
+
+void dp_recording_free(dp_context *context);
+
+#endif

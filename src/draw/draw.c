@@ -1,0 +1,497 @@
+/* Drawing one picture: the stages in order, and the context that keeps their memory.
+ *
+ *   source -> gather -> vertices -> bin -> tiles (faces, edges, visibility) -> segments -> ink ->
+ * target
+ *
+ * Each stage runs in parallel over blocks, chunks or tiles and is over before the next begins; what
+ * a stage hands on is in submission or tile order, so that the picture does not depend on
+ * threads. */
+#include "draw/context.h"
+
+#include "base/diag.h"
+#include "features/features.h"
+#include "kernel/kernels.h"
+#include "mesh/source.h"
+#include "core/facing.h"
+#include "printed/fringe.h"
+#include "features/silhouette_edge.h"
+#include "core/outline.h"
+#include "stream/stream.h"
+
+#include <string.h>
+#include <time.h>
+
+/* Tiles are widened by this, so that an edge along a tile's border meets both its polygons (px). */
+static const float MARGIN = 0.75f;
+
+/* Quads as ink: a polygon's added polygons may reach a tile that it does not. */
+static float margin_of(const dp_frame *f) {
+    float widest = 0;
+    if (f->styles[0].ink != DP_INK_QUADS || f->styles[0].edges == DP_EDGES_ADJACENCY) return MARGIN;
+    for (uint32_t i = 0; i < f->style_count; i++)
+        for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmaxf(widest, f->styles[i].line[k].width);
+    return 1 + widest * (f->styles[0].method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1);
+}
+
+const char *dp_stage_name(dp_stage stage) {
+    static const char *const names[DP_STAGE_COUNT] = {"gather",   "vertices", "bin", "tiles",
+                                                      "segments", "shade",    "ink"};
+    return (unsigned)stage < DP_STAGE_COUNT ? names[stage] : "unknown";
+}
+
+dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_diag *diag) {
+    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_context_create: out is NULL");
+    *out = NULL;
+    const dp_context_desc d = desc ? *desc : (dp_context_desc){0};
+    if (d.memory && d.memory < DP_MEMORY_LEAST)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "%zu bytes of memory are too few; the least is %zu MB", d.memory,
+                       DP_MEMORY_LEAST >> 20);
+    const dp_allocator memory = dp_allocator_resolve(d.allocator);
+    dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
+    if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
+    c->memory = memory;
+    c->limit = d.memory ? d.memory : DP_MEMORY_DEFAULT;
+    c->progress = d.progress;
+    c->user = d.user;
+    c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
+    if (c->threads) {
+        c->workers = dp_threads_count(c->threads);
+        c->bin_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->bin_workers);
+        c->tile_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->tile_workers);
+        c->ink_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->ink_workers);
+    }
+    if (!c->threads || !c->bin_workers || !c->tile_workers || !c->ink_workers) {
+        dp_context_destroy(c);
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
+    }
+    *out = c;
+    return DP_OK;
+}
+
+void dp_context_destroy(dp_context *c) {
+    if (!c) return;
+    const dp_allocator memory = c->memory;
+    dp_threads_destroy(c->threads);
+    for (uint32_t i = 0; i < c->workers; i++) {
+        if (c->bin_workers) dp_outline_scratch_free(&c->bin_workers[i].scratch, &memory);
+        if (c->tile_workers) dp_tile_worker_free(&c->tile_workers[i]);
+        if (c->ink_workers) dp_free(&memory, c->ink_workers[i].strokes);
+        if (c->ink_workers) dp_free(&memory, c->ink_workers[i].sorted);
+    }
+    dp_free(&memory, c->bin_workers);
+    dp_free(&memory, c->tile_workers);
+    dp_free(&memory, c->ink_workers);
+    dp_polygon_store_free(&c->polygons, &memory);
+    dp_stroke_store_free(&c->strokes, &memory);
+    dp_normal_store_free(&c->normals, &memory);
+    dp_shade_store_free(&c->shade, &memory);
+    dp_mark_store_free(&c->marks, &memory);
+    dp_normal_store_free(&c->mirror.normals, &memory);
+    dp_free(&memory, c->mirror.rgba);
+    dp_free(&memory, c->mirror.distance);
+    dp_bins_free(&c->frame.polygon_bins, &memory);
+    dp_bins_free(&c->frame.stroke_bins, &memory);
+    dp_free(&memory, c->frame.vertices);
+    dp_free(&memory, c->frame.depth);
+    dp_free(&memory, c->frame.tile_pieces);
+    dp_free(&memory, c->frame.facing);
+    dp_free(&memory, c->frame.outlined);
+    dp_adjacency_free(&c->adjacency, &memory);
+    dp_recording_free(c);
+    dp_free(&memory, c);
+}
+
+/* ------- stages ------- */
+
+static double now_ms(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+static dp_result out_of_memory(dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing");
+}
+
+static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *diag) {
+    *out = *target;
+    if (!out->samples) out->samples = 4;
+    if (!out->rgba_stride) out->rgba_stride = 4 * (size_t)out->width;
+    if (out->width < 1 || out->height < 1 || out->width > DP_PICTURE_MOST ||
+        out->height > DP_PICTURE_MOST)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the picture is %u x %u px; each side must be 1 to %d", out->width,
+                       out->height, DP_PICTURE_MOST);
+    if (out->samples != 1 && out->samples != 4 && out->samples != 8 && out->samples != 16)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u samples per pixel; it must be 1, 4, 8 or 16",
+                       out->samples);
+    if (out->rgba_stride < 4 * (size_t)out->width)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "rgba_stride is less than a row of pixels");
+    return DP_OK;
+}
+
+/* What kernels need of the view, in float32. */
+static void begin_view(dp_frame *f) {
+    const float size = (float)(1 / f->view.focal);
+    f->kernels = dp_kernels_best();
+    f->culls_backs =
+        f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
+    f->nearly_edge_on = dp_nearly_edge_on(&f->view);
+    f->step_scale = f->view.perspective ? size : 0;
+    f->step_offset = f->view.perspective ? 0 : size;
+}
+
+static bool begin_workers(dp_context *c) {
+    for (uint32_t i = 0; i < c->workers; i++) {
+        c->bin_workers[i].stats = (dp_stats){0};
+        c->bin_workers[i].failed = c->ink_workers[i].failed = false;
+        if (!dp_tile_worker_init(&c->tile_workers[i], &c->frame)) return false;
+    }
+    return true;
+}
+
+/* Sizes what depends on the picture. */
+static bool begin_frame(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    f->tiles_x = (f->target.width + DP_TILE - 1) / DP_TILE;
+    f->tiles_y = (f->target.height + DP_TILE - 1) / DP_TILE;
+    f->tile_samples = (size_t)DP_TILE * DP_TILE * f->target.samples;
+    const size_t tiles = (size_t)f->tiles_x * f->tiles_y;
+    return dp_reserve(&c->memory, &f->depth, &c->depth_cap, tiles * f->tile_samples,
+                      sizeof *f->depth) &&
+           dp_reserve(&c->memory, &f->tile_pieces, &c->pieces_cap, tiles, sizeof *f->tile_pieces) &&
+           begin_workers(c);
+}
+
+/* Half a degree short of the least fold that any group draws, a right angle at the most; above 1
+ * where flat edges are lines too. */
+static float flat_cosine(const dp_style *styles, uint32_t count) {
+    float least = 180;
+    for (uint32_t i = 0; i < count; i++)
+        least = dp_minf(least, dp_minf(180 - styles[i].ridge_angle, styles[i].valley_angle - 180));
+    return least > 1 ? (float)cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180)
+                     : 2;
+}
+
+/* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
+static float calm_spread(float flat_cosine) {
+    if (flat_cosine > 1) return 0;
+    const double angle =
+        acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
+    const double chord = angle > 0 ? 2 * sin(angle / 2) * DP_UMBRELLA_ONE : 0;
+    return (float)(chord * chord);
+}
+
+static void find_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    c->frame.tile_pieces[index].worker = worker;
+    dp_tile_find(&c->tile_workers[worker], index);
+    if (!c->shade.active) return;
+    dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+    dp_shade_at_once(&c->shade, index); /* while it is in the cache */
+}
+
+static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    (void)worker;
+    dp_shade_pass(&c->shade, c->shade_pass, index);
+}
+
+static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    (dp_is_by_hand(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker],
+                                                             index);
+}
+
+/* A part of a long loop, so that progress can be told between the parts. */
+typedef struct part {
+    dp_context *context;
+    dp_task *task;
+    uint32_t first;
+} part;
+
+static void part_task(void *arg, uint32_t index, uint32_t worker) {
+    const part *const p = arg;
+    p->task(p->context, p->first + index, worker);
+}
+
+static dp_result for_tiles(dp_context *c, dp_task *task, double from, double to, dp_diag *diag) {
+    const uint32_t tiles = c->frame.tiles_x * c->frame.tiles_y;
+    const uint32_t step = c->progress && tiles > 64 ? (tiles + 15) / 16 : tiles;
+    for (uint32_t first = 0; first < tiles; first += step) {
+        part p = {c, task, first};
+        dp_parallel(c->threads, tiles - first < step ? tiles - first : step, part_task, &p);
+        const double done = from + (to - from) * (first + step) / tiles;
+        if (c->progress && c->progress(c->user, done > 1 ? 1 : done))
+            return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
+    }
+    return DP_OK;
+}
+
+static void add_counts(dp_stats *sum, const dp_stats *s) {
+    sum->dropped_index += s->dropped_index;
+    sum->dropped_finite += s->dropped_finite;
+    sum->dropped_area += s->dropped_area;
+    sum->dropped_corners += s->dropped_corners;
+    sum->clipped += s->clipped;
+    sum->edges_resolved += s->edges_resolved;
+    sum->edges_emergent += s->edges_emergent;
+    sum->open_edges += s->open_edges;
+    sum->added_polygons += s->added_polygons;
+}
+
+/* An error when nothing is left of `pieces` polygons, after splitting. */
+static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
+    s->dropped = s->dropped_index + s->dropped_finite + s->dropped_area + s->dropped_corners;
+    if (!s->dropped || s->dropped < pieces + s->dropped_corners) return DP_OK;
+    return dp_fail(
+        diag, DP_ERR_FORMAT,
+        "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
+        "coordinates that are not finite, %llu without area, %llu with fewer than 3 corners",
+        (unsigned long long)s->polygons, (unsigned long long)s->dropped_index,
+        (unsigned long long)s->dropped_finite, (unsigned long long)s->dropped_area,
+        (unsigned long long)s->dropped_corners);
+}
+
+/* All that stays from frame to frame, but for the small change. */
+static uint64_t scratch_bytes(const dp_context *c) {
+    const dp_polygon_store *const p = &c->polygons;
+    uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
+                   c->pieces_cap * sizeof(dp_tile_pieces) + c->facing_cap + c->outlined_cap +
+                   dp_adjacency_bytes(&c->adjacency) + dp_bins_bytes(&c->frame.polygon_bins) +
+                   dp_bins_bytes(&c->frame.stroke_bins);
+    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap +
+           2 * p->groups_cap;
+    sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
+           c->strokes.strokes_cap * sizeof(dp_stroke) + c->marks.marks_cap * sizeof(dp_mark);
+    for (uint32_t i = 0; i < c->workers; i++)
+        sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
+    return sum;
+}
+
+static void lap(dp_stats *stats, dp_stage stage, double *since) {
+    const double now = now_ms();
+    stats->stage_ms[stage] = now - *since;
+    *since = now;
+}
+
+/* Does any stroke texture need the centre of the picture? */
+static bool is_polar(const dp_frame *f) {
+    for (uint32_t i = 0; i < f->style_count; i++)
+        if (f->styles[i].stroke.texture && f->styles[i].stroke.u == DP_STROKE_POLAR) return true;
+    return dp_is_fringed(f);
+}
+
+/* Who paints: the tiles, or shading after them. Tiles that ink before surfaces are shaded (quads,
+ * fringes) do so on a layer of its own then. False when memory is out. */
+static bool begin_paint(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f));
+    f->painted_later = c->shade.colored;
+    if (!f->painted_later || !inks_early) return true;
+    if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap,
+                    4 * (size_t)f->target.width * f->target.height, 1))
+        return false;
+    f->ink_layer = c->shade.inked;
+    return true;
+}
+
+/* Adjacency, kept from the last frame where the topology is the same, and what faces the eye. */
+static bool find_adjacency(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    bool built;
+    if (!dp_adjacency_update(&c->adjacency, &f->polygons, c->threads, &c->memory, &built) ||
+        !dp_reserve(&c->memory, &f->facing, &c->facing_cap, f->polygons.count, sizeof *f->facing) ||
+        !dp_reserve(&c->memory, &f->outlined, &c->outlined_cap, f->polygons.count,
+                    sizeof *f->outlined))
+        return false;
+    f->adjacency = &c->adjacency;
+    c->stats.adjacency_ms = built ? c->adjacency.ms : 0;
+    c->stats.adjacency_bytes = dp_adjacency_bytes(&c->adjacency);
+    dp_find_facing(f);
+    f->fringe = dp_is_fringed(f) ? dp_fringe_reach(f) : 0;
+    return true;
+}
+
+/* Everything but plain lines over one colour looks at all polygons at once. */
+static bool may_stream(const dp_context *c) {
+    const dp_style *const style = &c->frame.styles[0];
+    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 &&
+           style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !is_polar(&c->frame) &&
+           !(style->stroke.light > 0);
+}
+
+/* Whether to stream is decided by the source's size where it tells, else while it is gathered. */
+static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag *diag) {
+    const dp_style *const style = &c->frame.styles[0];
+    const bool may = may_stream(c), rewindable = dp_source_rewindable(source);
+    *streams = may && (dp_stream_is_large(source, c->limit) || (!rewindable && style->passes == 1));
+    if (*streams) return DP_OK;
+    c->polygons.limit = may ? c->limit : 0;
+    const dp_result result =
+        dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
+    if (!result || !c->polygons.is_beyond) return result;
+    if (!rewindable)
+        return dp_fail(
+            diag, DP_ERR_LIMIT,
+            "the model takes more than %zu MB and can be read only once: allow more memory, draw "
+            "it with one pass, or from a file",
+            c->limit >> 20);
+    dp_polygon_store_free(&c->polygons, &c->memory);
+    c->stats = (dp_stats){0};
+    *streams = true;
+    return DP_OK;
+}
+
+static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
+                              double *since, dp_diag *diag) {
+    dp_result result = dp_stream_read_model(c, source, stream, diag);
+    if (result) return result;
+    lap(&c->stats, DP_STAGE_GATHER, since);
+    if ((result = dp_stream_find(*stream, diag))) return result;
+    lap(&c->stats, DP_STAGE_TILES, since);
+    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->tile_workers[i].stats);
+    return check_dropped(&c->stats, c->stats.polygons, diag);
+}
+
+static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
+                            double *since, dp_diag *diag) {
+    dp_frame *const f = &c->frame;
+    bool streams;
+    dp_result result = gather(c, source, &streams, diag);
+    if (result) return result;
+    if (streams) return stream_lines(c, source, stream, since, diag);
+    if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
+    c->stats.curvature_ms = c->shade.bends.ms;
+    if (dp_shade_needs_normals(&c->shade) &&
+        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle,
+                         source->constant ? &source->key : NULL, c->threads, &c->memory,
+                         &f->polygons.normals))
+        return out_of_memory(diag);
+    if (c->shade.active && f->polygons.normals.values) {
+        if (!dp_normals_pack(&c->normals, &f->polygons, c->threads, &c->memory))
+            return out_of_memory(diag);
+        c->shade.gbuffer.normals = &c->normals.packed;
+    }
+    lap(&c->stats, DP_STAGE_GATHER, since);
+    if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count,
+                    sizeof *f->vertices))
+        return out_of_memory(diag);
+    dp_transform_vertices(f);
+    if (f->styles[0].edges == DP_EDGES_ADJACENCY && !find_adjacency(c)) return out_of_memory(diag);
+    if (is_polar(f)) dp_find_centre(f);
+    lap(&c->stats, DP_STAGE_VERTICES, since);
+    if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
+    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
+    lap(&c->stats, DP_STAGE_BIN, since);
+    if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
+    if (!begin_paint(c)) return out_of_memory(diag);
+    if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
+    for (uint32_t i = 0; i < c->workers; i++) {
+        if (c->tile_workers[i].failed) return out_of_memory(diag);
+        add_counts(&c->stats, &c->tile_workers[i].stats);
+    }
+    lap(&c->stats, DP_STAGE_TILES, since);
+    return DP_OK;
+}
+
+/* Shading and edge map: passes over the picture, each over before the next begins. */
+static dp_result shade(dp_context *c, dp_diag *diag) {
+    if (!c->shade.active) return DP_OK;
+    dp_shade_prepare(&c->shade);
+    for (int pass = 0; pass < DP_SHADE_PASSES; pass++) {
+        if (!dp_shade_pass_runs(&c->shade, pass)) continue;
+        c->shade_pass = pass;
+        const dp_result result = for_tiles(c, shade_tile, 0.8, 0.85, diag);
+        if (result) return result;
+        dp_shade_pass_ends(&c->shade, pass);
+    }
+    return DP_OK;
+}
+
+/* Segments; then strokes, or what the hand makes of them. */
+static bool make_strokes(dp_context *c) {
+    dp_frame *const f = &c->frame;
+    if (!dp_make_segments(f, c->tile_workers, &c->strokes)) return false;
+    if (!dp_is_by_hand(f)) return dp_bin_strokes(f);
+    return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
+}
+
+static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream,
+                             dp_diag *diag) {
+    double since = now_ms();
+    const double start = since;
+    c->shade.source = source;
+    if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
+    dp_result result = find_lines(c, source, stream, &since, diag);
+    if (result) return result;
+    if (!make_strokes(c)) return out_of_memory(diag);
+    c->stats.segments = c->frame.segment_count;
+    lap(&c->stats, DP_STAGE_SEGMENTS, &since);
+    if ((result = shade(c, diag))) return result;
+    lap(&c->stats, DP_STAGE_SHADE, &since);
+    if ((result = for_tiles(c, ink_tile, 0.85, 1, diag))) return result;
+    for (uint32_t i = 0; i < c->workers; i++)
+        if (c->ink_workers[i].failed) return out_of_memory(diag);
+    lap(&c->stats, DP_STAGE_INK, &since);
+    c->stats.frame_ms = now_ms() - start;
+    c->stats.bytes = scratch_bytes(c);
+    return DP_OK;
+}
+
+static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+    dp_stream_draw *stream = NULL;
+    const dp_result result = draw_stages(c, source, &stream, diag);
+    dp_stream_free(stream);
+    return result;
+}
+
+dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *camera,
+                         const dp_style *styles, uint32_t style_count, const dp_target *target,
+                         dp_diag *diag) {
+    dp_frame *const f = &c->frame;
+    c->stats = (dp_stats){0};
+    f->segment_count = 0;
+    f->painted_later = false;
+    f->ink_layer = NULL;
+    f->adjacency = NULL;
+    f->fringe = 0;
+    f->memory = &c->memory;
+    f->threads = c->threads;
+    f->styles = styles;
+    f->style_count = style_count;
+    f->lines = 0;
+    for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
+    f->flat_cosine = flat_cosine(styles, style_count);
+    f->calm_spread = calm_spread(f->flat_cosine);
+    dp_result result = check_target(target, &f->target, diag);
+    if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
+    if (!result) begin_view(f);
+    if (!result) result = draw(c, source, diag);
+    if (result) f->segment_count = 0;
+    f->styles = NULL; /* borrowed for this call only */
+    return result;
+}
+
+dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
+                  const dp_style *style, const dp_target *target, dp_diag *diag) {
+    if (!context || !source || !camera || !target)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_draw: context, source, camera or target is NULL");
+    dp_style resolved;
+    const dp_result result = dp_style_resolve(style, &resolved, diag);
+    if (result) return result;
+    if (resolved.mirror.size > 0)
+        return dp_draw_mirrored(context, source, camera, &resolved, target, diag);
+    return dp_draw_groups(context, source, camera, &resolved, 1, target, diag);
+}
+
+const dp_segment *dp_segments(const dp_context *context, size_t *count) {
+    if (count) *count = context ? context->frame.segment_count : 0;
+    return context ? context->frame.segments : NULL;
+}
+
+void dp_stats_of(const dp_context *context, dp_stats *stats) {
+    if (!stats) return;
+    *stats = context ? context->stats : (dp_stats){0};
+}

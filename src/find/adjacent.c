@@ -1,0 +1,110 @@
+/* A tile's candidates by adjacency, instead of by the tile's own table of edges (edges.c).
+ *
+ * Each polygon of the tile asks what its edges are. Outlines come from the front-facing side, as in
+ * Listing 2.1 of Hermosilla and Vázquez 2010; creases from the polygon that comes first in the
+ * source. The edge's owner is that one for every class, as in the table, so that segments are the
+ * same from both. Edges whose neighbours share no corner with them are open here: a border, where
+ * the table would look for what lies across. */
+#include "core/facing.h"
+
+#include "mesh/adjacency.h"
+#include "core/fold.h"
+#include "raster/tile.h"
+#include "printed/fringe.h"
+
+typedef struct shared_edge {
+    uint32_t a, b;           /* owner; partner or UINT32_MAX */
+    uint32_t edge_a, edge_b; /* corner number within the polygon */
+    bool flipped;
+} shared_edge;
+
+static shared_edge owned(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
+    const dp_adjacency *const adjacency = frame->adjacency;
+    const uint32_t across = adjacency->across[corner];
+    shared_edge e = {.a = polygon,
+                     .b = UINT32_MAX,
+                     .edge_a = corner - dp_first_corner(&frame->polygons, polygon)};
+    if (!dp_is_across(across)) return e;
+    e.b = dp_polygon_of_corner(adjacency, dp_across_corner(across));
+    e.edge_b = dp_across_corner(across) - dp_first_corner(&frame->polygons, e.b);
+    e.flipped = across & DP_ACROSS_FLIPPED;
+    if (e.b < e.a) return (shared_edge){e.b, e.a, e.edge_b, e.edge_a, e.flipped};
+    return e;
+}
+
+static void add_line(dp_tile_worker *w, const shared_edge *e, dp_line line, dp_vec3 normal) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    if (!(dp_polygon_style(w->frame, e->a)->lines & (1u << line))) return;
+    if (1u << line & DP_OUTLINES && dp_is_fringed(w->frame)) return; /* fringe.c draws them */
+    const uint32_t first = dp_first_corner(polygons, e->a), n = dp_corner_count(polygons, e->a);
+    const uint32_t va = dp_corner_vertex(polygons, first + e->edge_a);
+    const uint32_t vb = dp_corner_vertex(polygons, first + (e->edge_a + 1) % n);
+    dp_spine spine;
+    if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, va)),
+                       dp_v3f(dp_vertex_position(polygons, vb)), normal, &spine))
+        return;
+    dp_tile_add_candidate(
+        w,
+        (dp_candidate){
+            .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
+        &spine, NULL);
+}
+
+/* The normals as the eye sees them: of two polygons that are wound differently one is turned
+ * round. */
+static dp_fold fold_of(const dp_frame *frame, const shared_edge *e, bool turned) {
+    return dp_fold_seen(frame, e->a, !turned, e->b, turned == e->flipped, e->edge_b);
+}
+
+static void add_outline(dp_tile_worker *w, const shared_edge *e, dp_line line) {
+    dp_vec3 normal;
+    if (e->b == UINT32_MAX) {
+        normal = dp_polygon_normal(w->frame, e->a);
+        if (!dp_faces_front(w->frame, e->a)) normal = dp_scale(normal, -1);
+    } else {
+        normal = fold_of(w->frame, e, false).normal;
+    }
+    add_line(w, e, line, normal);
+}
+
+/* Two fronts, or two polygons wound differently that both show the eye the same side. */
+static void add_crease(dp_tile_worker *w, uint32_t polygon, uint32_t corner) {
+    const dp_frame *const f = w->frame;
+    if (!dp_is_across(f->adjacency->across[corner])) return;
+    const shared_edge e = owned(f, polygon, corner);
+    if (e.a != polygon || (f->facing[e.b] & DP_FACING_NO_AREA)) return;
+    const bool front_a = dp_faces_front(f, e.a), front_b = dp_faces_front(f, e.b) != e.flipped;
+    if (front_a != front_b || (!front_a && !e.flipped)) return;
+    const dp_fold fold = fold_of(f, &e, !front_a);
+    if (dp_dot(fold.normal_a, fold.normal_b) > (double)f->flat_cosine) return;
+    const int line = dp_fold_line(&fold, dp_polygon_style(f, e.a));
+    if (line >= 0) add_line(w, &e, (dp_line)line, fold.normal);
+}
+
+/* A hidden polygon is not asked: it lies well behind the surface with all its edges. */
+static void add_polygon(dp_tile_worker *w, const dp_tile_polygon *p, bool creases) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+    for (uint32_t i = 0; i < n && !w->failed; i++) {
+        if (polygons->edge_flags && !polygons->edge_flags[first + i]) continue;
+        if (!dp_tile_edge_is_near(w, p, i)) continue;
+        const int line = dp_outline_of_edge(w->frame, p->id, first + i);
+        if (line >= 0) {
+            const shared_edge e = owned(w->frame, p->id, first + i);
+            add_outline(w, &e, (dp_line)line);
+        } else if (creases) {
+            add_crease(w, p->id, first + i);
+        }
+        w->stats.edges_resolved++;
+        w->stats.open_edges += line == DP_LINE_BORDER;
+    }
+}
+
+void dp_tile_adjacent_edges(dp_tile_worker *w) {
+    const bool creases = w->frame->lines & (DP_RIDGE | DP_VALLEY);
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        if (p->flags & DP_POLYGON_HIDDEN) continue;
+        if (creases || w->frame->outlined[p->id]) add_polygon(w, p, creases);
+    }
+}

@@ -1,0 +1,322 @@
+/* The edge table of a tile: which two polygons meet at an edge, found while the tile is drawn.
+ *
+ * Every polygon that touches an edge within the tile is in the tile's bin, so an edge's polygons
+ * always meet here, without adjacency (docs/architecture.md). Edges are named by the keys of their
+ * ends' positions: an index buffer, split vertices and a bare soup give the same names. Keys are
+ * hashes; before an edge becomes a line the positions themselves are compared. Of those that make
+ * no line that is not asked: two neighbours of one vertex whose keys are equal would have to meet,
+ * which one mesh of a million triangles in a thousand has.
+ *
+ * Most edges of a fine mesh end at a vertex around which all is flat, and are never entered
+ * (find/umbrellas.inc).
+ *
+ * Data structure: a list of edges (find/edges.inc), and open addressing of 8 bytes a slot, of
+ * which 4 are what two keys have in common; where the slot lies stands for the rest. So two edges
+ * may be taken for one, in one tile of a million; whoever looks at a pair sees that, and the table
+ * is filled again with the keys themselves compared. Edges that met are pairs, told flat by many at
+ * once; a byte per listed edge tells whether it may be a line, so that what is found does not
+ * depend on the hash. Invariant: at most two of three slots are used. Hidden polygons stay away:
+ * their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that too.
+ * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
+#include "find/edge_table.h"
+
+#include "base/hostile.h"
+#include "kernel/kernels.h"
+
+#include <string.h>
+
+dp_edge_place dp_edge_place_of(const dp_tile_worker *w, uint32_t number) {
+    return (dp_edge_place){w->edges.polygon[number], w->edges.edge[number]};
+}
+
+static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
+    if (a == b) return true;
+    const float *const p = dp_vertex_position(polygons, a);
+    const float *const q = dp_vertex_position(polygons, b);
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
+typedef struct ends {
+    uint32_t va, vb; /* vertices */
+} ends;
+
+static ends ends_of(const dp_tile_worker *w, dp_edge_place at) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const uint32_t id = w->polygons[at.polygon].id;
+    const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);
+    return (ends){dp_corner_vertex(polygons, first + at.edge),
+                  dp_corner_vertex(polygons, first + (at.edge + 1 == n ? 0 : at.edge + 1))};
+}
+
+void dp_edge_ends(const dp_tile_worker *w, dp_edge_place edge, uint32_t *va, uint32_t *vb) {
+    const ends e = ends_of(w, edge);
+    *va = e.va, *vb = e.vb;
+}
+
+bool dp_edge_runs_between(const dp_tile_worker *w, dp_edge_place edge, uint32_t va, uint32_t vb) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const ends e = ends_of(w, edge);
+    return (same_position(polygons, e.va, va) && same_position(polygons, e.vb, vb)) ||
+           (same_position(polygons, e.va, vb) && same_position(polygons, e.vb, va));
+}
+
+/* ------- listing ------- */
+
+/* Keys come from the tile's points where these are the corners, else from the vertices. */
+static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i,
+                       uint32_t first) {
+    if (!(p->flags & DP_POLYGON_CLIPPED)) return w->points[p->point + i].key;
+    return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
+}
+
+void dp_edge_list_polygon(dp_tile_worker *w, uint32_t index) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const dp_tile_polygon *const p = &w->polygons[index];
+    dp_edge_list *const list = &w->edges;
+    const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+    const uint32_t k0 = key_of(w, p, 0, first);
+    uint32_t ka = k0;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t next = i + 1 == n ? 0 : i + 1, kb = next ? key_of(w, p, next, first) : k0,
+                       at = list->count;
+        const bool real =
+            ka != kb || !same_position(polygons, dp_corner_vertex(polygons, first + i),
+                                       dp_corner_vertex(polygons, first + next));
+        list->polygon[at] = index, list->edge[at] = i;
+        list->from[at] = ka, list->name[at] = ka ^ kb;
+        list->count +=
+            real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i);
+        ka = kb;
+    }
+    w->unsure[w->unsure_count] = index;
+    w->unsure_count += w->normals[index][3] > DP_AWAY;
+}
+
+static bool reserve_list(dp_tile_worker *w, size_t edges) {
+    return edges < DP_SLOT_MORE && DP_WORKER_RESERVE(w, edges.polygon, edges.polygon_cap, edges) &&
+           DP_WORKER_RESERVE(w, edges.edge, edges.edge_cap, edges) &&
+           DP_WORKER_RESERVE(w, edges.from, edges.from_cap, edges) &&
+           DP_WORKER_RESERVE(w, edges.name, edges.name_cap, edges) &&
+           DP_WORKER_RESERVE(w, unsure, unsure_cap, (size_t)w->seen_count + DP_EDGES_ROOM);
+}
+
+/* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices,
+ * or more; half as many where they are far. */
+static const uint32_t UMBRELLAS = DP_TUNED(2, 1);
+
+static bool reserve_umbrellas(dp_tile_worker *w) {
+    const uint64_t least = (uint64_t)UMBRELLAS * w->seen_count;
+    uint32_t bits = 4;
+    while (bits < 31 && (uint64_t)1 << bits < least) bits++;
+    if ((uint64_t)sizeof(dp_umbrella) << bits > DP_UMBRELLAS_FAR) bits--;
+    w->umbrella_shift = 32 - bits;
+    return DP_WORKER_RESERVE(w, umbrellas, umbrellas_cap, (size_t)1 << bits);
+}
+
+static bool make_list(dp_tile_worker *w) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    dp_edge_list *const list = &w->edges;
+    size_t corners = 3 * (size_t)w->seen_count;
+    if (polygons->firsts) {
+        corners = 0;
+        for (uint32_t i = 0; i < w->seen_count; i++)
+            corners += dp_corner_count(polygons, w->polygons[w->seen[i]].id);
+    }
+    list->count = w->unsure_count = w->calm_edges = 0;
+    if (!reserve_list(w, corners + DP_EDGES_ROOM)) return false;
+    if (!polygons->firsts && !polygons->edge_flags) {
+        if (!reserve_umbrellas(w)) return false;
+        w->frame->kernels->list_edges(w);
+    } else {
+        for (uint32_t i = 0; i < w->seen_count; i++) dp_edge_list_polygon(w, w->seen[i]);
+    }
+    for (uint32_t i = 0; i < DP_EDGES_ROOM; i++)
+        list->from[list->count + i] = list->name[list->count + i] = 0;
+    return true;
+}
+
+/* ------- entering ------- */
+
+/* Made of the sum of both ends' keys, as the name is of their exclusive or: the same from either
+ * end. */
+static inline uint32_t place_of(uint32_t from, uint32_t name, uint32_t slots) {
+    const uint32_t sum = from + (from ^ name);
+    return (uint32_t)((uint64_t)(sum * 0x9e3779b1u) * slots >> 32);
+}
+
+static inline uint32_t met_at(dp_edge_slot slot) { return (uint32_t)(slot >> 32); }
+
+/* The edge of the list that came first to a slot. */
+static uint32_t first_of(const dp_tile_worker *w, uint32_t met) {
+    return met & DP_SLOT_PAIR ? w->pair_first[met & DP_SLOT_NUMBER] : met - 1;
+}
+
+static bool is_same_edge(const dp_edge_list *list, uint32_t a, uint32_t b) {
+    return list->name[a] == list->name[b] &&
+           (list->from[a] == list->from[b] || list->from[a] == (list->from[b] ^ list->name[b]));
+}
+
+/* A third or later polygon at an edge. */
+static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
+    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u) ||
+        !DP_WORKER_RESERVE(w, slot_meetings, slot_meetings_cap, w->slot_count))
+        return;
+    const uint32_t met = met_at(w->edge_slots[slot]);
+    w->meetings[w->meeting_count] =
+        (dp_meeting){first_of(w, met), number, met & DP_SLOT_MORE ? w->slot_meetings[slot] : 0};
+    w->slot_meetings[slot] = ++w->meeting_count;
+    w->edge_slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
+}
+
+/* Compilers know nothing of the value, so that they make no branches of what is computed from
+ * it. */
+#define OPAQUE(value) __asm__("" : "+r"(value))
+
+/* Of names so much is compared at first: all of it, or so little that most tables are filled
+ * again. */
+static const uint32_t COMPARED = DP_TUNED(UINT32_MAX, 15);
+
+/* Is the slot taken by another edge? */
+static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot, uint32_t name) {
+    uint32_t other =
+        (uint32_t)(met_at(slot) != 0) & (uint32_t)((((uint32_t)slot ^ name) & COMPARED) != 0);
+    OPAQUE(other);
+    return other;
+}
+
+/* The first look for an edge: at the slot that is its place and, where another edge has that, at
+ * the next. */
+static inline __attribute__((always_inline)) uint32_t
+first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t from, uint32_t name) {
+    const uint32_t s = place_of(from, name, count);
+    return s + is_other(slots[s], name); /* the last slot is nobody's place */
+}
+
+/* The slot of edge `number`, or a free one, from `s` on. Unless `exact` it may be that of another
+ * edge of equal name. */
+static inline __attribute__((always_inline)) uint32_t
+find_slot(const dp_tile_worker *w, const dp_edge_slot *slots, uint32_t count, uint32_t s,
+          uint32_t number, uint32_t name, const bool exact) {
+    while (is_other(slots[s], name) ||
+           (exact && slots[s] && !is_same_edge(&w->edges, first_of(w, met_at(slots[s])), number)))
+        s = s == count ? 0 : s + 1;
+    return s;
+}
+
+enum { AHEAD = 8 };
+
+/* Enters all edges of the list: each takes a slot or meets the one that is there. Which of
+ * the two it is cannot be foreseen, so no branch asks: both are written, selected. Some are looked
+ * for before the first of them is entered: where it comes to lie, they find out when their turn
+ * comes. */
+static inline __attribute__((always_inline)) void enter_all(dp_tile_worker *w, const bool exact) {
+    const dp_edge_list *const list = &w->edges;
+    const uint32_t *const starts = list->from, *const names = list->name, count = list->count,
+                          last = w->slot_count - 1;
+    dp_edge_slot *const slots = w->edge_slots;
+    uint32_t *const first = w->pair_first, *const second = w->pair_second, pairs = 0;
+    for (uint32_t start = 0; start < count; start += AHEAD) {
+        uint32_t look[AHEAD];
+        for (uint32_t k = 0; k < AHEAD; k++)
+            look[k] = first_slot(slots, last, starts[start + k], names[start + k]);
+        for (uint32_t k = 0; k < AHEAD && start + k < count; k++) {
+            const uint32_t i = start + k, name = names[i];
+            const uint32_t at = find_slot(w, slots, last, look[k], i, name, exact),
+                           met = met_at(slots[at]);
+            if (met & DP_SLOT_PAIR) {
+                add_meeting(w, at, i);
+                continue;
+            }
+            uint32_t is_free = !met;
+            OPAQUE(is_free);
+            first[pairs] = met - 1, second[pairs] = i;
+            const uint32_t paired = DP_SLOT_PAIR | pairs,
+                           meets = paired ^ ((paired ^ (i + 1)) & (0 - is_free));
+            slots[at] = name | (dp_edge_slot)meets << 32;
+            pairs += 1 - is_free;
+        }
+    }
+    w->edge_pairs = pairs;
+}
+
+static bool clear_table(dp_tile_worker *w) {
+    const size_t count = w->edges.count, slots = count + count / 2 + 64,
+                 marks = (count + 8) / 8 * 8;
+    if (slots >= UINT32_MAX || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
+        !DP_WORKER_RESERVE(w, edge_marks, edge_marks_cap, marks) ||
+        !DP_WORKER_RESERVE(w, pair_first, pair_first_cap, count / 2 + DP_EDGES_ROOM) ||
+        !DP_WORKER_RESERVE(w, pair_second, pair_second_cap, count / 2 + DP_EDGES_ROOM))
+        return false;
+    w->meeting_count = w->edge_pairs = 0;
+    w->slot_count = (uint32_t)slots;
+    memset(w->edge_slots, 0, slots * sizeof *w->edge_slots);
+    memset(w->edge_marks, DP_MARK_ALONE, count);
+    memset(w->edge_marks + count, 0, marks - count);
+    return true;
+}
+
+/* Meetings are few, and seldom of another edge. */
+static bool are_meetings_sound(const dp_tile_worker *w) {
+    for (uint32_t i = 0; i < w->meeting_count; i++)
+        if (!is_same_edge(&w->edges, w->meetings[i].first, w->meetings[i].number)) return false;
+    return true;
+}
+
+static bool fill(dp_tile_worker *w, bool exact) {
+    if (!clear_table(w)) return !(w->failed = true);
+    if (exact)
+        enter_all(w, true);
+    else
+        enter_all(w, false);
+    return !w->failed;
+}
+
+bool dp_edge_table_list(dp_tile_worker *w) { return make_list(w) || !(w->failed = true); }
+
+bool dp_edge_table_fill(dp_tile_worker *w) {
+    if (!fill(w, false)) return false;
+    if (!w->frame->kernels->flatten(w) || !are_meetings_sound(w)) {
+        if (!fill(w, true)) return false;
+        w->frame->kernels->flatten(w);
+    }
+    w->stats.edges_resolved += w->edge_pairs + w->calm_edges / 2;
+    for (uint32_t i = 0; i < w->meeting_count; i++)
+        w->edge_marks[w->meetings[i].first] = DP_MARK_PAIR,
+        w->edge_marks[w->meetings[i].number] = 0;
+    w->frame->kernels->unmark_alone(w);
+    return true;
+}
+
+/* ------- taking ------- */
+
+uint32_t dp_edge_table_next(const dp_tile_worker *w, uint32_t number) {
+    while (number < w->edges.count) {
+        uint64_t word;
+        memcpy(&word, w->edge_marks + number / 8 * 8, sizeof word);
+        if (!word) {
+            number = (number / 8 + 1) * 8;
+        } else {
+            if (w->edge_marks[number]) return number;
+            number++;
+        }
+    }
+    return UINT32_MAX;
+}
+
+dp_edge_entry dp_edge_table_entry(const dp_tile_worker *w, uint32_t number) {
+    const dp_edge_list *const list = &w->edges;
+    const dp_edge_place a = dp_edge_place_of(w, number);
+    const uint32_t name = list->name[number], last = w->slot_count - 1;
+    const uint32_t at =
+        find_slot(w, w->edge_slots, last, first_slot(w->edge_slots, last, list->from[number], name),
+                  number, name, true);
+    const uint32_t met = met_at(w->edge_slots[at]);
+    dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
+    if (!(met & DP_SLOT_PAIR)) return out;
+    const uint32_t second = w->pair_second[met & DP_SLOT_NUMBER];
+    const dp_edge_place b = dp_edge_place_of(w, second);
+    out.b = b.polygon, out.edge_b = b.edge;
+    out.more = met & DP_SLOT_MORE ? w->slot_meetings[at] : 0;
+    out.opposed = list->from[second] == (list->from[number] ^ list->name[number]);
+    return out;
+}

@@ -1,0 +1,321 @@
+/* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one
+ * depth.
+ *
+ * The paper's between-test finds them sample by sample; here it only says where to look. Where a
+ * face is rasterized and falls close to what a sample already holds, that is kept, and later the
+ * two planes are compared: if they cross within dp_watch_px of the sample, its pixel is a suspect.
+ * As the two frontmost surfaces meet at every visible sample of a crossing, whichever comes first,
+ * one pass finds all of them. Around suspects, all pairs of polygons are then tested exactly, and
+ * each crossing segment becomes a candidate line like an edge, with the same probes.
+ *
+ * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that
+ * what may meet one of them follows soon after it; bounding boxes and planes are compared many at
+ * once (find/meet.inc). */
+#include "kernel/kernels.h"
+#include "features/crossing.h"
+#include "raster/tile.h"
+
+#include <string.h>
+
+/* How many corner positions two polygons share (their keys are hashes: a false match costs one
+ * crossing in four thousand million). */
+static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t fa = dp_first_corner(polygons, a), na = dp_corner_count(polygons, a);
+    const uint32_t fb = dp_first_corner(polygons, b), nb = dp_corner_count(polygons, b);
+    uint32_t shared = 0;
+    for (uint32_t i = 0; i < na; i++) {
+        const uint32_t key = frame->vertices[dp_corner_vertex(polygons, fa + i)].key;
+        for (uint32_t j = 0; j < nb; j++)
+            shared += key == frame->vertices[dp_corner_vertex(polygons, fb + j)].key;
+    }
+    return shared;
+}
+
+static void suspect(dp_tile_worker *w, uint32_t lane, bool both_front) {
+    const uint32_t pixel = lane / w->sampling.samples;
+    w->suspects[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+}
+
+/* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
+ * steeply. */
+static void watch_unknown(dp_tile_worker *w, uint32_t i) {
+    const dp_close_samples *const close = &w->close;
+    const uint32_t lane = close->lane[i];
+    const bool away = w->away[lane / 64] >> lane % 64 & 1,
+               front = w->polygons[close->polygon[i]].flags & DP_POLYGON_FRONT;
+    if (away && !front) return;
+    if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_WATCH_GAP))) return;
+    suspect(w, lane, front && !away);
+}
+
+void dp_tile_watch(dp_tile_worker *w) {
+    dp_close_samples *const close = &w->close;
+    for (uint32_t i = 0; w->away && i < close->count; i++)
+        if (close->other[i] == UINT32_MAX) watch_unknown(w, i);
+    w->frame->kernels->cross(w);
+    for (uint32_t i = 0; i < close->count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[close->polygon[i]],
+                                     *const q = &w->polygons[close->other[i]];
+        if (!w->frame->polygons.firsts || !shared_corners(w->frame, p->id, q->id))
+            suspect(w, close->lane[i], p->flags & q->flags & DP_POLYGON_FRONT);
+    }
+    close->count = 0;
+}
+
+/* Pixels and their neighbours. False when there are none. */
+bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
+    const uint64_t all = ~(uint64_t)0 >> (64 - DP_TILE);
+    uint64_t any = 0;
+    for (int y = 0; y < DP_TILE; y++) {
+        uint64_t r = pixels[y];
+        if (y > 0) r |= pixels[y - 1];
+        if (y + 1 < DP_TILE) r |= pixels[y + 1];
+        out[y] = (r | r << 1 | r >> 1) & all;
+        any |= r;
+    }
+    return any;
+}
+
+/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds
+ * of fine meshes come close here and there. */
+void dp_drop_lone(uint64_t suspects[DP_TILE]) {
+    uint64_t kept[DP_TILE];
+    for (int y = 0; y < DP_TILE; y++) {
+        const uint64_t above = y > 0 ? suspects[y - 1] : 0,
+                       below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
+        const uint64_t rows = above | below, all = rows | suspects[y];
+        kept[y] = suspects[y] & (rows | all << 1 | all >> 1);
+    }
+    memcpy(suspects, kept, sizeof kept);
+}
+
+/* A front and a back face come close along every outline of a closed model. They cross in sight
+ * only where the back face is seen too: keeps the suspects near a pixel whose winner is a back
+ * face. */
+static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
+    uint64_t near[DP_TILE], backs[DP_TILE];
+    if (!dp_widen(suspects, near)) return;
+    w->frame->kernels->show_backs(w, near, backs);
+    dp_widen(backs, near);
+    for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
+}
+
+/* ------- pairs ------- */
+
+/* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes,
+ * as above. Others, and what is clipped, have none, and take `shared_corners`. */
+static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
+                        uint32_t *of_p, uint32_t *of_q) {
+    *of_p = *of_q = 0;
+    if ((p->flags | q->flags) & DP_POLYGON_CLIPPED || (p->points ^ 3) | (q->points ^ 3)) return;
+    const dp_vertex *const a = w->points + p->point, *const b = w->points + q->point;
+    for (uint32_t i = 0; i < 3; i++)
+        for (uint32_t j = 0; j < 3; j++) {
+            const uint32_t same = a[i].key == b[j].key;
+            *of_p |= same << i, *of_q |= same << j;
+        }
+}
+
+/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they
+ * share lie in it. */
+static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
+                      uint32_t shared) {
+    bool nearer = false, further = false;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_vertex at = w->points[p->point + i];
+        const float gap = at.d - dp_plane_at(q, at.x, at.y);
+        const bool apart = !(i < 3 && shared >> i & 1);
+        nearer |= apart & (gap >= 0), further |= apart & (gap <= 0);
+    }
+    return !(nearer & further);
+}
+
+/* Not in sight of each other's planes. */
+static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p,
+                       const dp_tile_polygon *q) {
+    uint32_t of_p, of_q;
+    find_shared(w, p, q, &of_p, &of_q);
+    if ((p->flags | q->flags) & DP_POLYGON_EDGE_ON) return false;
+    return is_beside(w, p, q, of_p) || is_beside(w, q, p, of_q);
+}
+
+static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
+    const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
+    if (are_beside(w, p, q) || shared_corners(w->frame, p->id, q->id) > 1) return;
+    dp_vec3 from, to, normal;
+    dp_spine spine;
+    if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
+    if (!dp_crossing_find(w->frame, p->id, q->id, &from, &to, &normal)) return;
+    if (!dp_spine_make(&w->frame->view, from, to, normal, &spine)) return;
+    dp_tile_add_candidate(w,
+                          (dp_candidate){.a = p->id,
+                                         .b = q->id,
+                                         .edge = DP_CROSSING,
+                                         .k1 = UINT32_MAX,
+                                         .line = DP_LINE_INTERSECTION},
+                          &spine, NULL);
+}
+
+/* ------- the crowd ------- */
+
+/* Pixels by rows, and which rows hold any. */
+typedef struct pixels {
+    uint64_t row[DP_TILE];
+    uint32_t first, last;
+} pixels;
+
+/* Suspects and what lies around them; false when there are none. */
+static bool look_around(const uint64_t suspects[DP_TILE], pixels *out) {
+    if (!dp_widen(suspects, out->row)) return false;
+    out->first = 0, out->last = DP_TILE - 1;
+    while (!out->row[out->first]) out->first++;
+    while (!out->row[out->last]) out->last--;
+    return true;
+}
+
+/* Does a polygon's box (dp_tile_polygon.box) hold any of these pixels? */
+static inline bool comes_near(uint32_t box, const pixels *near) {
+    const uint32_t x0 = box & 255, y0 = box >> 8 & 255, x1 = box >> 16 & 255, y1 = box >> 24;
+    const uint64_t span = (~(uint64_t)0 >> (63 - (x1 - x0))) << x0;
+    const uint32_t first = y0 > near->first ? y0 : near->first,
+                   last = y1 < near->last ? y1 : near->last;
+    for (uint32_t y = first; y <= last; y++)
+        if (near->row[y] & span) return true;
+    return false;
+}
+
+/* Suspects' surroundings, for front faces and for back faces. */
+typedef struct surroundings {
+    pixels front, back;
+    bool mixed; /* back faces have any */
+} surroundings;
+
+static const pixels *pixels_for(const surroundings *near, uint32_t flags) {
+    return flags & DP_POLYGON_FRONT ? &near->front : &near->back;
+}
+
+/* Do both polygons' boxes hold one of the pixels that are theirs? */
+static bool meet_near(const surroundings *near, const dp_tile_polygon *p,
+                      const dp_tile_polygon *q) {
+    const uint64_t span = dp_box_span(p) & dp_box_span(q);
+    const pixels *const of_p = pixels_for(near, p->flags), *const of_q = pixels_for(near, q->flags);
+    const uint32_t first = p->y0 > q->y0 ? p->y0 : q->y0, last = p->y1 < q->y1 ? p->y1 : q->y1;
+    for (uint32_t y = first; y <= last; y++)
+        if (of_p->row[y] & of_q->row[y] & span) return true;
+    return false;
+}
+
+/* Which cells hold any surroundings, and those after them: for a first look. */
+static void find_cells(const surroundings *near, dp_cell_bits cells) {
+    const uint32_t all = DP_CELLS * DP_CELLS;
+    memset(cells, 0, sizeof(dp_cell_bits));
+    for (uint32_t y = 0; y < DP_TILE; y++)
+        for (uint32_t x = 0; x < DP_CELLS; x++) {
+            const uint32_t at = x * DP_CELL, cell = y / DP_CELL * DP_CELLS + x;
+            const uint64_t columns = (uint64_t)((1 << DP_CELL) - 1) << at;
+            if (near->front.row[y] & columns) cells[0][0][cell] |= DP_NEAR_FRONT;
+            if (near->mixed && near->back.row[y] & columns) cells[0][0][cell] |= DP_NEAR_BACK;
+        }
+    for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
+        for (uint32_t i = 0; i < all; i++) cells[0][s][i] = cells[0][s - 1][i] | cells[0][0][i + s];
+    for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
+        for (uint32_t k = 0; k < DP_CELL_SPANS; k++)
+            for (uint32_t i = 0; i < all; i++)
+                cells[s][k][i] = cells[s - 1][k][i] | cells[0][k][i + s * DP_CELLS];
+}
+
+/* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their
+ * boxes. */
+static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon,
+                       uint32_t rows[DP_TILE + 1]) {
+    dp_crowd *const crowd = &w->crowd;
+    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX);
+    const uint32_t *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
+    dp_cell_bits cells;
+    find_cells(near, cells);
+    const uint32_t count = w->frame->kernels->come_near(w, &cells[0][0][0], polygon);
+    crowd->count = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
+        if (!near->mixed && !(flags[i] & DP_POLYGON_FRONT)) continue;
+        if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
+        polygon[crowd->count++] = w->seen[i];
+        rows[(boxes[i] >> 8 & 255) + 1]++;
+    }
+    const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
+    return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) &&
+           DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
+           DP_WORKER_RESERVE(w, crowd.members, crowd.members_cap, DP_CROWD_MEMBERS * room) &&
+           DP_WORKER_RESERVE(w, crowd.keys, crowd.keys_cap, 3 * room);
+}
+
+static void put_member(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
+    const size_t stride = w->crowd.stride;
+    float *const out = w->crowd.members + at;
+    const dp_vertex *const v = w->points + p->point;
+    const bool told = p->points == 3 && !(p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_EDGE_ON));
+    dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_f4 at_i = {v[i].x, v[i].y, v[i].d, 0};
+        least = dp_select(at_i < least, at_i, least), most = dp_select(at_i > most, at_i, most);
+        for (uint32_t k = 0; k < 3 && told; k++)
+            out[(DP_CROWD_CORNERS + 3 * i + k) * stride] = at_i[k];
+    }
+    for (uint32_t k = 0; k < 3; k++)
+        out[(DP_CROWD_LEAST + k) * stride] = least[k], out[(DP_CROWD_MOST + k) * stride] = most[k];
+    out[DP_CROWD_PLANE * stride] = told ? p->d0 : NAN;
+    out[(DP_CROWD_PLANE + 1) * stride] = p->dx, out[(DP_CROWD_PLANE + 2) * stride] = p->dy;
+}
+
+/* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
+ * their own, which match as seldom; they are told by `shared_corners`. */
+static void put_keys(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
+    const dp_crowd *const crowd = &w->crowd;
+    const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
+    for (uint32_t k = 0; k < 3; k++)
+        crowd->keys[k * (size_t)crowd->stride + at] =
+            known ? w->points[p->point + k].key : 3 * at + k;
+}
+
+/* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row
+ * starts. */
+static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
+    dp_crowd *const crowd = &w->crowd;
+    uint32_t next[DP_TILE];
+    crowd->stride = crowd->count + DP_CROWD_ROOM;
+    for (int y = 0; y < DP_TILE; y++) next[y] = rows[y], rows[y + 1] += rows[y];
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[polygon[i]];
+        const uint32_t at = next[p->y0]++;
+        crowd->polygon[at] = polygon[i];
+        put_member(w, p, at);
+        put_keys(w, p, at);
+    }
+}
+
+/* Each pair is tested once, when its upper polygon's turn has come, or the first one's of a row. */
+void dp_tile_intersections(dp_tile_worker *w) {
+    surroundings near;
+    dp_tile_watch(w);
+    keep_seen_back_faces(w, w->suspects[1]);
+    near.mixed = look_around(w->suspects[1], &near.back);
+    for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
+    dp_drop_lone(w->suspects[0]);
+    if (!look_around(w->suspects[0], &near.front)) return;
+    uint32_t rows[DP_TILE + 1] = {0};
+    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap,
+                           (size_t)w->seen_count + DP_CROWD_ROOM) ||
+        !list_crowd(w, &near, w->crowd.listed, rows))
+        return;
+    sort_crowd(w, w->crowd.listed, rows);
+    for (uint32_t i = 0; i < w->crowd.count && !w->failed; i++) {
+        const uint32_t a = w->crowd.polygon[i];
+        const uint32_t met = w->frame->kernels->meet(&w->crowd, i, rows[w->polygons[a].y1 + 1]);
+        for (uint32_t k = 0; k < met; k++) {
+            const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
+            if (meet_near(&near, &w->polygons[a], &w->polygons[b]))
+                test_pair(w, a < b ? a : b, a < b ? b : a);
+        }
+    }
+}

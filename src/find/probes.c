@@ -1,0 +1,238 @@
+/* Visibility of spines: sample points on them, hidden by whatever polygon covers them nearer.
+ *
+ * This is the depth test of the paper's emergent lines taken to the lines themselves: instead of
+ * asking at fixed samples which added polygon wins, every polygon of the tile is rasterized onto
+ * the points that matter (an irregular depth buffer). The answer is exact for edges far below a
+ * pixel and owes nothing to the number of samples.
+ *
+ * Data structure: the probes stay in the order in which they are made. Groups of them that follow
+ * each other along a spine, each with the box where they lie, are sorted by cells of the tile, so
+ * that those near a polygon follow each other; and the least limit in a few cells side by side
+ * tells that most polygons hide none. A spine's points belong to the tile whose pixel they lie in.
+ * Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
+#include "base/hostile.h"
+#include "kernel/kernels.h"
+#include "raster/tile.h"
+
+#include <string.h>
+
+/* The tile that owns a point, by the pixel it lies in: the same answer in every tile. */
+static bool owned(const dp_tile_worker *w, dp_pointd p) {
+    return p.x >= w->tile_x && p.y >= w->tile_y && p.x < w->tile_x + DP_TILE &&
+           p.y < w->tile_y + DP_TILE && p.x < w->frame->view.width && p.y < w->frame->view.height;
+}
+
+/* Cuts [*t0, *t1] to where from + t * (to - from) lies in [lo, hi]. */
+static void cut(double from, double to, double lo, double hi, double *t0, double *t1) {
+    const double step = to - from;
+    if (step == 0) {
+        if (from < lo || from > hi) *t1 = -1;
+        return;
+    }
+    const double a = (lo - from) / step, b = (hi - from) / step;
+    *t0 = dp_max(*t0, dp_min(a, b));
+    *t1 = dp_min(*t1, dp_max(a, b));
+}
+
+static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
+    return dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
+}
+
+/* So far inside that points between two such ones are the tile's too, however they are rounded. */
+static bool well_inside(const dp_tile_worker *w, dp_pointd p) {
+    const double slack = 1e-6, x = p.x - w->tile_x, y = p.y - w->tile_y;
+    const double width = dp_min(DP_TILE, (double)w->frame->view.width - w->tile_x),
+                 height = dp_min(DP_TILE, (double)w->frame->view.height - w->tile_y);
+    return x >= slack && y >= slack && x < width - slack && y < height - slack;
+}
+
+/* Which sample points may be the tile's: one more on either side than the cut says, and of most
+ * spines, which are short, all. */
+static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
+    if (well_inside(w, s->probe_a) && well_inside(w, s->probe_b)) return *k0 < *k1;
+    double t0 = 0, t1 = 1;
+    cut(s->probe_a.x, s->probe_b.x, w->tile_x, w->tile_x + DP_TILE, &t0, &t1);
+    cut(s->probe_a.y, s->probe_b.y, w->tile_y, w->tile_y + DP_TILE, &t0, &t1);
+    if (t0 > t1) return false;
+    const double lo = t0 * s->n - 1.5, hi = t1 * s->n + 2.5;
+    if (lo > *k0) *k0 = (uint32_t)lo;
+    if (hi < *k1) *k1 = (uint32_t)hi;
+    while (*k0 < *k1 && !owned(w, probe_point(s, *k0))) ++*k0;
+    while (*k0 < *k1 && !owned(w, probe_point(s, *k1 - 1))) --*k1;
+    return *k0 < *k1;
+}
+
+static bool reserve_probes(dp_tile_worker *w, size_t need) {
+    return DP_WORKER_RESERVE(w, probes.x, probe_x_cap, need) &&
+           DP_WORKER_RESERVE(w, probes.y, probe_y_cap, need) &&
+           DP_WORKER_RESERVE(w, probes.limit, probe_limit_cap, need);
+}
+
+/* Keeps what segments will be made of; where there are too many, that is found again. */
+static uint32_t keep_bones(dp_tile_worker *w, const dp_spine *spine, const dp_vec3 normals[2]) {
+    const uint32_t most = DP_TUNED((1u << 24) - 1, 100);
+    if (w->bone_count == most || !DP_WORKER_RESERVE(w, bones, bones_cap, w->bone_count + 1u))
+        return 0;
+    w->bones[w->bone_count++] = (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
+    return w->bone_count;
+}
+
+void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine,
+                           const dp_vec3 normals[2]) {
+    if (c.k1 > spine->n) c.k1 = spine->n;
+    if (!find_range(w, spine, &c.k0, &c.k1)) return;
+    if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
+        !reserve_probes(w, (size_t)w->probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
+        return;
+    c.n = spine->n;
+    c.probe = w->probe_count;
+    c.bones = (normals ? keep_bones(w, spine, normals) : 0) & 0xffffff;
+    w->candidates[w->candidate_count++] = c;
+    w->frame->kernels->points(w, spine, c.k0, c.k1, &w->probes, c.probe);
+    w->probe_count += c.k1 - c.k0;
+}
+
+/* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of
+ * two polygons that share an edge exactly one has it. */
+static bool left_of(dp_vertex a, dp_vertex b, float x, float y, bool flip) {
+    const bool swap = a.y > b.y || (a.y == b.y && a.x > b.x);
+    const dp_vertex s = swap ? b : a, t = swap ? a : b;
+    const double e =
+        ((double)t.x - s.x) * ((double)y - s.y) - ((double)t.y - s.y) * ((double)x - s.x);
+    return swap != flip ? e < 0 : e >= 0;
+}
+
+bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, float x, float y) {
+    const dp_vertex *const p = w->points + polygon->point;
+    const bool front = polygon->flags & DP_POLYGON_FRONT;
+    for (uint32_t i = 0; i < polygon->points; i++)
+        if (!left_of(p[i], p[i + 1 == polygon->points ? 0 : i + 1], x, y, front)) return false;
+    return true;
+}
+
+/* ------- groups ------- */
+
+/* Where a group's points lie, in quarters of a pixel, and the least of their limits. */
+typedef struct bounds {
+    uint32_t x0, y0, x1, y1;
+    float limit;
+} bounds;
+
+static uint32_t quarter_at(float px) {
+    return !(px > 0) ? 0 : px >= DP_TILE ? DP_QUARTERS - 1 : (uint32_t)(4 * px);
+}
+
+/* Of points along a spine: those at the ends tell, unless one is hidden. */
+static bounds bounds_of(const dp_probes *probes, uint32_t first, uint32_t last) {
+    const float la = probes->limit[first], lb = probes->limit[last];
+    const uint32_t xa = quarter_at(probes->x[first]), xb = quarter_at(probes->x[last]),
+                   ya = quarter_at(probes->y[first]), yb = quarter_at(probes->y[last]);
+    bounds b = {xa < xb ? xa : xb, ya < yb ? ya : yb, xa < xb ? xb : xa, ya < yb ? yb : ya,
+                dp_minf(la, lb)};
+    if (dp_maxf(la, lb) == INFINITY)
+        for (uint32_t i = first; i < last; i++) b.limit = dp_minf(b.limit, probes->limit[i]);
+    return b;
+}
+
+enum { CELL_QUARTERS = 4 * DP_CELL };
+
+/* Number of a candidate's last point in the group that begins with point `first`. */
+static uint32_t group_last(const dp_candidate *c, uint32_t first) {
+    const uint32_t end = c->probe + (c->k1 - c->k0);
+    return (end - first < DP_GROUP ? end : first + DP_GROUP) - 1;
+}
+
+static uint32_t cell_of(const bounds *b) {
+    return b->y0 / CELL_QUARTERS * DP_CELLS + b->x0 / CELL_QUARTERS;
+}
+
+/* The ends of cells go down to their starts. */
+static void put_group(dp_probe_groups *out, dp_probe_group group, const bounds *b) {
+    const uint32_t at = --out->first[cell_of(b)];
+    out->group[at] = group;
+    out->box[at] = b->x0 | b->y0 << 8 | (255 - b->x1) << 16 | (255 - b->y1) << 24;
+    out->limit[at] = b->limit;
+    if (b->x1 - b->x0 > out->width) out->width = b->x1 - b->x0;
+    if (b->y1 - b->y0 > out->height) out->height = b->y1 - b->y0;
+    for (uint32_t y = b->y0 / CELL_QUARTERS; y <= b->y1 / CELL_QUARTERS; y++)
+        for (uint32_t x = b->x0 / CELL_QUARTERS; x <= b->x1 / CELL_QUARTERS; x++) {
+            float *const least = &out->least[0][0][y * DP_CELLS + x];
+            *least = dp_minf(b->limit, *least);
+        }
+}
+
+static bool reserve_groups(dp_tile_worker *w, uint32_t count) {
+    const size_t room = (size_t)count + DP_PROBES_ROOM;
+    return DP_WORKER_RESERVE(w, groups.group, groups.group_cap, count) &&
+           DP_WORKER_RESERVE(w, groups.box, groups.box_cap, room) &&
+           DP_WORKER_RESERVE(w, groups.limit, groups.limit_cap, room);
+}
+
+/* Counts them by cell, or puts them there. */
+static void visit_groups(dp_tile_worker *w, bool counting) {
+    for (uint32_t k = 0; k < w->candidate_count; k++) {
+        const dp_candidate *const c = &w->candidates[k];
+        for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
+            const uint32_t last = group_last(c, i);
+            const bounds b = bounds_of(&w->probes, i, last);
+            if (b.limit == INFINITY) continue; /* all are hidden */
+            if (counting)
+                w->groups.first[cell_of(&b)]++;
+            else
+                put_group(&w->groups, (dp_probe_group){i, last + 1 - i, k}, &b);
+        }
+    }
+}
+
+/* Sorts them by cell (counting sort), and finds each cell's least limit. */
+static bool make_groups(dp_tile_worker *w) {
+    dp_probe_groups *const out = &w->groups;
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < DP_CELL_ROOM; i++) out->least[0][0][i] = INFINITY;
+    memset(out->first, 0, sizeof out->first);
+    out->width = out->height = 0;
+    visit_groups(w, true);
+    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) out->first[i] = sum += out->first[i];
+    out->first[DP_CELLS * DP_CELLS] = sum;
+    if (!reserve_groups(w, sum)) return false;
+    visit_groups(w, false);
+    return true;
+}
+
+static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
+    if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
+    w->pieces[w->piece_count++] =
+        (dp_piece){.a = c->a,
+                   .b = c->b,
+                   .edge = c->edge,
+                   .k0 = k0,
+                   .k1 = k1,
+                   .n = c->n,
+                   .bones = c->bones,
+                   .line = c->line,
+                   .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
+}
+
+/* Runs of visible sample points. */
+static void collect(dp_tile_worker *w, const dp_candidate *c) {
+    uint32_t start = c->k0;
+    for (uint32_t k = c->k0; k <= c->k1; k++) {
+        const bool visible = k < c->k1 && w->probes.limit[c->probe + (k - c->k0)] < INFINITY;
+        if (visible) continue;
+        if (k > start) add_piece(w, c, start, k);
+        start = k + 1;
+    }
+}
+
+void dp_tile_hide(dp_tile_worker *w) {
+    if (w->probe_count && make_groups(w)) w->frame->kernels->hide(w);
+}
+
+void dp_tile_collect(dp_tile_worker *w) {
+    for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
+}
+
+void dp_tile_probe(dp_tile_worker *w) {
+    dp_tile_hide(w);
+    dp_tile_collect(w);
+}

@@ -1,0 +1,377 @@
+/* Quads as ink: the paper's method whole. The added polygons are the line; nothing else is drawn.
+ *
+ * Every polygon of the tile goes through the primitive shaders (features/), and what they add is
+ * rasterized like any polygon, with depth tests that depend on its class and on style.between:
+ *
+ *   plane      silhouette and ridge polygons: nearest wins, over the finished faces. Valley quads
+ * and the faces themselves (intersections) are inked where they lie behind the surface and the two
+ *              planes cross within half a line width. Free of order.
+ *   interval   the paper's two depth buffers, z1 and z2 = z1 + offset, and between-test, in one
+ * pass over the polygons as they come; with passes = 2 the between-test waits for the finished z1.
+ *   stencil    pass 1 as for plane. Pass 2: valley quads before z1 count down in a stencil buffer;
+ *              pass 3: the same quads, moved nearer by the offset, count up. What is left is how
+ * many are trapped. One depth buffer, one stencil buffer, free of order (Raskar 2001, 7).
+ *
+ * Data structure: per sample, the ink that it holds (0: none, else class and group) and that ink's
+ * depth; for the interval test the same array is z1, of faces and lines. Faces keep their own
+ * depth, so that surface, distance and normal of the picture are those of the other inks. Not
+ * handled: a border has no quad of its own; it is drawn as a ridge. */
+#include "printed/quads.h"
+
+#include "features/features.h"
+
+#include <string.h>
+
+/* Added polygons are held off what they may touch, silhouettes and ridges behind it, valleys before
+ * it, by a few roundings of float32 depth: more would leave holes where both halves of a line meet.
+ * Two surfaces twice as close as that are one: duplicate polygons do not intersect. */
+static const double BIAS = 1, SAME = 2;
+static double hold_off(const dp_view *view, double d, double bias) {
+    return bias * (4e-7 * fabs(d) + fabs(dp_depth_step(view, d, 0.0005)));
+}
+
+/* A trapped fragment lies at most this many line widths behind the surface, in space. */
+static const double TRAP = 4;
+
+static dp_step step_of(const dp_view *view, double px) {
+    if (view->perspective) return (dp_step){(float)(1 - px / view->focal), 0};
+    return (dp_step){1, (float)(-px / view->focal)};
+}
+
+static uint32_t group_of(const dp_tile_worker *w, uint32_t polygon) {
+    const uint16_t *const groups = w->frame->polygons.groups;
+    const uint32_t group = groups ? groups[polygon] : 0;
+    return group < w->frame->style_count ? group : 0;
+}
+
+/* ------- what the lines of a group are drawn with ------- */
+
+typedef struct tool {
+    dp_pen pen;
+    dp_brush brush;
+    float reach; /* px, of what is added */
+} tool;
+
+/* All that depends on the style alone; polygons of one group mostly come together. */
+typedef struct outfit {
+    uint32_t group;
+    const dp_style *style;
+    tool tools[DP_LINE_COUNT];
+    /* what a polygon adds reaches so far on the screen, px, and so far towards the eye or the
+     * surface that traps it: to scale * d + offset; above 1 it is not told */
+    float reach;
+    double scale, offset;
+    bool may_hide;
+    double off[2]; /* hold_off is bias * (off[0] * |d| + off[1]) */
+} outfit;
+
+/* Ridges and valleys are drawn half from either side; the paper's one pass shows a valley on one
+ * side only, and gives it the whole width. */
+static dp_pen pen_of(const dp_style *style, dp_line line) {
+    const bool whole =
+        line == DP_LINE_SILHOUETTE ||
+        (line == DP_LINE_VALLEY && style->between == DP_BETWEEN_INTERVAL && style->passes == 1);
+    const float angle = line == DP_LINE_VALLEY ? style->valley_angle : style->ridge_angle;
+    return dp_pen_make(style->method, (double)style->line[line].width * (whole ? 1 : 0.5),
+                       (double)angle);
+}
+
+static void aim(dp_brush *b, const dp_style *style, dp_line line) {
+    const dp_view *const view = &b->w->frame->view;
+    const double width = (double)style->line[line].width, offset = (double)style->between_offset;
+    b->reach = (float)(width / 2);
+    b->trap = step_of(view, style->between == DP_BETWEEN_PLANE ? TRAP * width : offset);
+    b->nearer = step_of(view, -offset);
+}
+
+static void set_tool(dp_tile_worker *w, tool *t, const dp_style *style, uint32_t group,
+                     dp_line line) {
+    t->pen = pen_of(style, line);
+    t->reach =
+        (float)t->pen.reach * (t->pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1) + 1;
+    t->brush = (dp_brush){.w = w, .ink = dp_ink_of(line, group), .other = UINT32_MAX};
+    aim(&t->brush, style, line);
+}
+
+/* How far the widest line reaches. */
+static void set_reach(outfit *o, const dp_view *view) {
+    const dp_style *const style = o->style;
+    const bool paper = style->method == DP_METHOD_PAPER;
+    float width = 0;
+    for (int i = 0; i < DP_LINE_COUNT; i++) width = dp_maxf(width, style->line[i].width);
+    const double nearer = paper ? 1 / DP_PAPER_GRAZING : DP_STEEPEST;
+    const double trap =
+        style->between == DP_BETWEEN_PLANE ? TRAP * (double)width : (double)style->between_offset;
+    const double share =
+        (nearer * (double)width + trap + 1) / view->focal; /* of a pixel size's change of depth */
+    o->reach = width * (paper ? (float)DP_PAPER_MARGIN : 1) + 1;
+    o->may_hide = !view->perspective || share <= 0.5;
+    o->scale = view->perspective ? 1 / (1 - share) : 1;
+    o->offset = view->perspective ? 0 : share;
+}
+
+static void dress(dp_tile_worker *w, outfit *o, uint32_t group) {
+    const dp_view *const view = &w->frame->view;
+    o->group = group;
+    o->style = &w->frame->styles[group];
+    for (int line = 0; line < DP_LINE_COUNT; line++)
+        set_tool(w, &o->tools[line], o->style, group, (dp_line)line);
+    set_reach(o, view);
+    o->off[1] = hold_off(view, 0, 1);
+    o->off[0] = hold_off(view, 1, 1) - o->off[1];
+}
+
+/* ------- polygons through the primitive shaders ------- */
+
+/* One walk over the tile's polygons: how silhouettes, ridges and borders are filled, and how
+ * valleys are; NULL: they are not drawn in this pass. */
+typedef struct shading {
+    dp_tile_worker *w;
+    dp_fill *line, *valley;
+    outfit outfit;
+} shading;
+
+static void begin_shading(shading *pass, dp_tile_worker *w, dp_fill *line, dp_fill *valley) {
+    pass->w = w;
+    pass->line = line, pass->valley = valley;
+    dress(w, &pass->outfit, 0);
+}
+
+static uint32_t block_of(float px) {
+    return px <= 0 ? 0 : px >= DP_TILE - 1 ? DP_TILE / DP_BLOCK - 1 : (uint32_t)px / DP_BLOCK;
+}
+
+/* Nothing that the polygon adds can come out: all around it the surface is nearer by more than
+ * lines reach. */
+static bool is_hidden(const dp_tile_worker *w, const outfit *o, const dp_tile_polygon *p) {
+    if (!o->may_hide) return false;
+    const float limit = (float)((double)p->nearest * o->scale + o->offset);
+    const uint32_t x0 = block_of(p->x0 - o->reach), x1 = block_of(p->x1 + 1 + o->reach);
+    const uint32_t y0 = block_of(p->y0 - o->reach), y1 = block_of(p->y1 + 1 + o->reach);
+    for (uint32_t y = y0; y <= y1; y++)
+        for (uint32_t x = x0; x <= x1; x++)
+            if (w->farthest[0][0][y + 1][x + 1] <= limit) return false;
+    return true;
+}
+
+/* A polygon of the tile with its corners fetched; false: no memory. */
+static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const dp_tile_polygon *const p = &w->polygons[index];
+    const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
+    if (!DP_WORKER_RESERVE(w, world, world_cap, n) || !DP_WORKER_RESERVE(w, clip, clip_cap, n) ||
+        !DP_WORKER_RESERVE(w, screen_edges, screen_edges_cap, n))
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        w->world[i] = dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
+        w->clip[i] = dp_to_clip(&w->frame->view, w->world[i]);
+    }
+    *out = (dp_primitive){.view = &w->frame->view,
+                          .n = n,
+                          .world = w->world,
+                          .clip = w->clip,
+                          .edge_flags = polygons->edge_flags ? polygons->edge_flags + first : NULL,
+                          .normal = dp_polygon_normal(w->frame, p->id),
+                          .front = p->flags & DP_POLYGON_FRONT};
+    dp_screen_edges_make(out, w->screen_edges);
+    out->edges = w->screen_edges;
+    return true;
+}
+
+/* Screen to tile space, in float32 as the faces are, so that edges they share stay shared. */
+static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double bias,
+                       dp_fill *with) {
+    const dp_tile_worker *const w = b->w;
+    const float tile_x = (float)w->tile_x, tile_y = (float)w->tile_y;
+    dp_point points[DP_ADDED_POINTS];
+    double nearest = a->points[0].d;
+    for (uint32_t i = 0; i < a->count; i++) {
+        points[i] = (dp_point){(float)a->points[i].x - tile_x, (float)a->points[i].y - tile_y,
+                               (float)a->points[i].d};
+        nearest = dp_max(nearest, a->points[i].d);
+    }
+    for (int i = 0; i < 2; i++)
+        b->root[i] =
+            (dp_point){(float)(a->root[i].x - w->tile_x), (float)(a->root[i].y - w->tile_y), 0};
+    const double shift = -bias * (o->off[0] * fabs(nearest) + o->off[1]);
+    b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile_x + a->dy * w->tile_y + shift),
+                          (float)a->dx, (float)a->dy, (float)(a->nearest + shift)};
+    with(b, points, a->count);
+}
+
+/* Everything of one class that polygon `index` adds. */
+static void add_class(shading *pass, const dp_primitive *primitive, uint32_t index, dp_line line,
+                      dp_primitive_shader *shade, double bias, dp_fill *with) {
+    dp_tile_worker *const w = pass->w;
+    tool *const t = &pass->outfit.tools[line];
+    const bool folded = line != DP_LINE_SILHOUETTE && with == dp_fill_line;
+    t->brush.self = index;
+    for (uint32_t edge = 0; edge < primitive->n; edge++) {
+        dp_added added[DP_ADDED_MOST];
+        if (!dp_tile_edge_reaches(w, &w->polygons[index], edge, t->reach)) continue;
+        const uint32_t count = shade(primitive, edge, &t->pen, added);
+        for (uint32_t i = 0; i < count; i++)
+            fill_added(&t->brush, &pass->outfit, &added[i], bias,
+                       folded && added[i].joint ? dp_fill_joint : with);
+        w->stats.added_polygons += count;
+    }
+}
+
+/* Ridge quads show borders too: as ridges, or with ridges off in the borders' colour. */
+static void add_lines(shading *pass, uint32_t index) {
+    dp_tile_worker *const w = pass->w;
+    const dp_tile_polygon *const p = &w->polygons[index];
+    const uint32_t group = group_of(w, p->id);
+    if (group != pass->outfit.group) dress(w, &pass->outfit, group);
+    const bool front = p->flags & DP_POLYGON_FRONT;
+    const uint32_t drawn = (pass->line ? ~(uint32_t)DP_VALLEY : 0) | (pass->valley ? DP_VALLEY : 0);
+    const uint32_t lines = pass->outfit.style->lines & drawn;
+    dp_primitive primitive;
+    if (!(lines & (front ? DP_RIDGE | DP_BORDER | DP_VALLEY : DP_SILHOUETTE))) return;
+    if (is_hidden(w, &pass->outfit, p) || !fetch(w, index, &primitive)) return;
+    if (!front)
+        add_class(pass, &primitive, index, DP_LINE_SILHOUETTE, dp_shade_silhouette, BIAS,
+                  pass->line);
+    else if (lines & DP_RIDGE)
+        add_class(pass, &primitive, index, DP_LINE_RIDGE, dp_shade_ridge, BIAS, pass->line);
+    else if (lines & DP_BORDER)
+        add_class(pass, &primitive, index, DP_LINE_BORDER, dp_shade_ridge, BIAS, pass->line);
+    if (front && lines & DP_VALLEY)
+        add_class(pass, &primitive, index, DP_LINE_VALLEY, dp_shade_valley, -BIAS, pass->valley);
+}
+
+static void add_all(dp_tile_worker *w, dp_fill *line, dp_fill *valley) {
+    shading pass;
+    begin_shading(&pass, w, line, valley);
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) add_lines(&pass, i);
+}
+
+/* ------- faces ------- */
+
+static void fill_face(dp_brush *b, const dp_tile_polygon *p, dp_fill *with) {
+    b->plane = (dp_plane){p->d0, p->dx, p->dy, p->nearest};
+    const dp_vertex *const v = b->w->points + p->point;
+    for (uint32_t i = 2; i < p->points; i++) {
+        const dp_point triangle[3] = {dp_place(v[0]), dp_place(v[i - 1]), dp_place(v[i])};
+        with(b, triangle, 3);
+    }
+}
+
+/* The polygon itself as what is tested. `back` takes back faces too, where they are painted. */
+static void add_face(dp_tile_worker *w, uint32_t index, bool back, double bias, dp_fill *with) {
+    const dp_tile_polygon *const p = &w->polygons[index];
+    const uint32_t group = group_of(w, p->id);
+    const dp_style *const style = &w->frame->styles[group];
+    if (!(style->lines & DP_INTERSECTION) || !dp_is_surface(w, p)) return;
+    if (!back && !(p->flags & DP_POLYGON_FRONT)) return;
+    dp_brush b = {.w = w,
+                  .ink = dp_ink_of(DP_LINE_INTERSECTION, group),
+                  .self = index,
+                  .face = true,
+                  .other = UINT32_MAX};
+    aim(&b, style, DP_LINE_INTERSECTION);
+    dp_tile_polygon q = *p;
+    const float shift = (float)hold_off(&w->frame->view, (double)p->nearest, bias);
+    q.d0 -= shift, q.nearest -= shift;
+    fill_face(&b, &q, with);
+}
+
+static void add_faces(dp_tile_worker *w, bool back, double bias, dp_fill *with) {
+    if (!(w->frame->lines & DP_INTERSECTION)) return;
+    for (uint32_t i = 0; i < w->polygon_count; i++) add_face(w, i, back, bias, with);
+}
+
+/* ------- the three between-tests ------- */
+
+/* In one walk: a valley is inked on no line, and a line over any valley, whichever comes first. */
+static void between_planes(dp_tile_worker *w) {
+    add_all(w, dp_fill_line, dp_fill_between_planes);
+    add_faces(w, true, SAME, dp_fill_between_planes);
+}
+
+/* In submission order: the polygon, its silhouette or ridge, its valley. */
+static void between_depths_once(dp_tile_worker *w) {
+    shading pass;
+    begin_shading(&pass, w, dp_fill_interval, dp_fill_trap_in_interval);
+    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
+        const dp_tile_polygon *const p = &w->polygons[i];
+        const uint32_t group = group_of(w, p->id);
+        const dp_style *const style = &w->frame->styles[group];
+        if (dp_is_surface(w, p)) {
+            dp_brush b = {.w = w,
+                          .ink = dp_ink_of(DP_LINE_INTERSECTION, group),
+                          .face = true,
+                          .intersections =
+                              style->lines & DP_INTERSECTION && p->flags & DP_POLYGON_FRONT};
+            aim(&b, style, DP_LINE_INTERSECTION);
+            fill_face(&b, p, dp_fill_interval);
+        }
+        add_lines(&pass, i);
+    }
+}
+
+/* The finished z1: of faces, then of the lines that are polygons like any other. */
+static void between_depths_twice(dp_tile_worker *w) {
+    for (size_t i = 0; i < w->frame->tile_samples; i++)
+        w->ink_depth[i] = dp_maxf(w->ink_depth[i], w->depth[i]);
+    add_all(w, dp_fill_interval, NULL);
+    add_all(w, NULL, dp_fill_trap_in_interval);
+    add_faces(w, false, SAME, dp_fill_trap_in_interval);
+}
+
+/* Inks where anything is trapped and no nearer line is; the colour is that of the surface's group.
+ * Clears the stencil. */
+static void ink_stencil(dp_tile_worker *w, dp_line line) {
+    for (size_t i = 0; i < w->frame->tile_samples; i++) {
+        const uint8_t count = w->stencil[i];
+        w->stencil[i] = 0;
+        if (!count || w->winner[i] == UINT32_MAX) continue;
+        if (w->ink[i] & DP_INK_ADDED) continue;
+        w->ink[i] = dp_ink_of(line, group_of(w, w->polygons[w->winner[i]].id));
+    }
+}
+
+static void between_by_stencil(dp_tile_worker *w) {
+    add_all(w, dp_fill_line, NULL);
+    if (w->frame->lines & DP_VALLEY) {
+        add_all(w, NULL, dp_fill_count_down);
+        add_all(w, NULL, dp_fill_count_up);
+        ink_stencil(w, DP_LINE_VALLEY);
+    }
+    if (w->frame->lines & DP_INTERSECTION) {
+        add_faces(w, false, -SAME,
+                  dp_fill_count_down); /* the surface itself and its duplicates too */
+        add_faces(w, false, 0, dp_fill_count_up);
+        ink_stencil(w, DP_LINE_INTERSECTION);
+    }
+}
+
+/* ------- the picture ------- */
+
+static bool begin(dp_tile_worker *w) {
+    const size_t n = w->frame->tile_samples;
+    if (!DP_WORKER_RESERVE(w, ink, ink_cap, n) ||
+        !DP_WORKER_RESERVE(w, ink_depth, ink_depth_cap, n) ||
+        !DP_WORKER_RESERVE(w, stencil, stencil_cap, n))
+        return false;
+    memset(w->ink, 0, n * sizeof *w->ink);
+    memset(w->stencil, 0, n);
+    /* nothing lies beyond infinity, where a steep plane in perspective may lead */
+    const float farthest = w->frame->view.perspective ? 0 : DP_DEPTH_EMPTY;
+    for (size_t i = 0; i < n; i++) w->ink_depth[i] = farthest;
+    return true;
+}
+
+void dp_tile_quads(dp_tile_worker *w) {
+    const dp_style *const style = &w->frame->styles[0];
+    if (!w->polygon_count || !begin(w)) return;
+    if (style->between == DP_BETWEEN_PLANE)
+        between_planes(w);
+    else if (style->between == DP_BETWEEN_STENCIL)
+        between_by_stencil(w);
+    else if (style->passes == 1)
+        between_depths_once(w);
+    else
+        between_depths_twice(w);
+    dp_quads_put(w);
+}

@@ -1,0 +1,260 @@
+/* Inking strokes: round-ended capsules with analytic anti-aliasing, over the surface.
+ *
+ * Coverage of a pixel is the overlap of a one pixel wide box, moved across the stroke, with the
+ * stroke's width: exact for straight strokes, and the same on both sides of a joint. Strokes of one
+ * class and colour are united by the largest coverage, so that joints of many short segments show
+ * no seams; then each class is laid over the picture in the order of dp_layers.
+ *
+ * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke
+ * the surface may come nearer (a valley's sides) and still belong to it; and what lies behind the
+ * planes of the polygons that meet at the spine does, as a rounded outline does. It is cut so where
+ * outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
+ * looks like a defect, and strokes end round. */
+#include "strokes/stroke.h"
+
+#include "kernel/kernels.h"
+#include "core/blend.h"
+#include "raster/samples.h"
+
+#include <string.h>
+
+/* From the bottom up: where lines cross, outlines lie over creases. */
+const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
+                                          DP_LINE_BORDER, DP_LINE_SILHOUETTE};
+
+dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
+    const float r = s->half_width + 1;
+    const float x0 = dp_minf(s->a.x, s->b.x) - r, x1 = dp_maxf(s->a.x, s->b.x) + r;
+    const float y0 = dp_minf(s->a.y, s->b.y) - r, y1 = dp_maxf(s->a.y, s->b.y) + r;
+    if (!(x1 > x0 && y1 > y0)) return (dp_tile_rect){0};
+    return (dp_tile_rect){(int16_t)floorf(x0 / DP_TILE),
+                          (int16_t)floorf(y0 / DP_TILE),
+                          (int16_t)(floorf(x1 / DP_TILE) + 1),
+                          (int16_t)(floorf(y1 / DP_TILE) + 1),
+                          0,
+                          0};
+}
+
+static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
+    const dp_frame *const frame = arg;
+    (void)worker;
+    for (uint32_t i = 0; i < count; i++) rects[i] = dp_stroke_rect(&frame->strokes[first + i]);
+}
+
+static float distance_to(const dp_stroke *s, float x, float y, float *t) {
+    const float ex = s->b.x - s->a.x, ey = s->b.y - s->a.y;
+    const float length2 = ex * ex + ey * ey;
+    const float along = length2 > 0 ? ((x - s->a.x) * ex + (y - s->a.y) * ey) / length2 : 0;
+    *t = dp_minf(dp_maxf(along, 0), 1);
+    const float dx = x - s->a.x - *t * ex, dy = y - s->a.y - *t * ey;
+    return sqrtf(dx * dx + dy * dy);
+}
+
+static bool touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker) {
+    const dp_frame *const frame = arg;
+    const dp_stroke *const s = &frame->strokes[index];
+    (void)worker;
+    float t;
+    const float half = DP_TILE * 0.5f;
+    const float d =
+        distance_to(s, ((float)tile_x + 0.5f) * DP_TILE, ((float)tile_y + 0.5f) * DP_TILE, &t);
+    return d <= half * 1.4143f + s->half_width + 1;
+}
+
+bool dp_bin_strokes(dp_frame *frame) {
+    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->segment_count, frame->tiles_x,
+                        frame->tiles_y, place, touches, frame, frame->threads, frame->memory);
+}
+
+typedef struct tile_ink {
+    const dp_frame *frame;
+    dp_ink_worker *worker;
+    const float *depth; /* the tile's samples; NULL: there is no surface */
+    bool hides;         /* strokes are cut where the surface hides them */
+    uint32_t x0, y0;    /* px of the tile's corner */
+    uint32_t x1, y1;    /* of its end, within the picture */
+} tile_ink;
+
+/* Share of a pixel's samples that lie no nearer than `limit`. */
+static float share_behind(const float *depth, uint32_t samples, float limit) {
+    if (samples == 1) return *depth <= limit;
+    dp_i4 sum = {0, 0, 0, 0};
+    for (uint32_t i = 0; i < samples; i += 4)
+        sum -= *(const dp_f4 *)(const void *)(depth + i) <= dp_splat(limit);
+    return (float)(sum[0] + sum[1] + sum[2] + sum[3]) / (float)samples;
+}
+
+static const float *depth_of(const float *tile_depth, uint32_t px, uint32_t py, uint32_t samples) {
+    return tile_depth + (size_t)(py * DP_TILE + px) * samples;
+}
+
+float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0,
+                       const dp_stroke *s, uint32_t x, uint32_t y, float t, float distance) {
+    if (!tile_depth || !(frame->lines & DP_SILHOUETTE)) return 1;
+    const uint32_t samples = frame->target.samples;
+    const float limit = dp_stroke_limit(frame, s, (float)x + 0.5f, (float)y + 0.5f, t, distance);
+    return share_behind(depth_of(tile_depth, x - x0, y - y0, samples), samples, limit);
+}
+
+/* Columns of the rows from y0 to y1 that the stroke can reach: the part of the spine within r of
+ * them, widened by r. */
+static bool rows_span(const dp_stroke *s, float y0, float y1, float r, float *x0, float *x1) {
+    const float ey = s->b.y - s->a.y;
+    float t0 = 0, t1 = 1;
+    if (fabsf(ey) > 1e-6f) {
+        const float u = (y0 - r - s->a.y) / ey, v = (y1 + r - s->a.y) / ey;
+        t0 = dp_maxf(0, dp_minf(u, v)), t1 = dp_minf(1, dp_maxf(u, v));
+        if (t0 > t1) return false;
+    }
+    const float p = s->a.x + (s->b.x - s->a.x) * t0, q = s->a.x + (s->b.x - s->a.x) * t1;
+    *x0 = dp_minf(p, q) - r, *x1 = dp_maxf(p, q) + r;
+    return true;
+}
+
+static uint32_t clamp_to(float v, uint32_t lo, uint32_t hi) {
+    return v <= (float)lo ? lo : v >= (float)hi ? hi : (uint32_t)v;
+}
+
+/* Rows of the tile that a stroke may reach: from *y0 to before *y1. */
+static void find_rows(const tile_ink *ink, const dp_stroke *s, uint32_t *y0, uint32_t *y1) {
+    const float r = s->half_width + 0.5f;
+    *y0 = clamp_to(dp_minf(s->a.y, s->b.y) - r, ink->y0, ink->y1);
+    *y1 = clamp_to(dp_maxf(s->a.y, s->b.y) + r + 1, ink->y0, ink->y1);
+}
+
+/* Asks for the samples under a stroke, of which most are short: so many pixels of each row, as far
+ * apart as a line of the cache at four samples a pixel. They lie scattered, and long ago they were
+ * drawn. */
+static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
+    enum { APART = 4, MOST = 4 };
+    uint32_t y0, y1;
+    find_rows(ink, s, &y0, &y1);
+    const uint32_t x0 = clamp_to(dp_minf(s->a.x, s->b.x) - s->half_width, ink->x0, ink->x1 - 1);
+    const uint32_t x1 = clamp_to(dp_maxf(s->a.x, s->b.x) + s->half_width, ink->x0, ink->x1 - 1);
+    const uint32_t from = x0 / APART, to = x1 / APART < from + MOST ? x1 / APART : from + MOST - 1;
+    for (uint32_t y = y0; y < y1; y++)
+        for (uint32_t k = from; k <= to; k++)
+            __builtin_prefetch(
+                depth_of(ink->depth, k * APART - ink->x0, y - ink->y0, ink->frame->target.samples));
+}
+
+/* Patch by patch, as many rows at a time as one has. */
+static void cover(const tile_ink *ink, const dp_stroke *s) {
+    uint32_t y0, y1;
+    find_rows(ink, s, &y0, &y1);
+    dp_ink_patch patch = {
+        .tile_x = ink->x0, .tile_y = ink->y0, .depth = ink->hides ? ink->depth : NULL};
+    for (uint32_t y = y0; y < y1; y += DP_PATCH) {
+        const uint32_t bottom = y + DP_PATCH < y1 ? y + DP_PATCH : y1;
+        float from, to;
+        if (!rows_span(s, (float)y + 0.5f, (float)bottom - 0.5f, s->half_width + 1, &from, &to))
+            continue;
+        const uint32_t x0 = clamp_to(from, ink->x0, ink->x1),
+                       x1 = clamp_to(to + 1, ink->x0, ink->x1);
+        patch.y0 = y - ink->y0, patch.y1 = bottom - ink->y0;
+        for (uint32_t x = x0; x < x1; x += DP_PATCH) {
+            patch.x0 = x - ink->x0;
+            patch.x1 = (x + DP_PATCH < x1 ? x + DP_PATCH : x1) - ink->x0;
+            ink->frame->kernels->cover(ink->frame, s, &patch, ink->worker);
+        }
+    }
+}
+
+/* Lays what is covered over the picture and forgets it. */
+static void flush(const tile_ink *ink, dp_line line, dp_color color) {
+    const dp_target *const target = &ink->frame->target;
+    for (uint32_t py = 0; py < DP_TILE; py++) {
+        const uint64_t pixels = ink->worker->row[py];
+        const float *const coverage = &ink->worker->coverage[py * DP_TILE];
+        const size_t y = ink->y0 + py;
+        if (!pixels) continue;
+        if (target->rgba)
+            ink->frame->kernels->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
+                                     ink->x1 - ink->x0, coverage, pixels, color);
+        for (uint64_t bits = target->line_class ? pixels : 0; bits; bits &= bits - 1) {
+            const uint32_t px = (uint32_t)__builtin_ctzll(bits);
+            if (coverage[px] >= 0.5f)
+                target->line_class[y * target->width + ink->x0 + px] = (uint8_t)(1 + line);
+        }
+        ink->worker->row[py] = 0;
+    }
+}
+
+bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, size_t *count) {
+    const dp_bins *const bins = &frame->stroke_bins;
+    *count = 0;
+    if (!dp_reserve(frame->memory, &w->strokes, &w->strokes_cap, dp_bins_tile_count(bins, tile),
+                    sizeof *w->strokes))
+        return false;
+    for (uint32_t c = 0; c < bins->chunk_count; c++) {
+        const dp_bin_chunk *const chunk = &bins->chunks[c];
+        for (uint32_t i = chunk->offsets[tile]; i < chunk->offsets[tile + 1]; i++)
+            w->strokes[(*count)++] = chunk->entries[i];
+    }
+    return true;
+}
+
+/* So many strokes ahead they, and the samples under them, are asked for. */
+enum { LATER = 12, SOON = 4 };
+
+/* Puts the tile's strokes in the order of their classes, each class's as they came: `first` is
+ * where each begins, by dp_line. */
+static bool sort_strokes(const dp_frame *frame, dp_ink_worker *w, size_t count,
+                         size_t first[DP_LINE_COUNT + 1]) {
+    if (!dp_reserve(frame->memory, &w->sorted, &w->sorted_cap, count, sizeof *w->sorted))
+        return false;
+    size_t next[DP_LINE_COUNT] = {0}, sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i + LATER < count) __builtin_prefetch(&frame->strokes[w->strokes[i + LATER]]);
+        next[frame->strokes[w->strokes[i]].line]++;
+    }
+    for (int k = 0; k < DP_LINE_COUNT; k++) {
+        const size_t n = next[k];
+        first[k] = next[k] = sum;
+        sum += n;
+    }
+    first[DP_LINE_COUNT] = sum;
+    for (size_t i = 0; i < count; i++)
+        w->sorted[next[frame->strokes[w->strokes[i]].line]++] = w->strokes[i];
+    return true;
+}
+
+/* Strokes of one class. */
+static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count, dp_line line) {
+    dp_color color = 0;
+    for (size_t i = 0; i < count; i++) {
+        const dp_stroke *const s = &ink->frame->strokes[strokes[i]];
+        if (i + SOON < count && ink->hides)
+            ask_for_samples(ink, &ink->frame->strokes[strokes[i + SOON]]);
+        if (i && s->color != color) flush(ink, line, color);
+        color = s->color;
+        cover(ink, s);
+    }
+    if (count) flush(ink, line, color);
+}
+
+void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
+    size_t count, first[DP_LINE_COUNT + 1];
+    if (!dp_fetch_strokes(frame, worker, tile, &count) ||
+        !sort_strokes(frame, worker, count, first)) {
+        worker->failed = true;
+        return;
+    }
+    if (!count) return;
+    const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
+    const dp_target *const target = &frame->target;
+    const bool bare = frame->tile_pieces[tile].bare;
+    const tile_ink ink = {.frame = frame,
+                          .worker = worker,
+                          .depth = bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
+                          .hides = !bare && frame->lines & DP_SILHOUETTE,
+                          .x0 = x0,
+                          .y0 = y0,
+                          .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
+                          .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
+    memset(worker->row, 0, sizeof worker->row);
+    for (int i = 0; i < DP_LINE_COUNT; i++) {
+        const dp_line line = dp_layers[i];
+        ink_layer(&ink, worker->sorted + first[line], first[line + 1] - first[line], line);
+    }
+}
