@@ -51,7 +51,7 @@ typedef struct dp_tile_worker dp_tile_worker; /* tile.h */
 typedef struct dp_frame {
     const dp_allocator *memory;
     dp_threads *threads;
-    const struct dp_kernels *kernels;
+    uint32_t lanes; /* of the vectors that kernels use (kernel/kernels.h) */
     dp_view view;
     float
         nearly_edge_on; /* px: a polygon this thin on the screen needs a second look (outline.h) */

@@ -134,7 +134,7 @@ static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *
 /* What kernels need of the view, in float32. */
 static void begin_view(dp_frame *f) {
     const float size = (float)(1 / f->view.focal);
-    f->kernels = dp_kernels_best();
+    f->lanes = dp_lanes_best();
     f->culls_backs =
         f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
     f->nearly_edge_on = dp_nearly_edge_on(&f->view);

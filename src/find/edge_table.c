@@ -21,7 +21,7 @@
 #include "find/edge_table.h"
 
 #include "base/hostile.h"
-#include "kernel/kernels.h"
+#include "find/kernels.h"
 
 #include <string.h>
 
@@ -126,7 +126,7 @@ static bool make_list(dp_tile_worker *w) {
     if (!reserve_list(w, corners + DP_EDGES_ROOM)) return false;
     if (!polygons->firsts && !polygons->edge_flags) {
         if (!reserve_umbrellas(w)) return false;
-        w->frame->kernels->list_edges(w);
+        dp_find_kernels_for(w->frame->lanes)->list_edges(w);
     } else {
         for (uint32_t i = 0; i < w->seen_count; i++) dp_edge_list_polygon(w, w->seen[i]);
     }
@@ -275,15 +275,15 @@ bool dp_edge_table_list(dp_tile_worker *w) { return make_list(w) || !(w->failed 
 
 bool dp_edge_table_fill(dp_tile_worker *w) {
     if (!fill(w, false)) return false;
-    if (!w->frame->kernels->flatten(w) || !are_meetings_sound(w)) {
+    if (!dp_find_kernels_for(w->frame->lanes)->flatten(w) || !are_meetings_sound(w)) {
         if (!fill(w, true)) return false;
-        w->frame->kernels->flatten(w);
+        dp_find_kernels_for(w->frame->lanes)->flatten(w);
     }
     w->stats.edges_resolved += w->edge_pairs + w->calm_edges / 2;
     for (uint32_t i = 0; i < w->meeting_count; i++)
         w->edge_marks[w->meetings[i].first] = DP_MARK_PAIR,
         w->edge_marks[w->meetings[i].number] = 0;
-    w->frame->kernels->unmark_alone(w);
+    dp_find_kernels_for(w->frame->lanes)->unmark_alone(w);
     return true;
 }
 

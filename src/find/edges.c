@@ -4,7 +4,8 @@
  * Nearly all edges are flat, which the table tells (edge_table.c); here come those that may be
  * lines. Two polygons make a ridge, a valley or a silhouette; more than two, or winding that
  * disagrees, are looked at as the eye sees them; one alone is left to emerge (emerge.c). */
-#include "kernel/kernels.h"
+#include "find/kernels.h"
+#include "raster/kernels.h"
 #include "core/fold.h"
 #include "find/edge_table.h"
 #include "find/fold_batch.h"
@@ -63,31 +64,11 @@ static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *f
     if (line >= 0) add_line(w, e, (dp_line)line, fold->normal);
 }
 
-/* The unit normal in float32, for a first look. */
-void dp_tile_exact_normal(dp_tile_worker *w, uint32_t polygon) {
-    const dp_vec3 n = dp_polygon_normal(w->frame, w->polygons[polygon].id);
-    float *const out = w->normals[polygon];
-    out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z, out[3] = 0;
-}
-
-/* Assembling makes those of triangles (raster/assemble.inc). */
-static bool set_normals(dp_tile_worker *w) {
-    if (!DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)w->polygon_count)) return false;
-    for (uint32_t i = 0; i < w->seen_count; i++) {
-        const uint32_t index = w->seen[i];
-        if (w->polygons[index].flags & DP_POLYGON_FRONT)
-            dp_tile_exact_normal(w, index);
-        else
-            memcpy(w->normals[index], dp_away, sizeof dp_away);
-    }
-    return true;
-}
-
 /* Normals, list and table. */
 static bool prepare(dp_tile_worker *w) {
     const bool triangles = !w->frame->polygons.firsts;
-    if ((!triangles && !set_normals(w)) || !dp_edge_table_list(w)) return false;
-    if (triangles) w->frame->kernels->normals(w);
+    if ((!triangles && !dp_tile_exact_normals(w)) || !dp_edge_table_list(w)) return false;
+    if (triangles) dp_raster_kernels_for(w->frame->lanes)->normals(w);
     return dp_edge_table_fill(w);
 }
 
@@ -292,7 +273,7 @@ static void resolve_entries(dp_tile_worker *w, dp_edge_entry entries[DP_FOLDS], 
                             dp_fold_batch *folds) {
     bool put[DP_FOLDS];
     for (uint32_t i = 0; i < count; i++) put[i] = put_pair(w, &entries[i], folds, i);
-    w->frame->kernels->folds(&w->frame->view, folds, count);
+    dp_find_kernels_for(w->frame->lanes)->folds(&w->frame->view, folds, count);
     for (uint32_t i = 0; i < count && !w->failed; i++) {
         if (put[i])
             resolve_put(w, &entries[i], folds, i);

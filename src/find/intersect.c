@@ -1,94 +1,18 @@
 /* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one
  * depth.
  *
- * The paper's between-test finds them sample by sample; here it only says where to look. Where a
- * face is rasterized and falls close to what a sample already holds, that is kept, and later the
- * two planes are compared: if they cross within dp_watch_px of the sample, its pixel is a suspect.
- * As the two frontmost surfaces meet at every visible sample of a crossing, whichever comes first,
- * one pass finds all of them. Around suspects, all pairs of polygons are then tested exactly, and
- * each crossing segment becomes a candidate line like an edge, with the same probes.
+ * The paper's between-test finds them sample by sample; here it only says where to look
+ * (raster/near_depth.c). Around suspects, all pairs of polygons are then tested exactly, and each
+ * crossing segment becomes a candidate line like an edge, with the same probes.
  *
  * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that
  * what may meet one of them follows soon after it; bounding boxes and planes are compared many at
  * once (find/meet.inc). */
-#include "kernel/kernels.h"
+#include "find/kernels.h"
 #include "features/crossing.h"
 #include "raster/tile.h"
 
 #include <string.h>
-
-/* How many corner positions two polygons share (their keys are hashes: a false match costs one
- * crossing in four thousand million). */
-static uint32_t shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
-    const dp_polygons *const polygons = &frame->polygons;
-    const uint32_t fa = dp_first_corner(polygons, a), na = dp_corner_count(polygons, a);
-    const uint32_t fb = dp_first_corner(polygons, b), nb = dp_corner_count(polygons, b);
-    uint32_t shared = 0;
-    for (uint32_t i = 0; i < na; i++) {
-        const uint32_t key = frame->vertices[dp_corner_vertex(polygons, fa + i)].key;
-        for (uint32_t j = 0; j < nb; j++)
-            shared += key == frame->vertices[dp_corner_vertex(polygons, fb + j)].key;
-    }
-    return shared;
-}
-
-static void suspect(dp_tile_worker *w, uint32_t lane, bool both_front) {
-    const uint32_t pixel = lane / w->sampling.samples;
-    w->suspects[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
-}
-
-/* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
- * steeply. */
-static void watch_unknown(dp_tile_worker *w, uint32_t i) {
-    const dp_close_samples *const close = &w->close;
-    const uint32_t lane = close->lane[i];
-    const bool away = w->away[lane / 64] >> lane % 64 & 1,
-               front = w->polygons[close->polygon[i]].flags & DP_POLYGON_FRONT;
-    if (away && !front) return;
-    if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_WATCH_GAP))) return;
-    suspect(w, lane, front && !away);
-}
-
-void dp_tile_watch(dp_tile_worker *w) {
-    dp_close_samples *const close = &w->close;
-    for (uint32_t i = 0; w->away && i < close->count; i++)
-        if (close->other[i] == UINT32_MAX) watch_unknown(w, i);
-    w->frame->kernels->cross(w);
-    for (uint32_t i = 0; i < close->count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[close->polygon[i]],
-                                     *const q = &w->polygons[close->other[i]];
-        if (!w->frame->polygons.firsts || !shared_corners(w->frame, p->id, q->id))
-            suspect(w, close->lane[i], p->flags & q->flags & DP_POLYGON_FRONT);
-    }
-    close->count = 0;
-}
-
-/* Pixels and their neighbours. False when there are none. */
-bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
-    const uint64_t all = ~(uint64_t)0 >> (64 - DP_TILE);
-    uint64_t any = 0;
-    for (int y = 0; y < DP_TILE; y++) {
-        uint64_t r = pixels[y];
-        if (y > 0) r |= pixels[y - 1];
-        if (y + 1 < DP_TILE) r |= pixels[y + 1];
-        out[y] = (r | r << 1 | r >> 1) & all;
-        any |= r;
-    }
-    return any;
-}
-
-/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds
- * of fine meshes come close here and there. */
-void dp_drop_lone(uint64_t suspects[DP_TILE]) {
-    uint64_t kept[DP_TILE];
-    for (int y = 0; y < DP_TILE; y++) {
-        const uint64_t above = y > 0 ? suspects[y - 1] : 0,
-                       below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
-        const uint64_t rows = above | below, all = rows | suspects[y];
-        kept[y] = suspects[y] & (rows | all << 1 | all >> 1);
-    }
-    memcpy(suspects, kept, sizeof kept);
-}
 
 /* A front and a back face come close along every outline of a closed model. They cross in sight
  * only where the back face is seen too: keeps the suspects near a pixel whose winner is a back
@@ -96,7 +20,7 @@ void dp_drop_lone(uint64_t suspects[DP_TILE]) {
 static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
     uint64_t near[DP_TILE], backs[DP_TILE];
     if (!dp_widen(suspects, near)) return;
-    w->frame->kernels->show_backs(w, near, backs);
+    dp_find_kernels_for(w->frame->lanes)->show_backs(w, near, backs);
     dp_widen(backs, near);
     for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
 }
@@ -104,7 +28,7 @@ static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_T
 /* ------- pairs ------- */
 
 /* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes,
- * as above. Others, and what is clipped, have none, and take `shared_corners`. */
+ * as above. Others, and what is clipped, have none, and take `dp_shared_corners`. */
 static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
                         uint32_t *of_p, uint32_t *of_q) {
     *of_p = *of_q = 0;
@@ -142,7 +66,7 @@ static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p,
 
 static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
     const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
-    if (are_beside(w, p, q) || shared_corners(w->frame, p->id, q->id) > 1) return;
+    if (are_beside(w, p, q) || dp_shared_corners(w->frame, p->id, q->id) > 1) return;
     dp_vec3 from, to, normal;
     dp_spine spine;
     if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
@@ -234,7 +158,7 @@ static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *po
     const uint32_t *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
     dp_cell_bits cells;
     find_cells(near, cells);
-    const uint32_t count = w->frame->kernels->come_near(w, &cells[0][0][0], polygon);
+    const uint32_t count = dp_find_kernels_for(w->frame->lanes)->come_near(w, &cells[0][0][0], polygon);
     crowd->count = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
@@ -269,7 +193,7 @@ static void put_member(const dp_tile_worker *w, const dp_tile_polygon *p, uint32
 }
 
 /* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
- * their own, which match as seldom; they are told by `shared_corners`. */
+ * their own, which match as seldom; they are told by `dp_shared_corners`. */
 static void put_keys(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
     const dp_crowd *const crowd = &w->crowd;
     const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
@@ -311,7 +235,7 @@ void dp_tile_intersections(dp_tile_worker *w) {
     sort_crowd(w, w->crowd.listed, rows);
     for (uint32_t i = 0; i < w->crowd.count && !w->failed; i++) {
         const uint32_t a = w->crowd.polygon[i];
-        const uint32_t met = w->frame->kernels->meet(&w->crowd, i, rows[w->polygons[a].y1 + 1]);
+        const uint32_t met = dp_find_kernels_for(w->frame->lanes)->meet(&w->crowd, i, rows[w->polygons[a].y1 + 1]);
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
             if (meet_near(&near, &w->polygons[a], &w->polygons[b]))

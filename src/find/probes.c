@@ -11,7 +11,7 @@
  * tells that most polygons hide none. A spine's points belong to the tile whose pixel they lie in.
  * Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
 #include "base/hostile.h"
-#include "kernel/kernels.h"
+#include "find/kernels.h"
 #include "raster/tile.h"
 
 #include <string.h>
@@ -88,7 +88,7 @@ void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *sp
     c.probe = w->probe_count;
     c.bones = (normals ? keep_bones(w, spine, normals) : 0) & 0xffffff;
     w->candidates[w->candidate_count++] = c;
-    w->frame->kernels->points(w, spine, c.k0, c.k1, &w->probes, c.probe);
+    dp_find_kernels_for(w->frame->lanes)->points(w, spine, c.k0, c.k1, &w->probes, c.probe);
     w->probe_count += c.k1 - c.k0;
 }
 
@@ -225,7 +225,7 @@ static void collect(dp_tile_worker *w, const dp_candidate *c) {
 }
 
 void dp_tile_hide(dp_tile_worker *w) {
-    if (w->probe_count && make_groups(w)) w->frame->kernels->hide(w);
+    if (w->probe_count && make_groups(w)) dp_find_kernels_for(w->frame->lanes)->hide(w);
 }
 
 void dp_tile_collect(dp_tile_worker *w) {

@@ -7,6 +7,7 @@
 #ifndef DP_GBUFFER_DETECT_H
 #define DP_GBUFFER_DETECT_H
 
+#include "kernel/kernels.h"
 #include "gbuffer/gbuffer.h"
 
 #include <stdbool.h>
@@ -97,10 +98,6 @@ typedef struct dp_detectors {
                       dp_edge_run *out);
 } dp_detectors;
 
-extern const dp_detectors dp_detectors_plain, dp_detectors_base, dp_detectors_avx2,
-    dp_detectors_avx512;
-
-/* Those for kernels of so many lanes (kernel/kernels.h). */
-const dp_detectors *dp_detectors_for(uint32_t lanes);
+DP_KERNEL_TABLES(dp_detectors);
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef DP_GBUFFER_FILL_H
 #define DP_GBUFFER_FILL_H
 
+#include "kernel/kernels.h"
 #include "gbuffer/gbuffer.h"
 
 /* Pixel sizes between samples of one surface. */
@@ -56,10 +57,7 @@ typedef struct dp_fillers {
     void (*finish)(const dp_fill *f, const dp_fill_row *r, size_t pixel);
 } dp_fillers;
 
-extern const dp_fillers dp_fillers_plain, dp_fillers_base, dp_fillers_avx2, dp_fillers_avx512;
-
-/* Those for kernels of so many lanes (kernel/kernels.h). */
-const dp_fillers *dp_fillers_for(uint32_t lanes);
+DP_KERNEL_TABLES(dp_fillers);
 
 /* The normal of a corner, packed (mesh/normals.h). */
 static inline const int16_t *dp_fill_normal(const dp_fill *f, uint32_t corner, uint32_t vertex) {

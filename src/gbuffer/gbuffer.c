@@ -64,8 +64,8 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
                       g->textured == textured && g->perspective == frame->view.perspective;
     take_camera(g, frame);
     g->normals = NULL;
-    g->detectors = dp_detectors_for(dp_kernels_best()->lanes);
-    g->fillers = dp_fillers_for(dp_kernels_best()->lanes);
+    g->detectors = dp_detectors_for(dp_lanes_best());
+    g->fillers = dp_fillers_for(dp_lanes_best());
     if (same) return true;
     g->width = width, g->height = height, g->textured = textured;
     g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;

@@ -18,7 +18,7 @@
 #include "printed/fringe.h"
 
 #include "features/extrude.h"
-#include "kernel/kernels.h"
+#include "raster/kernels.h"
 #include "core/facing.h"
 #include "core/blend.h"
 #include "raster/coverage.h"
@@ -223,7 +223,7 @@ void dp_tile_fringe_one_pass(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->polygons[i];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
-            w->frame->kernels->raster(w, p, i);
+            dp_raster_kernels_for(w->frame->lanes)->raster(w, p, i);
         add_fringes(w, p->id);
     }
     dp_tile_surface(w);

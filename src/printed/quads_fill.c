@@ -3,7 +3,7 @@
  * The tests of `between` plane, which is the default, run in a kernel (printed/ink.inc): it decides
  * what depths decide, and asks here about samples that also depend on the polygon that won them.
  * The other tests fill triangles four samples at a time. */
-#include "kernel/kernels.h"
+#include "printed/kernels.h"
 #include "features/crossing.h"
 #include "printed/quads.h"
 
@@ -161,7 +161,7 @@ static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
 }
 
 static void fill_by_kernel(dp_brush *b, const dp_point *p, uint32_t n, dp_ink_test test) {
-    void (*const ink)(dp_brush *, const dp_ink_shape *) = b->w->frame->kernels->ink;
+    void (*const ink)(dp_brush *, const dp_ink_shape *) = dp_printed_kernels_for(b->w->frame->lanes)->ink;
     dp_ink_shape shape;
     b->test = test;
     if (n <= 4) {

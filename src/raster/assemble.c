@@ -1,7 +1,7 @@
 /* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box;
  * faces are drawn on the way: front faces first, then of back faces those that the front faces do
  * not hide. Triangles go through the kernel; what is here takes any polygon. */
-#include "kernel/kernels.h"
+#include "raster/kernels.h"
 #include "printed/fringe.h"
 #include "raster/tile.h"
 
@@ -48,7 +48,7 @@ static void draw(dp_tile_worker *w, uint32_t index, bool backs) {
     const dp_tile_polygon *const p = &w->polygons[index];
     if (!dp_is_surface(w, p)) return;
     if (p->flags & DP_POLYGON_FRONT || (backs && !dp_tile_is_hidden(w, p)))
-        w->frame->kernels->raster(w, p, index);
+        dp_raster_kernels_for(w->frame->lanes)->raster(w, p, index);
 }
 
 /* The points of a polygon, in tile space, at `points`. */
@@ -127,7 +127,7 @@ static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count
         const dp_bin_chunk *const chunk = &bins->chunks[c];
         dp_bins_ask(bins, w->tile, c);
         const uint32_t first = chunk->offsets[w->tile], n = chunk->offsets[w->tile + 1] - first;
-        w->frame->kernels->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);
+        dp_raster_kernels_for(w->frame->lanes)->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);
     }
     return true;
 }
@@ -138,7 +138,7 @@ static bool draws_backs(const dp_frame *frame) {
 }
 
 void dp_tile_assemble(dp_tile_worker *w) {
-    const dp_kernels *const kernels = w->frame->kernels;
+    const dp_raster_kernels *const kernels = dp_raster_kernels_for(w->frame->lanes);
     uint32_t count, back_count;
     w->polygon_count = w->point_count = 0;
     for (uint32_t i = 0; i < DP_STRIP_SIDES * DP_STRIP; i++)

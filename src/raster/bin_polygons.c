@@ -1,5 +1,5 @@
 /* Which tiles a polygon touches; and the one place where bad polygons are dropped and counted. */
-#include "kernel/kernels.h"
+#include "raster/kernels.h"
 #include "raster/stages.h"
 
 typedef struct job {
@@ -69,7 +69,7 @@ static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects
         for (uint32_t i = 0; i < count; i++) rects[i] = place_polygon(j, first + i, self);
         return;
     }
-    j->frame->kernels->place(j->frame, j->margin, first, count, rects);
+    dp_raster_kernels_for(j->frame->lanes)->place(j->frame, j->margin, first, count, rects);
     for (uint32_t i = 0; i < count; i++)
         if (rects[i].x0 == DP_UNPLACED || margin_of(j, first + i) > j->margin)
             rects[i] = place_polygon(j, first + i, self);

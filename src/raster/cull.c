@@ -10,7 +10,7 @@
  * between two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond
  * the polygon. Where that is beyond the tile, a strip of samples half a pixel outside stands for
  * it, within the margin of binning. */
-#include "kernel/kernels.h"
+#include "raster/kernels.h"
 #include "raster/tile.h"
 
 static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
@@ -103,7 +103,7 @@ bool dp_tile_see(dp_tile_worker *w, bool culling) {
         !DP_WORKER_RESERVE(w, seen_words, seen_words_cap, DP_SEEN_MEMBERS * room))
         return false;
     w->seen_stride = (uint32_t)room;
-    w->frame->kernels->see(w, culling);
+    dp_raster_kernels_for(w->frame->lanes)->see(w, culling);
     return true;
 }
 
@@ -112,7 +112,7 @@ void dp_tile_faces(dp_tile_worker *w) {
     for (uint32_t i = 0; i < w->seen_count && w->seen[i] < w->undrawn; i++) {
         const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
-            w->frame->kernels->raster(w, p, w->seen[i]);
+            dp_raster_kernels_for(w->frame->lanes)->raster(w, p, w->seen[i]);
     }
     dp_tile_watch(w);
 }

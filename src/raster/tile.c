@@ -1,5 +1,5 @@
 /* Finding a tile's surface and lines: faces, edges, visibility, in that order. */
-#include "kernel/kernels.h"
+#include "raster/kernels.h"
 #include "core/facing.h"
 #include "printed/fringe.h"
 #include "raster/tile.h"

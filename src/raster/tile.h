@@ -399,19 +399,25 @@ static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
     return !polygons->edge_flags || polygons->edge_flags[c];
 }
 
-/* Sets the normal of a polygon that is too thin for float32 (edges.c). */
+/* Sets the normal of a polygon that is too thin for float32, or those of all seen polygons; false
+ * when memory is out (normals.c). */
 void dp_tile_exact_normal(dp_tile_worker *worker, uint32_t polygon);
+bool dp_tile_exact_normals(dp_tile_worker *worker);
 
 /* Makes polygon `index`, a triangle, again by the general way, and draws it if it is a front face,
  * or, when `backs`, a back face that is not hidden (assemble.c). */
 void dp_tile_reassemble(dp_tile_worker *worker, uint32_t index, bool backs);
 
 /* Makes suspects of the pixels of close samples where the planes cross, and forgets the samples
- * (intersect.c). Before faces are drawn in a box as narrow as a vector, or in one row of others, no
+ * (near_depth.c). Before faces are drawn in a box as narrow as a vector, or in one row of others, no
  * more than DP_CLOSE_FULL are kept. */
 void dp_tile_watch(dp_tile_worker *worker);
 
-/* Of suspects by rows of pixels (intersect.c): drops those that stand alone; adds the neighbours,
+/* How many corner positions two polygons share. Their keys are hashes: a false match costs one
+ * crossing in four thousand million (near_depth.c). */
+uint32_t dp_shared_corners(const dp_frame *frame, uint32_t a, uint32_t b);
+
+/* Of suspects by rows of pixels (near_depth.c): drops those that stand alone; adds the neighbours,
  * false when there are none. */
 void dp_drop_lone(uint64_t suspects[DP_TILE]);
 bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]);

@@ -5,7 +5,7 @@
 #include "raster/stages.h"
 
 #include "base/hostile.h"
-#include "kernel/kernels.h"
+#include "raster/kernels.h"
 
 enum { BLOCK_LEAST = DP_TUNED(512, 5), BLOCK_MOST = DP_TUNED(16384, 5) };
 
@@ -28,7 +28,7 @@ static void transform_block(void *arg, uint32_t index, uint32_t worker) {
     const uint32_t size = block_size(frame), first = index * size,
                    count = frame->polygons.vertex_count;
     const uint32_t last = count - first < size ? count : first + size;
-    frame->kernels->transform(&frame->view, dp_vertex_position(&frame->polygons, first),
+    dp_raster_kernels_for(frame->lanes)->transform(&frame->view, dp_vertex_position(&frame->polygons, first),
                               frame->polygons.stride, last - first, frame->vertices + first,
                               are_read_elsewhere(frame));
 }

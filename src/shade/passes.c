@@ -175,7 +175,7 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
     s->colored = wants_colors(frame, s->mirrored);
     if (!s->active) return true;
     const size_t pixels = (size_t)frame->target.width * frame->target.height;
-    s->shaders = dp_shaders_for(dp_kernels_best()->lanes);
+    s->shaders = dp_shaders_for(dp_lanes_best());
     set_up(s, frame);
     const dp_shade *const shade = &s->setup.shade;
     const bool smooth = shade->shading == DP_SHADING_TOON && !shade->nearest;

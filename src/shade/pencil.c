@@ -49,7 +49,7 @@ static void turn_block(void *arg, uint32_t index, uint32_t worker) {
 void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn *turns) {
     const dp_view *const view = &frame->view;
     const uint32_t count = frame->polygons.vertex_count;
-    turning t = {.rows = dp_pencil_rows_for(frame->kernels->lanes),
+    turning t = {.rows = dp_pencil_rows_for(frame->lanes),
                  .along = along,
                  .turns = turns,
                  .count = count,
@@ -181,5 +181,5 @@ void dp_shade_pencil(const dp_shading_setup *setup, dp_shade_run *run) {
         find_strands_printed(&c, &strands);
     else
         find_strands(setup->pencil, &c, &strands);
-    dp_pencil_rows_for(setup->frame->kernels->lanes)->shade(setup, &strands, run);
+    dp_pencil_rows_for(setup->frame->lanes)->shade(setup, &strands, run);
 }

@@ -3,6 +3,7 @@
 #ifndef DP_SHADE_PENCIL_ROWS_H
 #define DP_SHADE_PENCIL_ROWS_H
 
+#include "kernel/kernels.h"
 #include "shade/shade.h"
 
 enum { DP_STRANDS_PER_PIXEL = 6, DP_STRANDS_MOST = DP_STRANDS_PER_PIXEL * DP_TILE };
@@ -27,9 +28,6 @@ typedef struct dp_pencil_rows {
     void (*shade)(const dp_shading_setup *setup, const dp_strands *strands, dp_shade_run *run);
 } dp_pencil_rows;
 
-extern const dp_pencil_rows dp_pencil_base, dp_pencil_avx2, dp_pencil_avx512;
-
-/* Those for kernels of so many lanes (kernel/kernels.h). */
-const dp_pencil_rows *dp_pencil_rows_for(uint32_t lanes);
+DP_KERNEL_TABLES(dp_pencil_rows);
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef DP_SHADE_SHADE_H
 #define DP_SHADE_SHADE_H
 
+#include "kernel/kernels.h"
 #include "gbuffer/gbuffer.h"
 #include "mesh/curvature.h"
 
@@ -81,10 +82,7 @@ typedef struct dp_shaders {
                    uint64_t pixels); /* cartoon map; where `pixels` has no bit nothing sensible */
 } dp_shaders;
 
-extern const dp_shaders dp_shaders_plain, dp_shaders_base, dp_shaders_avx2, dp_shaders_avx512;
-
-/* Those for kernels of so many lanes (kernel/kernels.h). */
-const dp_shaders *dp_shaders_for(uint32_t lanes);
+DP_KERNEL_TABLES(dp_shaders);
 
 /* The built-in stroke textures: priorities (strokes.c). 256 x 256, the same every time. */
 enum { DP_STROKES_SIZE = 256 };

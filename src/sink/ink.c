@@ -12,7 +12,7 @@
  * looks like a defect, and strokes end round. */
 #include "strokes/stroke.h"
 
-#include "kernel/kernels.h"
+#include "sink/kernels.h"
 #include "core/blend.h"
 #include "raster/samples.h"
 
@@ -155,7 +155,7 @@ static void cover(const tile_ink *ink, const dp_stroke *s) {
         for (uint32_t x = x0; x < x1; x += DP_PATCH) {
             patch.x0 = x - ink->x0;
             patch.x1 = (x + DP_PATCH < x1 ? x + DP_PATCH : x1) - ink->x0;
-            ink->frame->kernels->cover(ink->frame, s, &patch, ink->worker);
+            dp_sink_kernels_for(ink->frame->lanes)->cover(ink->frame, s, &patch, ink->worker);
         }
     }
 }
@@ -169,7 +169,7 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
         const size_t y = ink->y0 + py;
         if (!pixels) continue;
         if (target->rgba)
-            ink->frame->kernels->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
+            dp_sink_kernels_for(ink->frame->lanes)->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
                                      ink->x1 - ink->x0, coverage, pixels, color);
         for (uint64_t bits = target->line_class ? pixels : 0; bits; bits &= bits - 1) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);

@@ -68,7 +68,7 @@ typedef struct dp_pixel_maps {
 /* What a chunk is held against. */
 typedef struct dp_chunk_view {
     const dp_view *view;
-    const struct dp_kernels *kernels;
+    uint32_t lanes; /* as of the frame */
     dp_sampling sampling;
     uint32_t tiles_x, tiles_y;
     const float *farthest;   /* [tile][DP_BLOCKS][DP_BLOCKS]: depth of the furthest sample in each

@@ -10,7 +10,7 @@
  * both can. */
 #include "stream/chunk.h"
 
-#include "kernel/kernels.h"
+#include "stream/kernels.h"
 
 enum { NOT_FINITE = 128 };
 
@@ -170,9 +170,9 @@ void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chun
     chunk->count = triangles->count;
     chunk->unsure_count = 0;
     if (view->wanted)
-        view->kernels->touch(chunk, triangles, view);
+        dp_stream_kernels_for(view->lanes)->touch(chunk, triangles, view);
     else
-        view->kernels->sift(chunk, triangles, view);
+        dp_stream_kernels_for(view->lanes)->sift(chunk, triangles, view);
     for (uint32_t i = 0; i < chunk->unsure_count; i++)
         sift_triangle(chunk, chunk->unsure[i], triangles, view, stats);
 }

@@ -118,7 +118,7 @@ static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s
         dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
     if (result) return result;
     s->view = (dp_chunk_view){.view = &f->view,
-                              .kernels = f->kernels,
+                              .lanes = f->lanes,
                               .tiles_x = f->tiles_x,
                               .tiles_y = f->tiles_y,
                               .flat_cosine = f->flat_cosine};

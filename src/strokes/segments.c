@@ -10,7 +10,7 @@
 #include "strokes/stroke.h"
 
 #include "base/hostile.h"
-#include "kernel/kernels.h"
+#include "strokes/kernels.h"
 #include "features/crossing.h"
 #include "raster/tile.h"
 
@@ -174,7 +174,7 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     for (size_t at = first; at < end; at += DP_SEGMENTS) {
         const uint32_t n = end - at < DP_SEGMENTS ? (uint32_t)(end - at) : DP_SEGMENTS;
         for (uint32_t i = 0; i < n; i++) put_bones(j, &store->pieces[at + i], &batch, i);
-        j->frame->kernels->segments(&j->frame->view, &batch, n);
+        dp_stroke_kernels_for(j->frame->lanes)->segments(&j->frame->view, &batch, n);
         for (uint32_t i = 0; i < n; i++)
             take_segment(j->frame, &store->pieces[at + i], &batch, i, &store->segments[at + i],
                          &store->strokes[at + i]);

@@ -1,5 +1,4 @@
-/* The loops over rows for what this file's includer is compiled for: DP_LANES floats per vector.
- * DP_DETECTORS and DP_FILLERS name the tables. */
+/* The loops over rows at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
 #include "gbuffer/detect.h"
 #include "gbuffer/fill.h"
 
@@ -14,8 +13,8 @@
 
 #include "gbuffer/fill.inc"
 
-const dp_detectors DP_DETECTORS = {DP_LANES,        diagonal_normals, diagonal_depth_printed,
+const dp_detectors DP_KERNEL_TABLE(dp_detectors) = {DP_LANES,        diagonal_normals, diagonal_depth_printed,
                                    diagonal_scaled, c1_printed,       c1_scaled,
                                    c1_slope,        strengths};
 
-const dp_fillers DP_FILLERS = {DP_LANES, pick, find, touch, collect, finish};
+const dp_fillers DP_KERNEL_TABLE(dp_fillers) = {DP_LANES, pick, find, touch, collect, finish};

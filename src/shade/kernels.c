@@ -1,6 +1,5 @@
-/* The operators for what this file's includer is compiled for: DP_LANES pixels of a row at a time.
- * DP_SHADERS names the table. Runs are worked on in whole vectors; what lies beyond their end is
- * nobody's. */
+/* The operators on runs of pixels at the width DP_LANES; compiled once for each width
+ * (CMakeLists.txt). Runs are worked on in whole vectors; what lies beyond their end is nobody's. */
 #include "shade/shade.h"
 
 #include "base/vec.h"
@@ -56,7 +55,7 @@ static void pack(const dp_shade_run *run, uint32_t *words) {
     }
 }
 
-const dp_shaders DP_SHADERS = {
+const dp_shaders DP_KERNEL_TABLE(dp_shaders) = {
     .lanes = DP_LANES,
     .looks = {[DP_SHADING_LAMBERT] = lambert,
               [DP_SHADING_GOOCH] = gooch,
@@ -68,3 +67,5 @@ const dp_shaders DP_SHADERS = {
     .pack = pack,
     .smooth = smooth,
 };
+
+#include "shade/pencil_rows.inc"

@@ -1,0 +1,81 @@
+/* Pixels where faces may cross, noted while faces are drawn (Raskar 2001, 2.4).
+ *
+ * The paper's between-test, used as a first look: where a face is rasterized and falls close to what
+ * a sample already holds, that is kept, and later the two planes are compared: if they cross within
+ * dp_watch_px of the sample, its pixel is a suspect. As the two frontmost surfaces meet at every
+ * visible sample of a crossing, whichever comes first, one pass finds all of them. */
+#include "raster/kernels.h"
+#include "raster/tile.h"
+
+#include <string.h>
+
+uint32_t dp_shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
+    const dp_polygons *const polygons = &frame->polygons;
+    const uint32_t fa = dp_first_corner(polygons, a), na = dp_corner_count(polygons, a);
+    const uint32_t fb = dp_first_corner(polygons, b), nb = dp_corner_count(polygons, b);
+    uint32_t shared = 0;
+    for (uint32_t i = 0; i < na; i++) {
+        const uint32_t key = frame->vertices[dp_corner_vertex(polygons, fa + i)].key;
+        for (uint32_t j = 0; j < nb; j++)
+            shared += key == frame->vertices[dp_corner_vertex(polygons, fb + j)].key;
+    }
+    return shared;
+}
+
+static void suspect(dp_tile_worker *w, uint32_t lane, bool both_front) {
+    const uint32_t pixel = lane / w->sampling.samples;
+    w->suspects[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+}
+
+/* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
+ * steeply. */
+static void watch_unknown(dp_tile_worker *w, uint32_t i) {
+    const dp_close_samples *const close = &w->close;
+    const uint32_t lane = close->lane[i];
+    const bool away = w->away[lane / 64] >> lane % 64 & 1,
+               front = w->polygons[close->polygon[i]].flags & DP_POLYGON_FRONT;
+    if (away && !front) return;
+    if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_WATCH_GAP))) return;
+    suspect(w, lane, front && !away);
+}
+
+void dp_tile_watch(dp_tile_worker *w) {
+    dp_close_samples *const close = &w->close;
+    for (uint32_t i = 0; w->away && i < close->count; i++)
+        if (close->other[i] == UINT32_MAX) watch_unknown(w, i);
+    dp_raster_kernels_for(w->frame->lanes)->cross(w);
+    for (uint32_t i = 0; i < close->count; i++) {
+        const dp_tile_polygon *const p = &w->polygons[close->polygon[i]],
+                                     *const q = &w->polygons[close->other[i]];
+        if (!w->frame->polygons.firsts || !dp_shared_corners(w->frame, p->id, q->id))
+            suspect(w, close->lane[i], p->flags & q->flags & DP_POLYGON_FRONT);
+    }
+    close->count = 0;
+}
+
+/* Pixels and their neighbours. False when there are none. */
+bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
+    const uint64_t all = ~(uint64_t)0 >> (64 - DP_TILE);
+    uint64_t any = 0;
+    for (int y = 0; y < DP_TILE; y++) {
+        uint64_t r = pixels[y];
+        if (y > 0) r |= pixels[y - 1];
+        if (y + 1 < DP_TILE) r |= pixels[y + 1];
+        out[y] = (r | r << 1 | r >> 1) & all;
+        any |= r;
+    }
+    return any;
+}
+
+/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds
+ * of fine meshes come close here and there. */
+void dp_drop_lone(uint64_t suspects[DP_TILE]) {
+    uint64_t kept[DP_TILE];
+    for (int y = 0; y < DP_TILE; y++) {
+        const uint64_t above = y > 0 ? suspects[y - 1] : 0,
+                       below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
+        const uint64_t rows = above | below, all = rows | suspects[y];
+        kept[y] = suspects[y] & (rows | all << 1 | all >> 1);
+    }
+    memcpy(suspects, kept, sizeof kept);
+}

@@ -1,0 +1,14 @@
+/* This folder's kernels at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
+#include "stream/kernels.h"
+
+#include "kernel/lanes.h"
+
+#include "core/keys.inc"
+#include "core/ld3.inc"
+#include "core/to_screen.inc"
+#include "stream/sift.inc"
+
+const dp_stream_kernels DP_KERNEL_TABLE(dp_stream_kernels) = {
+    .sift = sift,
+    .touch = touch,
+};
