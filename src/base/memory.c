@@ -58,3 +58,31 @@ bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capa
     *capacity = grown;
     return true;
 }
+
+static void *pointer_of(const void *object, const dp_array *array) {
+    void *pointer;
+    memcpy(&pointer, (const char *)object + array->pointer, sizeof pointer);
+    return pointer;
+}
+
+static size_t capacity_of(const void *object, const dp_array *array) {
+    size_t capacity;
+    memcpy(&capacity, (const char *)object + array->capacity, sizeof capacity);
+    return capacity;
+}
+
+void dp_arrays_free(const dp_allocator *memory, void *object, const dp_array *arrays,
+                    size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        dp_free(memory, pointer_of(object, &arrays[i]));
+        memset((char *)object + arrays[i].pointer, 0, sizeof(void *));
+        memset((char *)object + arrays[i].capacity, 0, sizeof(size_t));
+    }
+}
+
+uint64_t dp_arrays_bytes(const void *object, const dp_array *arrays, size_t count) {
+    uint64_t sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += (uint64_t)capacity_of(object, &arrays[i]) * arrays[i].size;
+    return sum;
+}

@@ -18,4 +18,20 @@ void dp_free(const dp_allocator *allocator, void *block);
 bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capacity, size_t need,
                 size_t item_size);
 
+/* An array that a struct holds and dp_reserve grows: where its pointer and its capacity lie in the
+ * struct, and the size of an item. A struct's list of them serves to free it and to count it. */
+typedef struct dp_array {
+    size_t pointer, capacity, size;
+} dp_array;
+
+#define DP_ARRAY(type, pointer, capacity)                                                          \
+    { offsetof(type, pointer), offsetof(type, capacity), sizeof *((type *)0)->pointer }
+#define DP_ARRAYS(list) (list), sizeof(list) / sizeof *(list)
+
+/* Frees an object's arrays and leaves them empty. */
+void dp_arrays_free(const dp_allocator *memory, void *object, const dp_array *arrays, size_t count);
+
+/* How many bytes they hold. */
+uint64_t dp_arrays_bytes(const void *object, const dp_array *arrays, size_t count);
+
 #endif

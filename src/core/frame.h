@@ -27,27 +27,6 @@ static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
     return sum != sum;
 }
 
-/* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
-typedef struct dp_piece {
-    uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
-    uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
-    uint32_t k0, k1, n; /* sample points */
-    uint32_t bones;     /* as of its candidate (tile.h) … */
-    uint32_t worker;    /* … of this worker: set where pieces are joined */
-    uint8_t line;       /* dp_line */
-    bool open;          /* it touches the tile's border: a neighbour may hold its continuation */
-} dp_piece;
-
-#define DP_CROSSING UINT32_MAX
-
-typedef struct dp_tile_pieces {
-    uint32_t worker; /* whose list */
-    bool bare;       /* no polygon touches the tile; its depth samples are not set */
-    size_t first, count;
-} dp_tile_pieces;
-
-typedef struct dp_tile_worker dp_tile_worker; /* tile.h */
-
 typedef struct dp_frame {
     const dp_allocator *memory;
     dp_threads *threads;
@@ -67,12 +46,10 @@ typedef struct dp_frame {
                            premultiplied; or NULL */
     float flat_cosine;  /* normals closer than this make no fold, whatever the group; 0 to 2, above
                            1: unknown */
-    float calm_spread; /* squared, times DP_UMBRELLA_ONE squared: normals that lie together in a box
-                          with a diagonal less than this make no fold, although they are rough
-                          (tile.h); 0: none is so small */
 
     dp_polygons polygons;
     dp_vertex *vertices;
+    size_t vertices_cap;
     uint32_t tiles_x, tiles_y;
     dp_bins polygon_bins;
 
@@ -85,7 +62,8 @@ typedef struct dp_frame {
 
     float *depth; /* [tile][cell sample], nearest surface; layout: samples.h */
     size_t tile_samples;
-    dp_tile_pieces *tile_pieces; /* by tile */
+    struct dp_tile_pieces *tile_pieces; /* by tile: core/piece.h */
+    size_t depth_cap, tile_pieces_cap, facing_cap, outlined_cap;
 
     dp_segment *segments;
     struct dp_stroke *strokes; /* one per segment, strokes/stroke.h */
@@ -94,6 +72,10 @@ typedef struct dp_frame {
     size_t mark_count;
     dp_bins stroke_bins;
 } dp_frame;
+
+/* The arrays that the frame owns: vertices, depth, bins, …; not what is borrowed. */
+void dp_frame_free(dp_frame *frame, const dp_allocator *memory);
+uint64_t dp_frame_bytes(const dp_frame *frame);
 
 /* Where tiles put their ink; needs target.rgba. */
 static inline uint8_t *dp_ink_place(const dp_frame *f, uint32_t x, uint32_t y) {

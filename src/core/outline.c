@@ -6,10 +6,15 @@
  * looked for. */
 #include "core/outline.h"
 
+static const dp_array arrays[] = {DP_ARRAY(dp_outline_scratch, clip, clip_cap),
+                                  DP_ARRAY(dp_outline_scratch, points, points_cap)};
+
 void dp_outline_scratch_free(dp_outline_scratch *scratch, const dp_allocator *memory) {
-    dp_free(memory, scratch->clip);
-    dp_free(memory, scratch->points);
-    *scratch = (dp_outline_scratch){0};
+    dp_arrays_free(memory, scratch, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_outline_scratch_bytes(const dp_outline_scratch *scratch) {
+    return dp_arrays_bytes(scratch, DP_ARRAYS(arrays));
 }
 
 static dp_outline_state clip_outline(const dp_frame *frame, uint32_t first, uint32_t n,

@@ -12,6 +12,7 @@ typedef struct dp_outline_scratch {
 } dp_outline_scratch;
 
 void dp_outline_scratch_free(dp_outline_scratch *scratch, const dp_allocator *memory);
+uint64_t dp_outline_scratch_bytes(const dp_outline_scratch *scratch);
 
 typedef enum dp_outline_state {
     DP_OUTLINE_OK = 0,

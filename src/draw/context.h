@@ -5,7 +5,8 @@
 #include "mesh/adjacency.h"
 #include "raster/stages.h"
 #include "mesh/normals.h"
-#include "raster/tile.h"
+#include "find/finder.h"
+#include "printed/quads.h"
 #include "shade/shade.h"
 #include "strokes/mark.h"
 #include "strokes/stroke.h"
@@ -33,11 +34,12 @@ struct dp_context {
         size_t rgba_cap, distance_cap;
     } mirror;
     dp_bin_worker *bin_workers;   /* [workers] */
-    dp_tile_worker *tile_workers; /* [workers] */
+    dp_finder *finders;           /* [workers] */
+    dp_printer *printers;         /* [workers] */
+    dp_found *found;              /* [workers] */
     dp_ink_worker *ink_workers;   /* [workers] */
     dp_frame frame;
     dp_adjacency adjacency; /* of the last source that asked for it */
-    size_t vertices_cap, depth_cap, pieces_cap, facing_cap, outlined_cap;
 
     dp_stats stats;
     dp_recording *recording; /* made when first used */

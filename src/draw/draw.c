@@ -7,6 +7,7 @@
  * a stage hands on is in submission or tile order, so that the picture does not depend on
  * threads. */
 #include "draw/context.h"
+#include "draw/tile.h"
 
 #include "base/diag.h"
 #include "features/features.h"
@@ -15,7 +16,6 @@
 #include "core/facing.h"
 #include "printed/fringe.h"
 #include "features/silhouette_edge.h"
-#include "core/outline.h"
 #include "stream/stream.h"
 
 #include <string.h>
@@ -58,10 +58,13 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     if (c->threads) {
         c->workers = dp_threads_count(c->threads);
         c->bin_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->bin_workers);
-        c->tile_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->tile_workers);
+        c->finders = dp_alloc_zeroed(&memory, c->workers * sizeof *c->finders);
+        c->printers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->printers);
+        c->found = dp_alloc_zeroed(&memory, c->workers * sizeof *c->found);
         c->ink_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->ink_workers);
     }
-    if (!c->threads || !c->bin_workers || !c->tile_workers || !c->ink_workers) {
+    if (!c->threads || !c->bin_workers || !c->finders || !c->printers || !c->found ||
+        !c->ink_workers) {
         dp_context_destroy(c);
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
     }
@@ -75,12 +78,16 @@ void dp_context_destroy(dp_context *c) {
     dp_threads_destroy(c->threads);
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->bin_workers) dp_outline_scratch_free(&c->bin_workers[i].scratch, &memory);
-        if (c->tile_workers) dp_tile_worker_free(&c->tile_workers[i]);
+        if (c->finders) dp_finder_free(&c->finders[i]);
+        if (c->printers) dp_printer_free(&c->printers[i], &memory);
+        if (c->found) dp_found_free(&c->found[i], &memory);
         if (c->ink_workers) dp_free(&memory, c->ink_workers[i].strokes);
         if (c->ink_workers) dp_free(&memory, c->ink_workers[i].sorted);
     }
     dp_free(&memory, c->bin_workers);
-    dp_free(&memory, c->tile_workers);
+    dp_free(&memory, c->finders);
+    dp_free(&memory, c->printers);
+    dp_free(&memory, c->found);
     dp_free(&memory, c->ink_workers);
     dp_polygon_store_free(&c->polygons, &memory);
     dp_stroke_store_free(&c->strokes, &memory);
@@ -90,13 +97,8 @@ void dp_context_destroy(dp_context *c) {
     dp_normal_store_free(&c->mirror.normals, &memory);
     dp_free(&memory, c->mirror.rgba);
     dp_free(&memory, c->mirror.distance);
-    dp_bins_free(&c->frame.polygon_bins, &memory);
+    dp_frame_free(&c->frame, &memory);
     dp_bins_free(&c->frame.stroke_bins, &memory);
-    dp_free(&memory, c->frame.vertices);
-    dp_free(&memory, c->frame.depth);
-    dp_free(&memory, c->frame.tile_pieces);
-    dp_free(&memory, c->frame.facing);
-    dp_free(&memory, c->frame.outlined);
     dp_adjacency_free(&c->adjacency, &memory);
     dp_recording_free(c);
     dp_free(&memory, c);
@@ -146,7 +148,7 @@ static bool begin_workers(dp_context *c) {
     for (uint32_t i = 0; i < c->workers; i++) {
         c->bin_workers[i].stats = (dp_stats){0};
         c->bin_workers[i].failed = c->ink_workers[i].failed = false;
-        if (!dp_tile_worker_init(&c->tile_workers[i], &c->frame)) return false;
+        if (!dp_finder_init(&c->finders[i], &c->frame, &c->found[i])) return false;
     }
     return true;
 }
@@ -158,9 +160,9 @@ static bool begin_frame(dp_context *c) {
     f->tiles_y = (f->target.height + DP_TILE - 1) / DP_TILE;
     f->tile_samples = (size_t)DP_TILE * DP_TILE * f->target.samples;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y;
-    return dp_reserve(&c->memory, &f->depth, &c->depth_cap, tiles * f->tile_samples,
+    return dp_reserve(&c->memory, &f->depth, &f->depth_cap, tiles * f->tile_samples,
                       sizeof *f->depth) &&
-           dp_reserve(&c->memory, &f->tile_pieces, &c->pieces_cap, tiles, sizeof *f->tile_pieces) &&
+           dp_reserve(&c->memory, &f->tile_pieces, &f->tile_pieces_cap, tiles, sizeof *f->tile_pieces) &&
            begin_workers(c);
 }
 
@@ -174,21 +176,12 @@ static float flat_cosine(const dp_style *styles, uint32_t count) {
                      : 2;
 }
 
-/* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
-static float calm_spread(float flat_cosine) {
-    if (flat_cosine > 1) return 0;
-    const double angle =
-        acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
-    const double chord = angle > 0 ? 2 * sin(angle / 2) * DP_UMBRELLA_ONE : 0;
-    return (float)(chord * chord);
-}
-
 static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
-    dp_tile_find(&c->tile_workers[worker], index);
+    dp_draw_tile(&c->finders[worker], &c->printers[worker], index);
     if (!c->shade.active) return;
-    dp_gbuffer_fill(&c->shade.gbuffer, &c->tile_workers[worker], c->frame.styles[0].shade.normals);
+    dp_gbuffer_fill(&c->shade.gbuffer, &c->finders[worker].tile, c->frame.styles[0].shade.normals);
     dp_shade_at_once(&c->shade, index); /* while it is in the cache */
 }
 
@@ -257,16 +250,16 @@ static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
 /* All that stays from frame to frame, but for the small change. */
 static uint64_t scratch_bytes(const dp_context *c) {
     const dp_polygon_store *const p = &c->polygons;
-    uint64_t sum = sizeof *c + c->vertices_cap * sizeof(dp_vertex) + c->depth_cap * sizeof(float) +
-                   c->pieces_cap * sizeof(dp_tile_pieces) + c->facing_cap + c->outlined_cap +
-                   dp_adjacency_bytes(&c->adjacency) + dp_bins_bytes(&c->frame.polygon_bins) +
+    uint64_t sum = sizeof *c + dp_frame_bytes(&c->frame) + dp_adjacency_bytes(&c->adjacency) +
                    dp_bins_bytes(&c->frame.stroke_bins);
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap +
            2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
            c->strokes.strokes_cap * sizeof(dp_stroke) + c->marks.marks_cap * sizeof(dp_mark);
     for (uint32_t i = 0; i < c->workers; i++)
-        sum += dp_tile_worker_bytes(&c->tile_workers[i]) + sizeof *c->ink_workers;
+        sum += dp_finder_bytes(&c->finders[i]) + dp_printer_bytes(&c->printers[i]) +
+               dp_found_bytes(&c->found[i]) + sizeof *c->finders + sizeof *c->printers +
+               sizeof *c->ink_workers;
     return sum;
 }
 
@@ -302,8 +295,8 @@ static bool find_adjacency(dp_context *c) {
     dp_frame *const f = &c->frame;
     bool built;
     if (!dp_adjacency_update(&c->adjacency, &f->polygons, c->threads, &c->memory, &built) ||
-        !dp_reserve(&c->memory, &f->facing, &c->facing_cap, f->polygons.count, sizeof *f->facing) ||
-        !dp_reserve(&c->memory, &f->outlined, &c->outlined_cap, f->polygons.count,
+        !dp_reserve(&c->memory, &f->facing, &f->facing_cap, f->polygons.count, sizeof *f->facing) ||
+        !dp_reserve(&c->memory, &f->outlined, &f->outlined_cap, f->polygons.count,
                     sizeof *f->outlined))
         return false;
     f->adjacency = &c->adjacency;
@@ -344,14 +337,23 @@ static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag
     return DP_OK;
 }
 
+static dp_result report(void *arg, double done, dp_diag *diag) {
+    const dp_context *const c = arg;
+    if (c->progress && c->progress(c->user, done))
+        return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
+    return DP_OK;
+}
+
 static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
                               double *since, dp_diag *diag) {
-    dp_result result = dp_stream_read_model(c, source, stream, diag);
+    const dp_stream_setup setup = {&c->frame, c->finders, c->bin_workers, c->workers, c->limit,
+                                   &c->stats, report,     c};
+    dp_result result = dp_stream_read_model(&setup, source, stream, diag);
     if (result) return result;
     lap(&c->stats, DP_STAGE_GATHER, since);
     if ((result = dp_stream_find(*stream, diag))) return result;
     lap(&c->stats, DP_STAGE_TILES, since);
-    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->tile_workers[i].stats);
+    for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->finders[i].tile.stats);
     return check_dropped(&c->stats, c->stats.polygons, diag);
 }
 
@@ -375,7 +377,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
         c->shade.gbuffer.normals = &c->normals.packed;
     }
     lap(&c->stats, DP_STAGE_GATHER, since);
-    if (!dp_reserve(&c->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count,
+    if (!dp_reserve(&c->memory, &f->vertices, &f->vertices_cap, f->polygons.vertex_count,
                     sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
@@ -389,8 +391,8 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     if (!begin_paint(c)) return out_of_memory(diag);
     if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
-        if (c->tile_workers[i].failed) return out_of_memory(diag);
-        add_counts(&c->stats, &c->tile_workers[i].stats);
+        if (c->finders[i].tile.failed) return out_of_memory(diag);
+        add_counts(&c->stats, &c->finders[i].tile.stats);
     }
     lap(&c->stats, DP_STAGE_TILES, since);
     return DP_OK;
@@ -413,7 +415,7 @@ static dp_result shade(dp_context *c, dp_diag *diag) {
 /* Segments; then strokes, or what the hand makes of them. */
 static bool make_strokes(dp_context *c) {
     dp_frame *const f = &c->frame;
-    if (!dp_make_segments(f, c->tile_workers, &c->strokes)) return false;
+    if (!dp_make_segments(f, c->found, &c->strokes)) return false;
     if (!dp_is_by_hand(f)) return dp_bin_strokes(f);
     return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
 }
@@ -464,7 +466,6 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);
-    f->calm_spread = calm_spread(f->flat_cosine);
     dp_result result = check_target(target, &f->target, diag);
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
     if (!result) begin_view(f);

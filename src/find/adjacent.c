@@ -9,7 +9,7 @@
 
 #include "mesh/adjacency.h"
 #include "core/fold.h"
-#include "raster/tile.h"
+#include "find/finder.h"
 #include "printed/fringe.h"
 
 typedef struct shared_edge {
@@ -32,18 +32,18 @@ static shared_edge owned(const dp_frame *frame, uint32_t polygon, uint32_t corne
     return e;
 }
 
-static void add_line(dp_tile_worker *w, const shared_edge *e, dp_line line, dp_vec3 normal) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    if (!(dp_polygon_style(w->frame, e->a)->lines & (1u << line))) return;
-    if (1u << line & DP_OUTLINES && dp_is_fringed(w->frame)) return; /* fringe.c draws them */
+static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 normal) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    if (!(dp_polygon_style(w->tile.frame, e->a)->lines & (1u << line))) return;
+    if (1u << line & DP_OUTLINES && dp_is_fringed(w->tile.frame)) return; /* fringe.c draws them */
     const uint32_t first = dp_first_corner(polygons, e->a), n = dp_corner_count(polygons, e->a);
     const uint32_t va = dp_corner_vertex(polygons, first + e->edge_a);
     const uint32_t vb = dp_corner_vertex(polygons, first + (e->edge_a + 1) % n);
     dp_spine spine;
-    if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, va)),
+    if (!dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, va)),
                        dp_v3f(dp_vertex_position(polygons, vb)), normal, &spine))
         return;
-    dp_tile_add_candidate(
+    dp_add_candidate(
         w,
         (dp_candidate){
             .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
@@ -56,20 +56,20 @@ static dp_fold fold_of(const dp_frame *frame, const shared_edge *e, bool turned)
     return dp_fold_seen(frame, e->a, !turned, e->b, turned == e->flipped, e->edge_b);
 }
 
-static void add_outline(dp_tile_worker *w, const shared_edge *e, dp_line line) {
+static void add_outline(dp_finder *w, const shared_edge *e, dp_line line) {
     dp_vec3 normal;
     if (e->b == UINT32_MAX) {
-        normal = dp_polygon_normal(w->frame, e->a);
-        if (!dp_faces_front(w->frame, e->a)) normal = dp_scale(normal, -1);
+        normal = dp_polygon_normal(w->tile.frame, e->a);
+        if (!dp_faces_front(w->tile.frame, e->a)) normal = dp_scale(normal, -1);
     } else {
-        normal = fold_of(w->frame, e, false).normal;
+        normal = fold_of(w->tile.frame, e, false).normal;
     }
     add_line(w, e, line, normal);
 }
 
 /* Two fronts, or two polygons wound differently that both show the eye the same side. */
-static void add_crease(dp_tile_worker *w, uint32_t polygon, uint32_t corner) {
-    const dp_frame *const f = w->frame;
+static void add_crease(dp_finder *w, uint32_t polygon, uint32_t corner) {
+    const dp_frame *const f = w->tile.frame;
     if (!dp_is_across(f->adjacency->across[corner])) return;
     const shared_edge e = owned(f, polygon, corner);
     if (e.a != polygon || (f->facing[e.b] & DP_FACING_NO_AREA)) return;
@@ -82,29 +82,29 @@ static void add_crease(dp_tile_worker *w, uint32_t polygon, uint32_t corner) {
 }
 
 /* A hidden polygon is not asked: it lies well behind the surface with all its edges. */
-static void add_polygon(dp_tile_worker *w, const dp_tile_polygon *p, bool creases) {
-    const dp_polygons *const polygons = &w->frame->polygons;
+static void add_polygon(dp_finder *w, const dp_tile_polygon *p, bool creases) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    for (uint32_t i = 0; i < n && !w->failed; i++) {
+    for (uint32_t i = 0; i < n && !w->tile.failed; i++) {
         if (polygons->edge_flags && !polygons->edge_flags[first + i]) continue;
-        if (!dp_tile_edge_is_near(w, p, i)) continue;
-        const int line = dp_outline_of_edge(w->frame, p->id, first + i);
+        if (!dp_tile_edge_is_near(&w->tile, p, i)) continue;
+        const int line = dp_outline_of_edge(w->tile.frame, p->id, first + i);
         if (line >= 0) {
-            const shared_edge e = owned(w->frame, p->id, first + i);
+            const shared_edge e = owned(w->tile.frame, p->id, first + i);
             add_outline(w, &e, (dp_line)line);
         } else if (creases) {
             add_crease(w, p->id, first + i);
         }
-        w->stats.edges_resolved++;
-        w->stats.open_edges += line == DP_LINE_BORDER;
+        w->tile.stats.edges_resolved++;
+        w->tile.stats.open_edges += line == DP_LINE_BORDER;
     }
 }
 
-void dp_tile_adjacent_edges(dp_tile_worker *w) {
-    const bool creases = w->frame->lines & (DP_RIDGE | DP_VALLEY);
-    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
+void dp_find_adjacent_edges(dp_finder *w) {
+    const bool creases = w->tile.frame->lines & (DP_RIDGE | DP_VALLEY);
+    for (uint32_t i = 0; i < w->tile.polygon_count && !w->tile.failed; i++) {
+        const dp_tile_polygon *const p = &w->tile.polygons[i];
         if (p->flags & DP_POLYGON_HIDDEN) continue;
-        if (creases || w->frame->outlined[p->id]) add_polygon(w, p, creases);
+        if (creases || w->tile.frame->outlined[p->id]) add_polygon(w, p, creases);
     }
 }

@@ -25,8 +25,8 @@
 
 #include <string.h>
 
-dp_edge_place dp_edge_place_of(const dp_tile_worker *w, uint32_t number) {
-    return (dp_edge_place){w->edges.polygon[number], w->edges.edge[number]};
+dp_edge_place dp_edge_place_of(const dp_finder *w, uint32_t number) {
+    return (dp_edge_place){w->table.edges.polygon[number], w->table.edges.edge[number]};
 }
 
 static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
@@ -40,21 +40,21 @@ typedef struct ends {
     uint32_t va, vb; /* vertices */
 } ends;
 
-static ends ends_of(const dp_tile_worker *w, dp_edge_place at) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const uint32_t id = w->polygons[at.polygon].id;
+static ends ends_of(const dp_finder *w, dp_edge_place at) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    const uint32_t id = w->tile.polygons[at.polygon].id;
     const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);
     return (ends){dp_corner_vertex(polygons, first + at.edge),
                   dp_corner_vertex(polygons, first + (at.edge + 1 == n ? 0 : at.edge + 1))};
 }
 
-void dp_edge_ends(const dp_tile_worker *w, dp_edge_place edge, uint32_t *va, uint32_t *vb) {
+void dp_edge_ends(const dp_finder *w, dp_edge_place edge, uint32_t *va, uint32_t *vb) {
     const ends e = ends_of(w, edge);
     *va = e.va, *vb = e.vb;
 }
 
-bool dp_edge_runs_between(const dp_tile_worker *w, dp_edge_place edge, uint32_t va, uint32_t vb) {
-    const dp_polygons *const polygons = &w->frame->polygons;
+bool dp_edge_runs_between(const dp_finder *w, dp_edge_place edge, uint32_t va, uint32_t vb) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
     const ends e = ends_of(w, edge);
     return (same_position(polygons, e.va, va) && same_position(polygons, e.vb, vb)) ||
            (same_position(polygons, e.va, vb) && same_position(polygons, e.vb, va));
@@ -63,16 +63,16 @@ bool dp_edge_runs_between(const dp_tile_worker *w, dp_edge_place edge, uint32_t 
 /* ------- listing ------- */
 
 /* Keys come from the tile's points where these are the corners, else from the vertices. */
-static uint32_t key_of(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t i,
+static uint32_t key_of(const dp_finder *w, const dp_tile_polygon *p, uint32_t i,
                        uint32_t first) {
-    if (!(p->flags & DP_POLYGON_CLIPPED)) return w->points[p->point + i].key;
-    return w->frame->vertices[dp_corner_vertex(&w->frame->polygons, first + i)].key;
+    if (!(p->flags & DP_POLYGON_CLIPPED)) return w->tile.points[p->point + i].key;
+    return w->tile.frame->vertices[dp_corner_vertex(&w->tile.frame->polygons, first + i)].key;
 }
 
-void dp_edge_list_polygon(dp_tile_worker *w, uint32_t index) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_tile_polygon *const p = &w->polygons[index];
-    dp_edge_list *const list = &w->edges;
+void dp_edge_list_polygon(dp_finder *w, uint32_t index) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    const dp_tile_polygon *const p = &w->tile.polygons[index];
+    dp_edge_list *const list = &w->table.edges;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
     const uint32_t k0 = key_of(w, p, 0, first);
     uint32_t ka = k0;
@@ -85,50 +85,50 @@ void dp_edge_list_polygon(dp_tile_worker *w, uint32_t index) {
         list->polygon[at] = index, list->edge[at] = i;
         list->from[at] = ka, list->name[at] = ka ^ kb;
         list->count +=
-            real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(w, p, i);
+            real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(&w->tile, p, i);
         ka = kb;
     }
-    w->unsure[w->unsure_count] = index;
-    w->unsure_count += w->normals[index][3] > DP_AWAY;
+    w->tile.unsure[w->tile.unsure_count] = index;
+    w->tile.unsure_count += w->tile.normals[index][3] > DP_AWAY;
 }
 
-static bool reserve_list(dp_tile_worker *w, size_t edges) {
-    return edges < DP_SLOT_MORE && DP_WORKER_RESERVE(w, edges.polygon, edges.polygon_cap, edges) &&
-           DP_WORKER_RESERVE(w, edges.edge, edges.edge_cap, edges) &&
-           DP_WORKER_RESERVE(w, edges.from, edges.from_cap, edges) &&
-           DP_WORKER_RESERVE(w, edges.name, edges.name_cap, edges) &&
-           DP_WORKER_RESERVE(w, unsure, unsure_cap, (size_t)w->seen_count + DP_EDGES_ROOM);
+static bool reserve_list(dp_finder *w, size_t edges) {
+    return edges < DP_SLOT_MORE && DP_TILE_RESERVE(&w->tile, w, table.edges.polygon, table.edges.polygon_cap, edges) &&
+           DP_TILE_RESERVE(&w->tile, w, table.edges.edge, table.edges.edge_cap, edges) &&
+           DP_TILE_RESERVE(&w->tile, w, table.edges.from, table.edges.from_cap, edges) &&
+           DP_TILE_RESERVE(&w->tile, w, table.edges.name, table.edges.name_cap, edges) &&
+           DP_TILE_RESERVE(&w->tile, &w->tile, unsure, unsure_cap, (size_t)w->tile.seen_count + DP_EDGES_ROOM);
 }
 
 /* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices,
  * or more; half as many where they are far. */
 static const uint32_t UMBRELLAS = DP_TUNED(2, 1);
 
-static bool reserve_umbrellas(dp_tile_worker *w) {
-    const uint64_t least = (uint64_t)UMBRELLAS * w->seen_count;
+static bool reserve_umbrellas(dp_finder *w) {
+    const uint64_t least = (uint64_t)UMBRELLAS * w->tile.seen_count;
     uint32_t bits = 4;
     while (bits < 31 && (uint64_t)1 << bits < least) bits++;
     if ((uint64_t)sizeof(dp_umbrella) << bits > DP_UMBRELLAS_FAR) bits--;
-    w->umbrella_shift = 32 - bits;
-    return DP_WORKER_RESERVE(w, umbrellas, umbrellas_cap, (size_t)1 << bits);
+    w->rings.shift = 32 - bits;
+    return DP_TILE_RESERVE(&w->tile, w, rings.of, rings.cap, (size_t)1 << bits);
 }
 
-static bool make_list(dp_tile_worker *w) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    dp_edge_list *const list = &w->edges;
-    size_t corners = 3 * (size_t)w->seen_count;
+static bool make_list(dp_finder *w) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    dp_edge_list *const list = &w->table.edges;
+    size_t corners = 3 * (size_t)w->tile.seen_count;
     if (polygons->firsts) {
         corners = 0;
-        for (uint32_t i = 0; i < w->seen_count; i++)
-            corners += dp_corner_count(polygons, w->polygons[w->seen[i]].id);
+        for (uint32_t i = 0; i < w->tile.seen_count; i++)
+            corners += dp_corner_count(polygons, w->tile.polygons[w->tile.seen[i]].id);
     }
-    list->count = w->unsure_count = w->calm_edges = 0;
+    list->count = w->tile.unsure_count = w->table.calm_edges = 0;
     if (!reserve_list(w, corners + DP_EDGES_ROOM)) return false;
     if (!polygons->firsts && !polygons->edge_flags) {
         if (!reserve_umbrellas(w)) return false;
-        dp_find_kernels_for(w->frame->lanes)->list_edges(w);
+        dp_find_kernels_for(w->tile.frame->lanes)->list_edges(w);
     } else {
-        for (uint32_t i = 0; i < w->seen_count; i++) dp_edge_list_polygon(w, w->seen[i]);
+        for (uint32_t i = 0; i < w->tile.seen_count; i++) dp_edge_list_polygon(w, w->tile.seen[i]);
     }
     for (uint32_t i = 0; i < DP_EDGES_ROOM; i++)
         list->from[list->count + i] = list->name[list->count + i] = 0;
@@ -147,8 +147,8 @@ static inline uint32_t place_of(uint32_t from, uint32_t name, uint32_t slots) {
 static inline uint32_t met_at(dp_edge_slot slot) { return (uint32_t)(slot >> 32); }
 
 /* The edge of the list that came first to a slot. */
-static uint32_t first_of(const dp_tile_worker *w, uint32_t met) {
-    return met & DP_SLOT_PAIR ? w->pair_first[met & DP_SLOT_NUMBER] : met - 1;
+static uint32_t first_of(const dp_finder *w, uint32_t met) {
+    return met & DP_SLOT_PAIR ? w->table.pair_first[met & DP_SLOT_NUMBER] : met - 1;
 }
 
 static bool is_same_edge(const dp_edge_list *list, uint32_t a, uint32_t b) {
@@ -157,15 +157,15 @@ static bool is_same_edge(const dp_edge_list *list, uint32_t a, uint32_t b) {
 }
 
 /* A third or later polygon at an edge. */
-static void add_meeting(dp_tile_worker *w, uint32_t slot, uint32_t number) {
-    if (!DP_WORKER_RESERVE(w, meetings, meetings_cap, w->meeting_count + 1u) ||
-        !DP_WORKER_RESERVE(w, slot_meetings, slot_meetings_cap, w->slot_count))
+static void add_meeting(dp_finder *w, uint32_t slot, uint32_t number) {
+    if (!DP_TILE_RESERVE(&w->tile, w, table.meetings, table.meetings_cap, w->table.meeting_count + 1u) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.slot_meetings, table.slot_meetings_cap, w->table.slot_count))
         return;
-    const uint32_t met = met_at(w->edge_slots[slot]);
-    w->meetings[w->meeting_count] =
-        (dp_meeting){first_of(w, met), number, met & DP_SLOT_MORE ? w->slot_meetings[slot] : 0};
-    w->slot_meetings[slot] = ++w->meeting_count;
-    w->edge_slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
+    const uint32_t met = met_at(w->table.slots[slot]);
+    w->table.meetings[w->table.meeting_count] =
+        (dp_meeting){first_of(w, met), number, met & DP_SLOT_MORE ? w->table.slot_meetings[slot] : 0};
+    w->table.slot_meetings[slot] = ++w->table.meeting_count;
+    w->table.slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
 }
 
 /* Compilers know nothing of the value, so that they make no branches of what is computed from
@@ -195,10 +195,10 @@ first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t from, uint32_t na
 /* The slot of edge `number`, or a free one, from `s` on. Unless `exact` it may be that of another
  * edge of equal name. */
 static inline __attribute__((always_inline)) uint32_t
-find_slot(const dp_tile_worker *w, const dp_edge_slot *slots, uint32_t count, uint32_t s,
+find_slot(const dp_finder *w, const dp_edge_slot *slots, uint32_t count, uint32_t s,
           uint32_t number, uint32_t name, const bool exact) {
     while (is_other(slots[s], name) ||
-           (exact && slots[s] && !is_same_edge(&w->edges, first_of(w, met_at(slots[s])), number)))
+           (exact && slots[s] && !is_same_edge(&w->table.edges, first_of(w, met_at(slots[s])), number)))
         s = s == count ? 0 : s + 1;
     return s;
 }
@@ -209,12 +209,12 @@ enum { AHEAD = 8 };
  * the two it is cannot be foreseen, so no branch asks: both are written, selected. Some are looked
  * for before the first of them is entered: where it comes to lie, they find out when their turn
  * comes. */
-static inline __attribute__((always_inline)) void enter_all(dp_tile_worker *w, const bool exact) {
-    const dp_edge_list *const list = &w->edges;
+static inline __attribute__((always_inline)) void enter_all(dp_finder *w, const bool exact) {
+    const dp_edge_list *const list = &w->table.edges;
     const uint32_t *const starts = list->from, *const names = list->name, count = list->count,
-                          last = w->slot_count - 1;
-    dp_edge_slot *const slots = w->edge_slots;
-    uint32_t *const first = w->pair_first, *const second = w->pair_second, pairs = 0;
+                          last = w->table.slot_count - 1;
+    dp_edge_slot *const slots = w->table.slots;
+    uint32_t *const first = w->table.pair_first, *const second = w->table.pair_second, pairs = 0;
     for (uint32_t start = 0; start < count; start += AHEAD) {
         uint32_t look[AHEAD];
         for (uint32_t k = 0; k < AHEAD; k++)
@@ -236,87 +236,129 @@ static inline __attribute__((always_inline)) void enter_all(dp_tile_worker *w, c
             pairs += 1 - is_free;
         }
     }
-    w->edge_pairs = pairs;
+    w->table.pairs = pairs;
 }
 
-static bool clear_table(dp_tile_worker *w) {
-    const size_t count = w->edges.count, slots = count + count / 2 + 64,
+static bool clear_table(dp_finder *w) {
+    const size_t count = w->table.edges.count, slots = count + count / 2 + 64,
                  marks = (count + 8) / 8 * 8;
-    if (slots >= UINT32_MAX || !DP_WORKER_RESERVE(w, edge_slots, slots_cap, slots) ||
-        !DP_WORKER_RESERVE(w, edge_marks, edge_marks_cap, marks) ||
-        !DP_WORKER_RESERVE(w, pair_first, pair_first_cap, count / 2 + DP_EDGES_ROOM) ||
-        !DP_WORKER_RESERVE(w, pair_second, pair_second_cap, count / 2 + DP_EDGES_ROOM))
+    if (slots >= UINT32_MAX || !DP_TILE_RESERVE(&w->tile, w, table.slots, table.slots_cap, slots) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.marks, table.marks_cap, marks) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.pair_first, table.pair_first_cap, count / 2 + DP_EDGES_ROOM) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.pair_second, table.pair_second_cap, count / 2 + DP_EDGES_ROOM))
         return false;
-    w->meeting_count = w->edge_pairs = 0;
-    w->slot_count = (uint32_t)slots;
-    memset(w->edge_slots, 0, slots * sizeof *w->edge_slots);
-    memset(w->edge_marks, DP_MARK_ALONE, count);
-    memset(w->edge_marks + count, 0, marks - count);
+    w->table.meeting_count = w->table.pairs = 0;
+    w->table.slot_count = (uint32_t)slots;
+    memset(w->table.slots, 0, slots * sizeof *w->table.slots);
+    memset(w->table.marks, DP_MARK_ALONE, count);
+    memset(w->table.marks + count, 0, marks - count);
     return true;
 }
 
 /* Meetings are few, and seldom of another edge. */
-static bool are_meetings_sound(const dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->meeting_count; i++)
-        if (!is_same_edge(&w->edges, w->meetings[i].first, w->meetings[i].number)) return false;
+static bool are_meetings_sound(const dp_finder *w) {
+    for (uint32_t i = 0; i < w->table.meeting_count; i++)
+        if (!is_same_edge(&w->table.edges, w->table.meetings[i].first, w->table.meetings[i].number)) return false;
     return true;
 }
 
-static bool fill(dp_tile_worker *w, bool exact) {
-    if (!clear_table(w)) return !(w->failed = true);
+static bool fill(dp_finder *w, bool exact) {
+    if (!clear_table(w)) return !(w->tile.failed = true);
     if (exact)
         enter_all(w, true);
     else
         enter_all(w, false);
-    return !w->failed;
+    return !w->tile.failed;
 }
 
-bool dp_edge_table_list(dp_tile_worker *w) { return make_list(w) || !(w->failed = true); }
+bool dp_edge_table_list(dp_finder *w) { return make_list(w) || !(w->tile.failed = true); }
 
-bool dp_edge_table_fill(dp_tile_worker *w) {
+bool dp_edge_table_fill(dp_finder *w) {
     if (!fill(w, false)) return false;
-    if (!dp_find_kernels_for(w->frame->lanes)->flatten(w) || !are_meetings_sound(w)) {
+    if (!dp_find_kernels_for(w->tile.frame->lanes)->flatten(w) || !are_meetings_sound(w)) {
         if (!fill(w, true)) return false;
-        dp_find_kernels_for(w->frame->lanes)->flatten(w);
+        dp_find_kernels_for(w->tile.frame->lanes)->flatten(w);
     }
-    w->stats.edges_resolved += w->edge_pairs + w->calm_edges / 2;
-    for (uint32_t i = 0; i < w->meeting_count; i++)
-        w->edge_marks[w->meetings[i].first] = DP_MARK_PAIR,
-        w->edge_marks[w->meetings[i].number] = 0;
-    dp_find_kernels_for(w->frame->lanes)->unmark_alone(w);
+    w->tile.stats.edges_resolved += w->table.pairs + w->table.calm_edges / 2;
+    for (uint32_t i = 0; i < w->table.meeting_count; i++)
+        w->table.marks[w->table.meetings[i].first] = DP_MARK_PAIR,
+        w->table.marks[w->table.meetings[i].number] = 0;
+    dp_find_kernels_for(w->tile.frame->lanes)->unmark_alone(w);
     return true;
 }
 
 /* ------- taking ------- */
 
-uint32_t dp_edge_table_next(const dp_tile_worker *w, uint32_t number) {
-    while (number < w->edges.count) {
+uint32_t dp_edge_table_next(const dp_finder *w, uint32_t number) {
+    while (number < w->table.edges.count) {
         uint64_t word;
-        memcpy(&word, w->edge_marks + number / 8 * 8, sizeof word);
+        memcpy(&word, w->table.marks + number / 8 * 8, sizeof word);
         if (!word) {
             number = (number / 8 + 1) * 8;
         } else {
-            if (w->edge_marks[number]) return number;
+            if (w->table.marks[number]) return number;
             number++;
         }
     }
     return UINT32_MAX;
 }
 
-dp_edge_entry dp_edge_table_entry(const dp_tile_worker *w, uint32_t number) {
-    const dp_edge_list *const list = &w->edges;
+dp_edge_entry dp_edge_table_entry(const dp_finder *w, uint32_t number) {
+    const dp_edge_list *const list = &w->table.edges;
     const dp_edge_place a = dp_edge_place_of(w, number);
-    const uint32_t name = list->name[number], last = w->slot_count - 1;
+    const uint32_t name = list->name[number], last = w->table.slot_count - 1;
     const uint32_t at =
-        find_slot(w, w->edge_slots, last, first_slot(w->edge_slots, last, list->from[number], name),
+        find_slot(w, w->table.slots, last, first_slot(w->table.slots, last, list->from[number], name),
                   number, name, true);
-    const uint32_t met = met_at(w->edge_slots[at]);
+    const uint32_t met = met_at(w->table.slots[at]);
     dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
     if (!(met & DP_SLOT_PAIR)) return out;
-    const uint32_t second = w->pair_second[met & DP_SLOT_NUMBER];
+    const uint32_t second = w->table.pair_second[met & DP_SLOT_NUMBER];
     const dp_edge_place b = dp_edge_place_of(w, second);
     out.b = b.polygon, out.edge_b = b.edge;
-    out.more = met & DP_SLOT_MORE ? w->slot_meetings[at] : 0;
+    out.more = met & DP_SLOT_MORE ? w->table.slot_meetings[at] : 0;
     out.opposed = list->from[second] == (list->from[number] ^ list->name[number]);
     return out;
+}
+
+/* ------- memory ------- */
+
+/* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
+void dp_umbrellas_init(dp_umbrellas *umbrellas, float flat_cosine) {
+    umbrellas->spread = 0;
+    if (flat_cosine > 1) return;
+    const double angle =
+        acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
+    const double chord = angle > 0 ? 2 * sin(angle / 2) * DP_UMBRELLA_ONE : 0;
+    umbrellas->spread = (float)(chord * chord);
+}
+
+static const dp_array umbrella_arrays[] = {DP_ARRAY(dp_umbrellas, of, cap)};
+
+void dp_umbrellas_free(dp_umbrellas *umbrellas, const dp_allocator *memory) {
+    dp_arrays_free(memory, umbrellas, DP_ARRAYS(umbrella_arrays));
+}
+
+uint64_t dp_umbrellas_bytes(const dp_umbrellas *umbrellas) {
+    return dp_arrays_bytes(umbrellas, DP_ARRAYS(umbrella_arrays));
+}
+
+static const dp_array store_arrays[] = {
+    DP_ARRAY(dp_edge_store, edges.polygon, edges.polygon_cap),
+    DP_ARRAY(dp_edge_store, edges.edge, edges.edge_cap),
+    DP_ARRAY(dp_edge_store, edges.from, edges.from_cap),
+    DP_ARRAY(dp_edge_store, edges.name, edges.name_cap),
+    DP_ARRAY(dp_edge_store, slots, slots_cap),
+    DP_ARRAY(dp_edge_store, marks, marks_cap),
+    DP_ARRAY(dp_edge_store, pair_first, pair_first_cap),
+    DP_ARRAY(dp_edge_store, pair_second, pair_second_cap),
+    DP_ARRAY(dp_edge_store, meetings, meetings_cap),
+    DP_ARRAY(dp_edge_store, slot_meetings, slot_meetings_cap)};
+
+void dp_edge_store_free(dp_edge_store *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(store_arrays));
+}
+
+uint64_t dp_edge_store_bytes(const dp_edge_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(store_arrays));
 }

@@ -12,14 +12,14 @@
 
 #include <string.h>
 
-static void leave(dp_tile_worker *w, uint32_t polygon, uint32_t edge) {
-    if (!DP_WORKER_RESERVE(w, loose, loose_cap, w->loose_count + 1u)) return;
-    w->loose[w->loose_count++] = (dp_loose_edge){polygon, edge};
+static void leave(dp_finder *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.loose, emergence.loose_cap, w->emergence.loose_count + 1u)) return;
+    w->emergence.loose[w->emergence.loose_count++] = (dp_loose_edge){polygon, edge};
 }
 
 /* The polygon that came first in the source owns the edge, in every tile. */
-static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry *e) {
-    if (w->polygons[e->a].id < w->polygons[e->b].id) return *e;
+static dp_edge_entry owned_by_first(const dp_finder *w, const dp_edge_entry *e) {
+    if (w->tile.polygons[e->a].id < w->tile.polygons[e->b].id) return *e;
     const bool opposed = e->opposed;
     return (dp_edge_entry){opposed ? e->vb : e->va,
                            opposed ? e->va : e->vb,
@@ -31,17 +31,17 @@ static dp_edge_entry owned_by_first(const dp_tile_worker *w, const dp_edge_entry
                            opposed};
 }
 
-static bool draws(const dp_tile_worker *w, const dp_edge_entry *e, dp_line line) {
-    return dp_polygon_style(w->frame, w->polygons[e->a].id)->lines & (1u << line);
+static bool draws(const dp_finder *w, const dp_edge_entry *e, dp_line line) {
+    return dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id)->lines & (1u << line);
 }
 
 /* A line of class `line` along an edge of polygon a. */
-static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line,
+static void add_spine(dp_finder *w, const dp_edge_entry *e, dp_line line,
                       const dp_spine *spine, const dp_vec3 normals[2]) {
-    dp_tile_add_candidate(
+    dp_add_candidate(
         w,
-        (dp_candidate){.a = w->polygons[e->a].id,
-                       .b = e->b == UINT32_MAX ? UINT32_MAX : w->polygons[e->b].id,
+        (dp_candidate){.a = w->tile.polygons[e->a].id,
+                       .b = e->b == UINT32_MAX ? UINT32_MAX : w->tile.polygons[e->b].id,
                        .edge = e->edge_a,
                        .k1 = UINT32_MAX,
                        .line = (uint8_t)line},
@@ -49,36 +49,36 @@ static void add_spine(dp_tile_worker *w, const dp_edge_entry *e, dp_line line,
 }
 
 /* The same facing along `normal`. */
-static void add_line(dp_tile_worker *w, const dp_edge_entry *e, dp_line line, dp_vec3 normal) {
-    const dp_polygons *const polygons = &w->frame->polygons;
+static void add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, dp_vec3 normal) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
     dp_spine spine;
     if (draws(w, e, line) &&
-        dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
+        dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                       dp_v3f(dp_vertex_position(polygons, e->vb)), normal, &spine))
         add_spine(w, e, line, &spine, NULL);
 }
 
-static void add_fold(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold *fold) {
-    const dp_style *const style = dp_polygon_style(w->frame, w->polygons[e->a].id);
+static void add_fold(dp_finder *w, const dp_edge_entry *e, const dp_fold *fold) {
+    const dp_style *const style = dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id);
     const int line = dp_fold_line(fold, style);
     if (line >= 0) add_line(w, e, (dp_line)line, fold->normal);
 }
 
 /* Normals, list and table. */
-static bool prepare(dp_tile_worker *w) {
-    const bool triangles = !w->frame->polygons.firsts;
-    if ((!triangles && !dp_tile_exact_normals(w)) || !dp_edge_table_list(w)) return false;
-    if (triangles) dp_raster_kernels_for(w->frame->lanes)->normals(w);
+static bool prepare(dp_finder *w) {
+    const bool triangles = !w->tile.frame->polygons.firsts;
+    if ((!triangles && !dp_tile_exact_normals(&w->tile)) || !dp_edge_table_list(w)) return false;
+    if (triangles) dp_raster_kernels_for(w->tile.frame->lanes)->normals(&w->tile);
     return dp_edge_table_fill(w);
 }
 
-static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
-    const uint32_t front_a = w->polygons[met->a].flags & DP_POLYGON_FRONT;
-    const uint32_t front_b = w->polygons[met->b].flags & DP_POLYGON_FRONT;
+static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
+    const uint32_t front_a = w->tile.polygons[met->a].flags & DP_POLYGON_FRONT;
+    const uint32_t front_b = w->tile.polygons[met->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
     const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
     const dp_fold fold =
-        dp_fold_seen(w->frame, w->polygons[e->a].id, true, w->polygons[e->b].id, true, e->edge_b);
+        dp_fold_seen(w->tile.frame, w->tile.polygons[e->a].id, true, w->tile.polygons[e->b].id, true, e->edge_b);
     if (front_a && front_b)
         add_fold(w, e, &fold);
     else
@@ -86,11 +86,11 @@ static void resolve_pair(dp_tile_worker *w, const dp_edge_entry *met) {
 }
 
 /* Keys are hashes of positions (edge_table.c): is this the edge of all that met? */
-static bool is_shared(const dp_tile_worker *w, const dp_edge_entry *e) {
+static bool is_shared(const dp_finder *w, const dp_edge_entry *e) {
     bool shared = dp_edge_runs_between(w, (dp_edge_place){e->b, e->edge_b}, e->va, e->vb);
-    for (uint32_t i = e->more; i && shared; i = w->meetings[i - 1].next)
+    for (uint32_t i = e->more; i && shared; i = w->table.meetings[i - 1].next)
         shared =
-            dp_edge_runs_between(w, dp_edge_place_of(w, w->meetings[i - 1].number), e->va, e->vb);
+            dp_edge_runs_between(w, dp_edge_place_of(w, w->table.meetings[i - 1].number), e->va, e->vb);
     return shared;
 }
 
@@ -98,28 +98,28 @@ static bool is_shared(const dp_tile_worker *w, const dp_edge_entry *e) {
 
 /* Puts edge i of a batch there if it is one of two triangles, and lets the first in the source own
  * it. */
-static bool put_pair(const dp_tile_worker *w, dp_edge_entry *e, dp_fold_batch *f, uint32_t i) {
-    const dp_polygons *const polygons = &w->frame->polygons;
+static bool put_pair(const dp_finder *w, dp_edge_entry *e, dp_fold_batch *f, uint32_t i) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
     if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e))
         return false;
-    if (!((w->polygons[e->a].flags | w->polygons[e->b].flags) & DP_POLYGON_FRONT)) return false;
+    if (!((w->tile.polygons[e->a].flags | w->tile.polygons[e->b].flags) & DP_POLYGON_FRONT)) return false;
     *e = owned_by_first(w, e);
-    dp_fold_put(polygons, w->polygons[e->a].id, w->polygons[e->b].id, e->va, e->vb, f, i);
+    dp_fold_put(polygons, w->tile.polygons[e->a].id, w->tile.polygons[e->b].id, e->va, e->vb, f, i);
     return true;
 }
 
 /* The class of line that edge i makes, or -1. */
-static int pair_line(const dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f,
+static int pair_line(const dp_finder *w, const dp_edge_entry *e, const dp_fold_batch *f,
                      uint32_t i) {
-    if (!(w->polygons[e->a].flags & w->polygons[e->b].flags & DP_POLYGON_FRONT))
+    if (!(w->tile.polygons[e->a].flags & w->tile.polygons[e->b].flags & DP_POLYGON_FRONT))
         return DP_LINE_SILHOUETTE;
     const dp_fold fold =
-        dp_fold_between(w->frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i),
-                        dp_fold_vector(f->normal, i), w->polygons[e->b].id, e->edge_b);
-    return dp_fold_line(&fold, dp_polygon_style(w->frame, w->polygons[e->a].id));
+        dp_fold_between(w->tile.frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i),
+                        dp_fold_vector(f->normal, i), w->tile.polygons[e->b].id, e->edge_b);
+    return dp_fold_line(&fold, dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id));
 }
 
-static void resolve_put(dp_tile_worker *w, const dp_edge_entry *e, const dp_fold_batch *f,
+static void resolve_put(dp_finder *w, const dp_edge_entry *e, const dp_fold_batch *f,
                         uint32_t i) {
     if (f->plain[i] == 0) {
         resolve_pair(w, e);
@@ -143,15 +143,15 @@ typedef struct flap {
     double rise; /* change of depth per px away from the edge */
 } flap;
 
-static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polygon, uint32_t edge) {
-    const dp_tile_polygon *const p = &w->polygons[polygon];
+static flap make_flap(const dp_finder *w, const dp_spine *s, uint32_t polygon, uint32_t edge) {
+    const dp_tile_polygon *const p = &w->tile.polygons[polygon];
     flap f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = hypot(ex, ey);
     if (!(length > 0)) return f;
-    const dp_vertex *const points = w->points + p->point;
+    const dp_vertex *const points = w->tile.points + p->point;
     for (uint32_t i = 0; i < p->points; i++) {
-        const double x = points[i].x + (double)w->tile_x - s->a.x,
-                     y = points[i].y + (double)w->tile_y - s->a.y;
+        const double x = points[i].x + (double)w->tile.tile_x - s->a.x,
+                     y = points[i].y + (double)w->tile.tile_y - s->a.y;
         const double across = (ex * y - ey * x) / length;
         if (fabs(across) > fabs(f.side)) f.side = across;
     }
@@ -162,17 +162,17 @@ static flap make_flap(const dp_tile_worker *w, const dp_spine *s, uint32_t polyg
 
 /* Keeps the flap that is nearest to the eye on its side; of those in one place, the first in the
  * source. */
-static void offer_flap(const dp_tile_worker *w, flap best[2], uint32_t count[2], flap f) {
+static void offer_flap(const dp_finder *w, flap best[2], uint32_t count[2], flap f) {
     const int side = f.side < 0;
     const flap had = best[side];
     const bool is_earlier = count[side] && f.rise == had.rise &&
-                            w->polygons[f.polygon].id < w->polygons[had.polygon].id;
+                            w->tile.polygons[f.polygon].id < w->tile.polygons[had.polygon].id;
     if (!count[side]++ || f.rise > had.rise || is_earlier) best[side] = f;
 }
 
 /* The edge as these two have it, the first in the source first; `q` may be none. */
-static dp_edge_entry owned_by_flaps(const dp_tile_worker *w, const flap *p, const flap *q) {
-    const bool swap = q && w->polygons[q->polygon].id < w->polygons[p->polygon].id;
+static dp_edge_entry owned_by_flaps(const dp_finder *w, const flap *p, const flap *q) {
+    const bool swap = q && w->tile.polygons[q->polygon].id < w->tile.polygons[p->polygon].id;
     const flap *const a = swap ? q : p, *const b = swap ? p : q;
     dp_edge_entry e = {.a = a->polygon,
                        .edge_a = a->edge,
@@ -185,58 +185,58 @@ static dp_edge_entry owned_by_flaps(const dp_tile_worker *w, const flap *p, cons
 /* Edges where the winding disagrees or more than two polygons meet: what the eye sees decides. The
  * nearest polygon on either side of the edge hides the others; the two make the line that two
  * polygons would make there, and when all lie on one side the edge is an outline. */
-static void resolve_fan(dp_tile_worker *w, const dp_edge_entry *e) {
+static void resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     dp_spine s;
-    const dp_polygons *const polygons = &w->frame->polygons;
-    if (!dp_spine_make(&w->frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    if (!dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                        dp_v3f(dp_vertex_position(polygons, e->vb)), dp_v3(0, 0, 0), &s))
         return;
     flap best[2] = {{0}};
     uint32_t count[2] = {0, 0};
     offer_flap(w, best, count, make_flap(w, &s, e->a, e->edge_a));
     offer_flap(w, best, count, make_flap(w, &s, e->b, e->edge_b));
-    for (uint32_t i = e->more; i; i = w->meetings[i - 1].next) {
-        const dp_edge_place at = dp_edge_place_of(w, w->meetings[i - 1].number);
+    for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
+        const dp_edge_place at = dp_edge_place_of(w, w->table.meetings[i - 1].number);
         offer_flap(w, best, count, make_flap(w, &s, at.polygon, at.edge));
     }
     if (!count[0] || !count[1]) {
         const flap f = best[count[0] ? 0 : 1];
         const dp_edge_entry owned = owned_by_flaps(w, &f, NULL);
-        dp_vec3 normal = dp_polygon_normal(w->frame, w->polygons[f.polygon].id);
+        dp_vec3 normal = dp_polygon_normal(w->tile.frame, w->tile.polygons[f.polygon].id);
         if (!f.front) normal = dp_scale(normal, -1);
         add_line(w, &owned, DP_LINE_SILHOUETTE, normal);
         return;
     }
     if (!best[0].front && !best[1].front) return;
     const dp_edge_entry owned = owned_by_flaps(w, &best[0], &best[1]);
-    const dp_fold fold = dp_fold_seen(w->frame, w->polygons[best[0].polygon].id, best[0].front,
-                                      w->polygons[best[1].polygon].id, best[1].front, best[1].edge);
+    const dp_fold fold = dp_fold_seen(w->tile.frame, w->tile.polygons[best[0].polygon].id, best[0].front,
+                                      w->tile.polygons[best[1].polygon].id, best[1].front, best[1].edge);
     add_fold(w, &owned, &fold);
 }
 
 /* Every edge of every polygon is left to emerge (dp_style.edge_table_off). */
-static void leave_all(dp_tile_worker *w) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
+static void leave_all(dp_finder *w) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    for (uint32_t i = 0; i < w->tile.polygon_count && !w->tile.failed; i++) {
+        const dp_tile_polygon *const p = &w->tile.polygons[i];
         const uint32_t first = dp_first_corner(polygons, p->id),
                        n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
-            if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(w, p, e))
+            if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(&w->tile, p, e))
                 leave(w, i, e);
     }
 }
 
-static void leave_all_of(dp_tile_worker *w, const dp_edge_entry *e) {
+static void leave_all_of(dp_finder *w, const dp_edge_entry *e) {
     leave(w, e->a, e->edge_a);
     leave(w, e->b, e->edge_b);
-    for (uint32_t i = e->more; i; i = w->meetings[i - 1].next) {
-        const dp_edge_place at = dp_edge_place_of(w, w->meetings[i - 1].number);
+    for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
+        const dp_edge_place at = dp_edge_place_of(w, w->table.meetings[i - 1].number);
         leave(w, at.polygon, at.edge);
     }
 }
 
-static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
+static void resolve(dp_finder *w, const dp_edge_entry *e) {
     if (e->b == UINT32_MAX) {
         leave(w, e->a, e->edge_a);
     } else if (!is_shared(w, e)) {
@@ -250,31 +250,31 @@ static void resolve(dp_tile_worker *w, const dp_edge_entry *e) {
 
 /* Takes up to DP_FOLDS edges from the table from `*number` on, and has their polygons fetched
  * meanwhile. */
-static uint32_t take_entries(const dp_tile_worker *w, uint32_t *number,
+static uint32_t take_entries(const dp_finder *w, uint32_t *number,
                              dp_edge_entry entries[DP_FOLDS]) {
-    const dp_polygons *const polygons = &w->frame->polygons;
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
     uint32_t count = 0;
     while (count < DP_FOLDS && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX) {
         const dp_edge_entry e = dp_edge_table_entry(w, (*number)++);
-        dp_ask_for_corners(polygons, w->polygons[e.a].id);
-        if (e.b != UINT32_MAX) dp_ask_for_corners(polygons, w->polygons[e.b].id);
+        dp_ask_for_corners(polygons, w->tile.polygons[e.a].id);
+        if (e.b != UINT32_MAX) dp_ask_for_corners(polygons, w->tile.polygons[e.b].id);
         entries[count++] = e;
     }
     for (uint32_t i = 0; i < count; i++) {
         dp_edge_entry *const e = &entries[i];
         dp_edge_ends(w, (dp_edge_place){e->a, e->edge_a}, &e->va, &e->vb);
-        dp_ask_for_positions(polygons, w->polygons[e->a].id);
-        if (e->b != UINT32_MAX) dp_ask_for_positions(polygons, w->polygons[e->b].id);
+        dp_ask_for_positions(polygons, w->tile.polygons[e->a].id);
+        if (e->b != UINT32_MAX) dp_ask_for_positions(polygons, w->tile.polygons[e->b].id);
     }
     return count;
 }
 
-static void resolve_entries(dp_tile_worker *w, dp_edge_entry entries[DP_FOLDS], uint32_t count,
+static void resolve_entries(dp_finder *w, dp_edge_entry entries[DP_FOLDS], uint32_t count,
                             dp_fold_batch *folds) {
     bool put[DP_FOLDS];
     for (uint32_t i = 0; i < count; i++) put[i] = put_pair(w, &entries[i], folds, i);
-    dp_find_kernels_for(w->frame->lanes)->folds(&w->frame->view, folds, count);
-    for (uint32_t i = 0; i < count && !w->failed; i++) {
+    dp_find_kernels_for(w->tile.frame->lanes)->folds(&w->tile.frame->view, folds, count);
+    for (uint32_t i = 0; i < count && !w->tile.failed; i++) {
         if (put[i])
             resolve_put(w, &entries[i], folds, i);
         else
@@ -282,9 +282,9 @@ static void resolve_entries(dp_tile_worker *w, dp_edge_entry entries[DP_FOLDS], 
     }
 }
 
-void dp_tile_edges(dp_tile_worker *w) {
-    if (!(w->frame->lines & ~DP_INTERSECTION)) return;
-    if (w->frame->styles[0].edge_table_off) {
+void dp_find_edges(dp_finder *w) {
+    if (!(w->tile.frame->lines & ~DP_INTERSECTION)) return;
+    if (w->tile.frame->styles[0].edge_table_off) {
         leave_all(w);
         return;
     }
@@ -292,6 +292,6 @@ void dp_tile_edges(dp_tile_worker *w) {
     dp_edge_entry entries[DP_FOLDS];
     dp_fold_batch folds = {0};
     uint32_t number = 0;
-    for (uint32_t count; !w->failed && (count = take_entries(w, &number, entries)) > 0;)
+    for (uint32_t count; !w->tile.failed && (count = take_entries(w, &number, entries)) > 0;)
         resolve_entries(w, entries, count, &folds);
 }

@@ -10,7 +10,7 @@
  * Data structure: lookups in lists by pixel, three to a sample point of the spine. Not handled: a
  * crack wider than FAR px on the screen (it is drawn as two borders). */
 #include "core/fold.h"
-#include "raster/tile.h"
+#include "find/finder.h"
 
 #include <string.h>
 
@@ -45,21 +45,21 @@ typedef struct emerging {
     uint32_t first;  /* lookup */
 } emerging;
 
-static bool begin_edge(dp_tile_worker *w, dp_loose_edge loose, emerging *e) {
-    const dp_polygons *const polygons = &w->frame->polygons;
+static bool begin_edge(dp_finder *w, dp_loose_edge loose, emerging *e) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
     e->loose = loose;
-    e->id = w->polygons[loose.polygon].id;
+    e->id = w->tile.polygons[loose.polygon].id;
     const uint32_t first = dp_first_corner(polygons, e->id), n = dp_corner_count(polygons, e->id);
     const uint32_t va = dp_corner_vertex(polygons, first + loose.edge);
     const uint32_t vb = dp_corner_vertex(polygons, first + (loose.edge + 1) % n);
     e->a = dp_v3f(dp_vertex_position(polygons, va));
     e->b = dp_v3f(dp_vertex_position(polygons, vb));
-    return dp_spine_make(&w->frame->view, e->a, e->b, dp_v3(0, 0, 0), &e->spine);
+    return dp_spine_make(&w->tile.frame->view, e->a, e->b, dp_v3(0, 0, 0), &e->spine);
 }
 
-static dp_pointd edge_point(const dp_tile_worker *w, const dp_spine *s, uint32_t k) {
+static dp_pointd edge_point(const dp_finder *w, const dp_spine *s, uint32_t k) {
     dp_pointd p = dp_point_mix(s->a, s->b, (k + 0.5) / s->n);
-    p.x -= w->tile_x, p.y -= w->tile_y;
+    p.x -= w->tile.tile_x, p.y -= w->tile.tile_y;
     return p;
 }
 
@@ -69,7 +69,7 @@ static bool near_tile(dp_pointd p) {
 }
 
 /* Sample points in and around the tile are consecutive: the tile is convex. */
-static bool find_range(const dp_tile_worker *w, emerging *e) {
+static bool find_range(const dp_finder *w, emerging *e) {
     e->k0 = 0, e->k1 = e->spine.n;
     while (e->k0 < e->k1 && !near_tile(edge_point(w, &e->spine, e->k0))) e->k0++;
     while (e->k0 < e->k1 && !near_tile(edge_point(w, &e->spine, e->k1 - 1))) e->k1--;
@@ -78,17 +78,17 @@ static bool find_range(const dp_tile_worker *w, emerging *e) {
 
 /* Unit vector on the screen across the edge, away from the polygon: it is wound counter-clockwise
  * seen from its front, and the screen's y runs down. */
-static void outward(const dp_tile_worker *w, const emerging *e, float out[2]) {
+static void outward(const dp_finder *w, const emerging *e, float out[2]) {
     const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
                  length = hypot(ex, ey);
-    const double sign = w->polygons[e->loose.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
+    const double sign = w->tile.polygons[e->loose.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
     out[0] = length > 0 ? (float)(-ey / length * sign) : 1;
     out[1] = length > 0 ? (float)(ex / length * sign) : 0;
 }
 
-static bool place_lookups(dp_tile_worker *w, emerging *e, uint32_t *count) {
+static bool place_lookups(dp_finder *w, emerging *e, uint32_t *count) {
     const size_t need = (size_t)*count + (size_t)LOOKUPS * (e->k1 - e->k0);
-    if (!DP_WORKER_RESERVE(w, lookups, lookups_cap, need)) return false;
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.lookups, emergence.lookups_cap, need)) return false;
     const float steps[LOOKUPS] = {NEAR, FAR, -NEAR};
     float out[2];
     outward(w, e, out);
@@ -97,7 +97,7 @@ static bool place_lookups(dp_tile_worker *w, emerging *e, uint32_t *count) {
         const dp_pointd p = edge_point(w, &e->spine, k);
         const float x = (float)p.x, y = (float)p.y;
         for (int i = 0; i < LOOKUPS; i++) {
-            dp_lookup *const l = &w->lookups[*count];
+            dp_lookup *const l = &w->emergence.lookups[*count];
             *l = (dp_lookup){.x = x + steps[i] * out[0],
                              .y = y + steps[i] * out[1],
                              .ex = x,
@@ -106,35 +106,35 @@ static bool place_lookups(dp_tile_worker *w, emerging *e, uint32_t *count) {
                              .own = e->loose.polygon,
                              .found = UINT32_MAX,
                              .tolerance =
-                                 (float)fabs(dp_depth_step(&w->frame->view, p.d, TOUCHING))};
-            l->next = dp_pixel_push(&w->lookup_pixels, l->x, l->y, (*count)++);
+                                 (float)fabs(dp_depth_step(&w->tile.frame->view, p.d, TOUCHING))};
+            l->next = dp_pixel_push(&w->emergence.pixels, l->x, l->y, (*count)++);
         }
     }
     return true;
 }
 
-static void look_in_pixel(dp_tile_worker *w, uint32_t index, uint32_t head) {
-    const dp_tile_polygon *const p = &w->polygons[index];
+static void look_in_pixel(dp_finder *w, uint32_t index, uint32_t head) {
+    const dp_tile_polygon *const p = &w->tile.polygons[index];
     const float slope = PLACED * (fabsf(p->dx) + fabsf(p->dy));
-    for (uint32_t i = head; i != UINT32_MAX; i = w->lookups[i].next) {
-        dp_lookup *const l = &w->lookups[i];
+    for (uint32_t i = head; i != UINT32_MAX; i = w->emergence.lookups[i].next) {
+        dp_lookup *const l = &w->emergence.lookups[i];
         if (l->own == index || fabsf(dp_plane_at(p, l->ex, l->ey) - l->ed) > l->tolerance + slope)
             continue;
         const float depth = dp_plane_at(p, l->x, l->y);
         if (l->found != UINT32_MAX && l->depth >= depth) continue;
-        if (dp_tile_covers(w, p, l->x, l->y)) l->found = index, l->depth = depth;
+        if (dp_tile_covers(&w->tile, p, l->x, l->y)) l->found = index, l->depth = depth;
     }
 }
 
-static void look(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
+static void look(dp_finder *w) {
+    for (uint32_t i = 0; i < w->tile.polygon_count; i++) {
+        const dp_tile_polygon *const p = &w->tile.polygons[i];
         if (p->flags & DP_POLYGON_EDGE_ON) continue;
         const uint64_t span = dp_box_span(p);
         for (uint32_t y = p->y0; y <= p->y1; y++)
-            for (uint64_t bits = w->lookup_pixels.row[y] & span; bits; bits &= bits - 1)
+            for (uint64_t bits = w->emergence.pixels.row[y] & span; bits; bits &= bits - 1)
                 look_in_pixel(w, i,
-                              w->lookup_pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
+                              w->emergence.pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
     }
 }
 
@@ -145,22 +145,22 @@ typedef struct finding {
     dp_vec3 normal;
 } finding;
 
-static finding outline_finding(const dp_tile_worker *w, const emerging *e, uint32_t behind) {
-    const dp_vec3 n = dp_polygon_normal(w->frame, e->id);
-    const bool front = w->polygons[e->loose.polygon].flags & DP_POLYGON_FRONT;
+static finding outline_finding(const dp_finder *w, const emerging *e, uint32_t behind) {
+    const dp_vec3 n = dp_polygon_normal(w->tile.frame, e->id);
+    const bool front = w->tile.polygons[e->loose.polygon].flags & DP_POLYGON_FRONT;
     return (finding){behind == UINT32_MAX ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, behind,
                      front ? n : dp_scale(n, -1)};
 }
 
-static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t across) {
-    const dp_tile_polygon *const p = &w->polygons[e->loose.polygon];
-    const dp_tile_polygon *const q = &w->polygons[across];
+static finding fold_finding(const dp_finder *w, const emerging *e, uint32_t across) {
+    const dp_tile_polygon *const p = &w->tile.polygons[e->loose.polygon];
+    const dp_tile_polygon *const q = &w->tile.polygons[across];
     finding f = {-1, across, {0, 0, 0}};
     if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
     const dp_vec3 at = dp_mix(e->a, e->b, 0.5);
-    const dp_fold fold = dp_fold_at(w->frame, p->id, p->flags & DP_POLYGON_FRONT, q->id,
+    const dp_fold fold = dp_fold_at(w->tile.frame, p->id, p->flags & DP_POLYGON_FRONT, q->id,
                                     q->flags & DP_POLYGON_FRONT, at);
-    f.line = dp_fold_line(&fold, dp_polygon_style(w->frame, p->id));
+    f.line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, p->id));
     f.normal = fold.normal;
     return f;
 }
@@ -168,11 +168,11 @@ static finding fold_finding(const dp_tile_worker *w, const emerging *e, uint32_t
 /* Near an end of the edge, polygons that only share its corner lie within FAR of it too. */
 static bool is_near_end(const emerging *e, uint32_t k) { return k < 2 || k + 2 >= e->spine.n; }
 
-static finding judge(const dp_tile_worker *w, const emerging *e, uint32_t k) {
-    const dp_lookup *const l = w->lookups + e->first + (size_t)LOOKUPS * (k - e->k0);
+static finding judge(const dp_finder *w, const emerging *e, uint32_t k) {
+    const dp_lookup *const l = w->emergence.lookups + e->first + (size_t)LOOKUPS * (k - e->k0);
     const uint32_t far = is_near_end(e, k) ? UINT32_MAX : l[1].found, behind = l[2].found;
     const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : far;
-    const dp_tile_polygon *const p = &w->polygons[e->loose.polygon];
+    const dp_tile_polygon *const p = &w->tile.polygons[e->loose.polygon];
     const dp_lookup *const own = &l[2];
     const bool covered =
         behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
@@ -180,19 +180,19 @@ static finding judge(const dp_tile_worker *w, const emerging *e, uint32_t k) {
         return (finding){-1, behind, {0, 0, 0}}; /* another polygon at this edge is in front */
     if (across == UINT32_MAX) {
         const bool both_back =
-            behind != UINT32_MAX && !((p->flags | w->polygons[behind].flags) & DP_POLYGON_FRONT);
+            behind != UINT32_MAX && !((p->flags | w->tile.polygons[behind].flags) & DP_POLYGON_FRONT);
         return both_back ? (finding){-1, behind, {0, 0, 0}} : outline_finding(w, e, behind);
     }
     return fold_finding(w, e, across);
 }
 
-static void add_run(dp_tile_worker *w, const emerging *e, finding f, uint32_t k0, uint32_t k1) {
+static void add_run(dp_finder *w, const emerging *e, finding f, uint32_t k0, uint32_t k1) {
     if (f.line < 0 || k0 >= k1) return;
-    if (!(dp_polygon_style(w->frame, e->id)->lines & (1u << f.line))) return;
+    if (!(dp_polygon_style(w->tile.frame, e->id)->lines & (1u << f.line))) return;
     dp_spine spine;
-    if (!dp_spine_make(&w->frame->view, e->a, e->b, f.normal, &spine)) return;
-    const uint32_t b = f.neighbour == UINT32_MAX ? UINT32_MAX : w->polygons[f.neighbour].id;
-    dp_tile_add_candidate(
+    if (!dp_spine_make(&w->tile.frame->view, e->a, e->b, f.normal, &spine)) return;
+    const uint32_t b = f.neighbour == UINT32_MAX ? UINT32_MAX : w->tile.polygons[f.neighbour].id;
+    dp_add_candidate(
         w,
         (dp_candidate){
             .a = e->id, .b = b, .edge = e->loose.edge, .k0 = k0, .k1 = k1, .line = (uint8_t)f.line},
@@ -214,10 +214,10 @@ static finding settle(const emerging *e, uint32_t k, const finding *before, cons
 }
 
 /* Runs of sample points with the same line and neighbour become candidates. */
-static void add_lines(dp_tile_worker *w, const emerging *e) {
+static void add_lines(dp_finder *w, const emerging *e) {
     finding last = {-1, UINT32_MAX, {0, 0, 0}}, before, here = judge(w, e, e->k0), after = here;
     uint32_t start = e->k0;
-    for (uint32_t k = e->k0; k < e->k1 && !w->failed; k++) {
+    for (uint32_t k = e->k0; k < e->k1 && !w->tile.failed; k++) {
         before = k > e->k0 ? here : after;
         here = k > e->k0 ? after : here;
         after = k + 1 < e->k1 ? judge(w, e, k + 1) : here;
@@ -227,25 +227,37 @@ static void add_lines(dp_tile_worker *w, const emerging *e) {
         last = f, start = k;
     }
     add_run(w, e, last, start, e->k1);
-    if (last.line == DP_LINE_BORDER) w->stats.open_edges++;
+    if (last.line == DP_LINE_BORDER) w->tile.stats.open_edges++;
 }
 
-void dp_tile_emerge(dp_tile_worker *w) {
+void dp_find_emergent(dp_finder *w) {
     uint32_t count = 0;
     emerging e;
-    if (!w->loose_count) return;
-    memset(w->lookup_pixels.row, 0, sizeof w->lookup_pixels.row);
-    for (uint32_t i = 0; i < w->loose_count; i++)
-        if (begin_edge(w, w->loose[i], &e) && find_range(w, &e) && !place_lookups(w, &e, &count))
+    if (!w->emergence.loose_count) return;
+    memset(w->emergence.pixels.row, 0, sizeof w->emergence.pixels.row);
+    for (uint32_t i = 0; i < w->emergence.loose_count; i++)
+        if (begin_edge(w, w->emergence.loose[i], &e) && find_range(w, &e) && !place_lookups(w, &e, &count))
             return;
     if (!count) return;
     look(w);
     count = 0;
-    for (uint32_t i = 0; i < w->loose_count && !w->failed; i++) {
-        if (!begin_edge(w, w->loose[i], &e) || !find_range(w, &e)) continue;
+    for (uint32_t i = 0; i < w->emergence.loose_count && !w->tile.failed; i++) {
+        if (!begin_edge(w, w->emergence.loose[i], &e) || !find_range(w, &e)) continue;
         e.first = count;
         count += LOOKUPS * (e.k1 - e.k0);
-        w->stats.edges_emergent++;
+        w->tile.stats.edges_emergent++;
         add_lines(w, &e);
     }
 }
+
+/* ------- memory ------- */
+
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_emergence, loose, loose_cap),
+    DP_ARRAY(dp_emergence, lookups, lookups_cap)};
+
+void dp_emergence_free(dp_emergence *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_emergence_bytes(const dp_emergence *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }

@@ -10,17 +10,17 @@
  * once (find/meet.inc). */
 #include "find/kernels.h"
 #include "features/crossing.h"
-#include "raster/tile.h"
+#include "find/finder.h"
 
 #include <string.h>
 
 /* A front and a back face come close along every outline of a closed model. They cross in sight
  * only where the back face is seen too: keeps the suspects near a pixel whose winner is a back
  * face. */
-static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_TILE]) {
+static void keep_seen_back_faces(const dp_finder *w, uint64_t suspects[DP_TILE]) {
     uint64_t near[DP_TILE], backs[DP_TILE];
     if (!dp_widen(suspects, near)) return;
-    dp_find_kernels_for(w->frame->lanes)->show_backs(w, near, backs);
+    dp_find_kernels_for(w->tile.frame->lanes)->show_backs(w, near, backs);
     dp_widen(backs, near);
     for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
 }
@@ -29,11 +29,11 @@ static void keep_seen_back_faces(const dp_tile_worker *w, uint64_t suspects[DP_T
 
 /* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes,
  * as above. Others, and what is clipped, have none, and take `dp_shared_corners`. */
-static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
+static void find_shared(const dp_finder *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
                         uint32_t *of_p, uint32_t *of_q) {
     *of_p = *of_q = 0;
     if ((p->flags | q->flags) & DP_POLYGON_CLIPPED || (p->points ^ 3) | (q->points ^ 3)) return;
-    const dp_vertex *const a = w->points + p->point, *const b = w->points + q->point;
+    const dp_vertex *const a = w->tile.points + p->point, *const b = w->tile.points + q->point;
     for (uint32_t i = 0; i < 3; i++)
         for (uint32_t j = 0; j < 3; j++) {
             const uint32_t same = a[i].key == b[j].key;
@@ -43,11 +43,11 @@ static void find_shared(const dp_tile_worker *w, const dp_tile_polygon *p, const
 
 /* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they
  * share lie in it. */
-static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
+static bool is_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
                       uint32_t shared) {
     bool nearer = false, further = false;
     for (uint32_t i = 0; i < p->points; i++) {
-        const dp_vertex at = w->points[p->point + i];
+        const dp_vertex at = w->tile.points[p->point + i];
         const float gap = at.d - dp_plane_at(q, at.x, at.y);
         const bool apart = !(i < 3 && shared >> i & 1);
         nearer |= apart & (gap >= 0), further |= apart & (gap <= 0);
@@ -56,7 +56,7 @@ static bool is_beside(const dp_tile_worker *w, const dp_tile_polygon *p, const d
 }
 
 /* Not in sight of each other's planes. */
-static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p,
+static bool are_beside(const dp_finder *w, const dp_tile_polygon *p,
                        const dp_tile_polygon *q) {
     uint32_t of_p, of_q;
     find_shared(w, p, q, &of_p, &of_q);
@@ -64,15 +64,15 @@ static bool are_beside(const dp_tile_worker *w, const dp_tile_polygon *p,
     return is_beside(w, p, q, of_p) || is_beside(w, q, p, of_q);
 }
 
-static void test_pair(dp_tile_worker *w, uint32_t a, uint32_t b) {
-    const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
-    if (are_beside(w, p, q) || dp_shared_corners(w->frame, p->id, q->id) > 1) return;
+static void test_pair(dp_finder *w, uint32_t a, uint32_t b) {
+    const dp_tile_polygon *const p = &w->tile.polygons[a], *const q = &w->tile.polygons[b];
+    if (are_beside(w, p, q) || dp_shared_corners(w->tile.frame, p->id, q->id) > 1) return;
     dp_vec3 from, to, normal;
     dp_spine spine;
-    if (!(dp_polygon_style(w->frame, p->id)->lines & DP_INTERSECTION)) return;
-    if (!dp_crossing_find(w->frame, p->id, q->id, &from, &to, &normal)) return;
-    if (!dp_spine_make(&w->frame->view, from, to, normal, &spine)) return;
-    dp_tile_add_candidate(w,
+    if (!(dp_polygon_style(w->tile.frame, p->id)->lines & DP_INTERSECTION)) return;
+    if (!dp_crossing_find(w->tile.frame, p->id, q->id, &from, &to, &normal)) return;
+    if (!dp_spine_make(&w->tile.frame->view, from, to, normal, &spine)) return;
+    dp_add_candidate(w,
                           (dp_candidate){.a = p->id,
                                          .b = q->id,
                                          .edge = DP_CROSSING,
@@ -151,33 +151,33 @@ static void find_cells(const surroundings *near, dp_cell_bits cells) {
 
 /* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their
  * boxes. */
-static bool list_crowd(dp_tile_worker *w, const surroundings *near, uint32_t *polygon,
+static bool list_crowd(dp_finder *w, const surroundings *near, uint32_t *polygon,
                        uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
-    const uint32_t *const boxes = dp_seen_words(w, DP_SEEN_BOX);
-    const uint32_t *const flags = dp_seen_words(w, DP_SEEN_FLAGS);
+    const uint32_t *const boxes = dp_seen_words(&w->tile, DP_SEEN_BOX);
+    const uint32_t *const flags = dp_seen_words(&w->tile, DP_SEEN_FLAGS);
     dp_cell_bits cells;
     find_cells(near, cells);
-    const uint32_t count = dp_find_kernels_for(w->frame->lanes)->come_near(w, &cells[0][0][0], polygon);
+    const uint32_t count = dp_find_kernels_for(w->tile.frame->lanes)->come_near(w, &cells[0][0][0], polygon);
     crowd->count = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
         if (!near->mixed && !(flags[i] & DP_POLYGON_FRONT)) continue;
         if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
-        polygon[crowd->count++] = w->seen[i];
+        polygon[crowd->count++] = w->tile.seen[i];
         rows[(boxes[i] >> 8 & 255) + 1]++;
     }
     const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
-    return DP_WORKER_RESERVE(w, crowd.polygon, crowd.polygon_cap, room) &&
-           DP_WORKER_RESERVE(w, crowd.met, crowd.met_cap, room) &&
-           DP_WORKER_RESERVE(w, crowd.members, crowd.members_cap, DP_CROWD_MEMBERS * room) &&
-           DP_WORKER_RESERVE(w, crowd.keys, crowd.keys_cap, 3 * room);
+    return DP_TILE_RESERVE(&w->tile, w, crowd.polygon, crowd.polygon_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, crowd.met, crowd.met_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, crowd.members, crowd.members_cap, DP_CROWD_MEMBERS * room) &&
+           DP_TILE_RESERVE(&w->tile, w, crowd.keys, crowd.keys_cap, 3 * room);
 }
 
-static void put_member(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
+static void put_member(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
     const size_t stride = w->crowd.stride;
     float *const out = w->crowd.members + at;
-    const dp_vertex *const v = w->points + p->point;
+    const dp_vertex *const v = w->tile.points + p->point;
     const bool told = p->points == 3 && !(p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_EDGE_ON));
     dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
     for (uint32_t i = 0; i < p->points; i++) {
@@ -194,23 +194,23 @@ static void put_member(const dp_tile_worker *w, const dp_tile_polygon *p, uint32
 
 /* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
  * their own, which match as seldom; they are told by `dp_shared_corners`. */
-static void put_keys(const dp_tile_worker *w, const dp_tile_polygon *p, uint32_t at) {
+static void put_keys(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
     const dp_crowd *const crowd = &w->crowd;
     const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
     for (uint32_t k = 0; k < 3; k++)
         crowd->keys[k * (size_t)crowd->stride + at] =
-            known ? w->points[p->point + k].key : 3 * at + k;
+            known ? w->tile.points[p->point + k].key : 3 * at + k;
 }
 
 /* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row
  * starts. */
-static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
+static void sort_crowd(dp_finder *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
     dp_crowd *const crowd = &w->crowd;
     uint32_t next[DP_TILE];
     crowd->stride = crowd->count + DP_CROWD_ROOM;
     for (int y = 0; y < DP_TILE; y++) next[y] = rows[y], rows[y + 1] += rows[y];
     for (uint32_t i = 0; i < crowd->count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[polygon[i]];
+        const dp_tile_polygon *const p = &w->tile.polygons[polygon[i]];
         const uint32_t at = next[p->y0]++;
         crowd->polygon[at] = polygon[i];
         put_member(w, p, at);
@@ -219,27 +219,42 @@ static void sort_crowd(dp_tile_worker *w, const uint32_t *polygon, uint32_t rows
 }
 
 /* Each pair is tested once, when its upper polygon's turn has come, or the first one's of a row. */
-void dp_tile_intersections(dp_tile_worker *w) {
+void dp_find_intersections(dp_finder *w) {
     surroundings near;
-    dp_tile_watch(w);
-    keep_seen_back_faces(w, w->suspects[1]);
-    near.mixed = look_around(w->suspects[1], &near.back);
-    for (int y = 0; y < DP_TILE; y++) w->suspects[0][y] |= w->suspects[1][y];
-    dp_drop_lone(w->suspects[0]);
-    if (!look_around(w->suspects[0], &near.front)) return;
+    dp_tile_watch(&w->tile);
+    keep_seen_back_faces(w, w->tile.suspects[1]);
+    near.mixed = look_around(w->tile.suspects[1], &near.back);
+    for (int y = 0; y < DP_TILE; y++) w->tile.suspects[0][y] |= w->tile.suspects[1][y];
+    dp_drop_lone(w->tile.suspects[0]);
+    if (!look_around(w->tile.suspects[0], &near.front)) return;
     uint32_t rows[DP_TILE + 1] = {0};
-    if (!DP_WORKER_RESERVE(w, crowd.listed, crowd.listed_cap,
-                           (size_t)w->seen_count + DP_CROWD_ROOM) ||
+    if (!DP_TILE_RESERVE(&w->tile, w, crowd.listed, crowd.listed_cap,
+                           (size_t)w->tile.seen_count + DP_CROWD_ROOM) ||
         !list_crowd(w, &near, w->crowd.listed, rows))
         return;
     sort_crowd(w, w->crowd.listed, rows);
-    for (uint32_t i = 0; i < w->crowd.count && !w->failed; i++) {
+    for (uint32_t i = 0; i < w->crowd.count && !w->tile.failed; i++) {
         const uint32_t a = w->crowd.polygon[i];
-        const uint32_t met = dp_find_kernels_for(w->frame->lanes)->meet(&w->crowd, i, rows[w->polygons[a].y1 + 1]);
+        const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)->meet(&w->crowd, i, rows[w->tile.polygons[a].y1 + 1]);
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
-            if (meet_near(&near, &w->polygons[a], &w->polygons[b]))
+            if (meet_near(&near, &w->tile.polygons[a], &w->tile.polygons[b]))
                 test_pair(w, a < b ? a : b, a < b ? b : a);
         }
     }
 }
+
+/* ------- memory ------- */
+
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_crowd, polygon, polygon_cap),
+    DP_ARRAY(dp_crowd, members, members_cap),
+    DP_ARRAY(dp_crowd, keys, keys_cap),
+    DP_ARRAY(dp_crowd, met, met_cap),
+    DP_ARRAY(dp_crowd, listed, listed_cap)};
+
+void dp_crowd_free(dp_crowd *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_crowd_bytes(const dp_crowd *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }

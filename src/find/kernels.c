@@ -1,6 +1,7 @@
 /* This folder's kernels at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
 #include "find/kernels.h"
 
+#include "find/finder.h"
 #include "kernel/lanes.h"
 #include "raster/kernels.h"
 

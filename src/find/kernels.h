@@ -9,35 +9,35 @@ struct dp_crowd;
 struct dp_fold_batch;
 struct dp_probes;
 struct dp_spine;
-struct dp_tile_worker;
+struct dp_finder;
 
 typedef struct dp_find_kernels {
     /* Appends the edges of the tile's seen triangles to its list, but for those that end at calm
      * vertices, or on rims and are flat (umbrellas.inc); makes normals that are not known, and
      * lists others that are to be made (edges.inc). */
-    void (*list_edges)(struct dp_tile_worker *worker);
+    void (*list_edges)(struct dp_finder *worker);
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong
      * together (edges.inc). */
-    bool (*flatten)(struct dp_tile_worker *worker);
+    bool (*flatten)(struct dp_finder *worker);
     /* Unmarks edges that no second polygon met and that lie hidden (edges.inc). */
-    void (*unmark_alone)(struct dp_tile_worker *worker);
+    void (*unmark_alone)(struct dp_finder *worker);
     /* Normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
     /* Makes the sample points [k0, k1) of a spine, from number `at` on, with room for a vector more
      * (points.inc). */
-    void (*points)(const struct dp_tile_worker *worker, const struct dp_spine *spine, uint32_t k0,
+    void (*points)(const struct dp_finder *worker, const struct dp_spine *spine, uint32_t k0,
                    uint32_t k1, const struct dp_probes *out, uint32_t at);
     /* Finds which pixels show a back face, of those asked for and some others (meet.inc). */
-    void (*show_backs)(const struct dp_tile_worker *worker, const uint64_t *asked, uint64_t *out);
+    void (*show_backs)(const struct dp_finder *worker, const uint64_t *asked, uint64_t *out);
     /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a
      * vector more; returns how many (meet.inc). */
-    uint32_t (*come_near)(const struct dp_tile_worker *worker, const uint32_t *cells,
+    uint32_t (*come_near)(const struct dp_finder *worker, const uint32_t *cells,
                           uint32_t *list);
     /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for
      * neighbours and triangles on one side of each other; returns how many (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
     /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */
-    void (*hide)(struct dp_tile_worker *worker);
+    void (*hide)(struct dp_finder *worker);
 } dp_find_kernels;
 
 DP_KERNEL_TABLES(dp_find_kernels);

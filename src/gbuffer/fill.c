@@ -11,6 +11,7 @@
  * row; turning, facing and normalizing then run over the whole row. The loops that nearly all
  * pixels go through are in fill.inc; here is what conducts them, and the general way: pixels of
  * several surfaces, polygons that were clipped or have more than three corners. */
+#include "core/piece.h"
 #include "gbuffer/fill.h"
 
 #include <string.h>
@@ -29,7 +30,7 @@ static float step_at(const dp_fill *f, float d) {
 
 /* Which of the samples lie on the surface that sample `s` shows, as a set. */
 static uint32_t samples_with(const dp_fill *f, size_t lane, uint32_t s, float px, float py) {
-    const dp_tile_worker *const w = f->w;
+    const dp_tile *const w = f->w;
     const uint32_t n = w->frame->target.samples, *const winner = w->winner + lane;
     const float *const d = w->depth + lane;
     const dp_tile_polygon *const p = &w->polygons[winner[s]];
@@ -46,7 +47,7 @@ static uint32_t samples_with(const dp_fill *f, size_t lane, uint32_t s, float px
 
 /* The pixel holds more than one polygon, or not only polygons. */
 static void pick_part(const dp_fill *f, size_t lane, float px, float py, picked *out) {
-    const dp_tile_worker *const w = f->w;
+    const dp_tile *const w = f->w;
     const uint32_t n = w->frame->target.samples, *const winner = w->winner + lane;
     uint32_t s = 0, t = 0;
     while (winner[s] == UINT32_MAX) s++;
@@ -83,7 +84,7 @@ static void put_part(const dp_fill *f, uint32_t x, dp_fill_row *r) {
 
 /* Any number of samples: pixels whose samples all show one polygon, and others. */
 static void pick_row(const dp_fill *f, dp_fill_row *r) {
-    const dp_tile_worker *const w = f->w;
+    const dp_tile *const w = f->w;
     const uint32_t n = w->frame->target.samples;
     r->mask = r->whole = r->mixed = 0;
     for (uint32_t x = 0; x < DP_TILE; x++) {
@@ -111,7 +112,7 @@ static float cross2(dp_vertex a, dp_vertex b, float x, float y) {
 /* Of the triangles (0, i - 1, i) of the polygon's fan the one that holds the point, or comes
  * nearest to it. Areas on the screen times depth are weights in space (perspective), but for a
  * common factor. */
-static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y,
+static void screen_weights(const dp_tile *w, const dp_tile_polygon *p, float x, float y,
                            weights *out) {
     const dp_vertex *const at = w->points + p->point;
     const uint32_t first = dp_first_corner(&w->frame->polygons, p->id);
@@ -132,7 +133,7 @@ static void screen_weights(const dp_tile_worker *w, const dp_tile_polygon *p, fl
 }
 
 /* The same in space, for a polygon whose points are not its corners any more. */
-static void space_weights(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y,
+static void space_weights(const dp_tile *w, const dp_tile_polygon *p, float x, float y,
                           float d, weights *out) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
@@ -186,7 +187,7 @@ static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
 
 /* A pixel whose polygon's points are not its three corners. */
 static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row *r) {
-    const dp_tile_worker *const w = f->w;
+    const dp_tile *const w = f->w;
     const dp_tile_polygon *const p = &w->polygons[r->polygon[x]];
     weights at = {{0}, {0}};
     float normal[3] = {0, 0, 0};
@@ -297,7 +298,7 @@ static uint64_t share_pixels(const dp_fill *f, const dp_fill_row *r, size_t row)
 
 static void end_row(const dp_fill *f, dp_fill_row *r) {
     dp_gbuffer *const g = f->g;
-    const size_t row = row_place(f, r->y), at = (size_t)f->w->tile * DP_TILE + r->y;
+    const size_t row = row_place(f, r->y), at = (size_t)f->w->index * DP_TILE + r->y;
     if (!r->mask) return;
     g->fillers->collect(f, r);
     for (uint64_t bits = f->weighted ? r->odd : 0; bits; bits &= bits - 1) {
@@ -324,11 +325,11 @@ static void fill_rows(const dp_fill *f, uint32_t width, uint32_t height) {
     }
 }
 
-void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals) {
-    uint64_t *const mask = g->mask + (size_t)w->tile * DP_TILE;
+void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *w, dp_normals normals) {
+    uint64_t *const mask = g->mask + (size_t)w->index * DP_TILE;
     const uint32_t width = g->width - w->tile_x < DP_TILE ? g->width - w->tile_x : DP_TILE;
     const uint32_t height = g->height - w->tile_y < DP_TILE ? g->height - w->tile_y : DP_TILE;
-    const bool bare = w->frame->tile_pieces[w->tile].bare,
+    const bool bare = w->frame->tile_pieces[w->index].bare,
                facets = normals == DP_NORMALS_FACET || !g->normals;
     const dp_fill f = {.g = g,
                        .w = w,
@@ -336,9 +337,9 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *w, dp_normals normals)
                        .weighted = !facets || g->textured,
                        .step = (float)(1 / w->frame->view.focal)};
     memset(mask, 0, DP_TILE * sizeof *mask);
-    memset(g->shared + (size_t)w->tile * DP_TILE, 0, DP_TILE * sizeof *mask);
-    if (bare && g->clean[w->tile]) return; /* it still holds background */
+    memset(g->shared + (size_t)w->index * DP_TILE, 0, DP_TILE * sizeof *mask);
+    if (bare && g->clean[w->index]) return; /* it still holds background */
     if (!bare) fill_rows(&f, width, height);
     for (uint32_t y = 0; bare && y < height; y++) fill_background(g, row_place(&f, y), width);
-    g->clean[w->tile] = bare; /* the margin beside it is not yet */
+    g->clean[w->index] = bare; /* the margin beside it is not yet */
 }

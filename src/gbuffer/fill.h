@@ -12,7 +12,7 @@
 
 typedef struct dp_fill {
     dp_gbuffer *g;
-    const dp_tile_worker *w;
+    const dp_tile *w;
     bool facets;   /* normals are the polygons' own */
     bool weighted; /* … or texture coordinates are asked for: corners' weights are needed */
     float step;    /* change of depth over a pixel size, per depth (perspective) or as such */

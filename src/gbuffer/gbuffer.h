@@ -68,7 +68,7 @@ void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory);
 bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured);
 
 /* First pass: the surface of the tile that the worker holds (fill.c). */
-void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile_worker *worker, dp_normals normals);
+void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *worker, dp_normals normals);
 
 /* After all tiles: repeats the border in the margin. */
 void dp_gbuffer_pad(dp_gbuffer *g);

@@ -35,7 +35,7 @@ static const float LEAST_INK = 0.1f;
 /* ------- pixel stage ------- */
 
 typedef struct fragment {
-    dp_tile_worker *w;
+    dp_printer *w;
     const dp_texture *texture;
     uint32_t level;
     double tx[3], ty[3], v[3],
@@ -58,7 +58,7 @@ static dp_color mixed(dp_color line, const dp_texture *texture, dp_texel t) {
 /* The colour of a fragment; 0 where it is discarded. */
 static dp_color shade(const fragment *f, double x, double y) {
     if (!f->texture) return f->color;
-    const dp_frame *const frame = f->w->frame;
+    const dp_frame *const frame = f->w->tile->frame;
     const double half = frame->view.height / 2;
     const double px = affine(f->tx, x, y) - frame->centre[0],
                  py = frame->centre[1] - affine(f->ty, x, y);
@@ -68,16 +68,16 @@ static dp_color shade(const fragment *f, double x, double y) {
 }
 
 /* On the screen: what is computed from it must not depend on the tile. */
-static void sample_at(const dp_tile_worker *w, size_t lane, double *x, double *y) {
-    const dp_sampling *const s = &w->sampling;
+static void sample_at(const dp_printer *w, size_t lane, double *x, double *y) {
+    const dp_sampling *const s = &w->tile->sampling;
     const size_t width = (size_t)4 * s->vectors, cell = lane / width, i = lane % width;
-    *x = (double)(w->tile_x + cell % s->cells_x * s->cell_width) + (double)s->x[i / 4][i % 4];
-    *y = (double)(w->tile_y + cell / s->cells_x) + (double)s->y[i / 4][i % 4];
+    *x = (double)(w->tile->tile_x + cell % s->cells_x * s->cell_width) + (double)s->x[i / 4][i % 4];
+    *y = (double)(w->tile->tile_y + cell / s->cells_x) + (double)s->y[i / 4][i % 4];
 }
 
 static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 nearest) {
     const fragment *const f = arg;
-    dp_tile_worker *const w = f->w;
+    dp_printer *const w = f->w;
     (void)nearest;
     if (!dp_any(in)) return;
     for (uint32_t i = 0; i < 4; i++) {
@@ -85,7 +85,7 @@ static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 nearest) {
         if (!in[i]) continue;
         sample_at(w, lane + i, &x, &y);
         const float d = (float)affine(f->d, x, y);
-        if (!(d > w->ink_depth[lane + i] && d > w->depth[lane + i])) continue;
+        if (!(d > w->ink_depth[lane + i] && d > w->tile->depth[lane + i])) continue;
         const dp_color color = shade(f, x, y);
         if (!color) continue;
         w->ink[lane + i] = color;
@@ -107,23 +107,23 @@ static void make_affine(const dp_fringe_point p[3], const double value[3], doubl
 }
 
 static void fill_triangle(fragment *f, const dp_fringe_point *p) {
-    const dp_tile_worker *const w = f->w;
+    const dp_printer *const w = f->w;
     dp_point points[3];
     dp_coverage area;
     for (int i = 0; i < 3; i++)
-        points[i] = (dp_point){(float)p[i].at.x - (float)w->tile_x,
-                               (float)p[i].at.y - (float)w->tile_y, (float)p[i].at.d};
+        points[i] = (dp_point){(float)p[i].at.x - (float)w->tile->tile_x,
+                               (float)p[i].at.y - (float)w->tile->tile_y, (float)p[i].at.d};
     if (!dp_coverage_make(points[0], points[1], points[2], &area)) return;
     make_affine(p, (const double[3]){p[0].tx, p[1].tx, p[2].tx}, f->tx);
     make_affine(p, (const double[3]){p[0].ty, p[1].ty, p[2].ty}, f->ty);
     make_affine(p, (const double[3]){p[0].v, p[1].v, p[2].v}, f->v);
     make_affine(p, (const double[3]){p[0].at.d, p[1].at.d, p[2].at.d}, f->d);
     const dp_plane plane = {0, 0, 0, 0}; /* depth is computed with the rest */
-    dp_coverage_fill(&w->sampling, &area, &plane, w->sampling.vectors, cover, f);
+    dp_coverage_fill(&w->tile->sampling, &area, &plane, w->tile->sampling.vectors, cover, f);
 }
 
-static void add_fringe(dp_tile_worker *w, uint32_t polygon, uint32_t corner, dp_line line) {
-    const dp_frame *const frame = w->frame;
+static void add_fringe(dp_printer *w, uint32_t polygon, uint32_t corner, dp_line line) {
+    const dp_frame *const frame = w->tile->frame;
     const dp_style *const style = dp_polygon_style(frame, polygon);
     if (!(style->lines & (1u << line))) return;
     dp_silhouette_edge edge;
@@ -143,28 +143,28 @@ static void add_fringe(dp_tile_worker *w, uint32_t polygon, uint32_t corner, dp_
         f.scale = dp_polar_repeats(frame, stroke, width);
     }
     for (uint32_t i = 0; i < DP_FRINGE_TRIANGLES; i++) fill_triangle(&f, strip + i);
-    w->stats.added_polygons += DP_FRINGE_TRIANGLES;
+    w->tile->stats.added_polygons += DP_FRINGE_TRIANGLES;
 }
 
-static void add_fringes(dp_tile_worker *w, uint32_t polygon) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    if (!w->frame->outlined[polygon]) return;
+static void add_fringes(dp_printer *w, uint32_t polygon) {
+    const dp_polygons *const polygons = &w->tile->frame->polygons;
+    if (!w->tile->frame->outlined[polygon]) return;
     const uint32_t first = dp_first_corner(polygons, polygon),
                    n = dp_corner_count(polygons, polygon);
     for (uint32_t c = first; c < first + n; c++) {
         if (polygons->edge_flags && !polygons->edge_flags[c]) continue;
-        const int line = dp_outline_of_edge(w->frame, polygon, c);
+        const int line = dp_outline_of_edge(w->tile->frame, polygon, c);
         if (line >= 0) add_fringe(w, polygon, c, (dp_line)line);
     }
 }
 
 /* ------- the picture ------- */
 
-static bool begin(dp_tile_worker *w) {
-    const size_t n = w->frame->tile_samples;
-    if (!DP_WORKER_RESERVE(w, ink, ink_cap, n) ||
-        !DP_WORKER_RESERVE(w, ink_depth, ink_depth_cap, n) ||
-        !DP_WORKER_RESERVE(w, stencil, stencil_cap, n))
+static bool begin(dp_printer *w) {
+    const size_t n = w->tile->frame->tile_samples;
+    if (!DP_TILE_RESERVE(w->tile, w, ink, ink_cap, n) ||
+        !DP_TILE_RESERVE(w->tile, w, ink_depth, ink_depth_cap, n) ||
+        !DP_TILE_RESERVE(w->tile, w, stencil, stencil_cap, n))
         return false;
     memset(w->ink, 0, n * sizeof *w->ink);
     for (size_t i = 0; i < n; i++) w->ink_depth[i] = DP_DEPTH_EMPTY;
@@ -172,18 +172,18 @@ static bool begin(dp_tile_worker *w) {
 }
 
 /* v of a sample: what the pixel stage of one pass tells surface and silhouettes apart by. */
-static float v_of(const dp_tile_worker *w, size_t lane) {
-    return w->ink[lane] && w->ink_depth[lane] > w->depth[lane] ? 1 : SURFACE;
+static float v_of(const dp_printer *w, size_t lane) {
+    return w->ink[lane] && w->ink_depth[lane] > w->tile->depth[lane] ? 1 : SURFACE;
 }
 
 /* The ink of a pixel, over the surface that is there already. */
-static void put_pixel(const dp_tile_worker *w, uint32_t x, uint32_t y) {
-    const dp_target *const target = &w->frame->target;
-    const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
+static void put_pixel(const dp_printer *w, uint32_t x, uint32_t y) {
+    const dp_target *const target = &w->tile->frame->target;
+    const size_t lane = dp_pixel_lane(&w->tile->sampling, x - w->tile->tile_x, y - w->tile->tile_y);
     float sum[4] = {0, 0, 0, 0};
     uint32_t count = 0;
     uint8_t line = 0;
-    for (uint32_t i = 0; i < w->sampling.samples; i++) {
+    for (uint32_t i = 0; i < w->tile->sampling.samples; i++) {
         if (v_of(w, lane + i) >= SURFACE) continue;
         const dp_color c = w->ink[lane + i];
         const float alpha = (float)(c & 0xff) / 255;
@@ -197,36 +197,36 @@ static void put_pixel(const dp_tile_worker *w, uint32_t x, uint32_t y) {
         const dp_color c =
             DP_RGB((uint32_t)(sum[0] / sum[3] + 0.5f), (uint32_t)(sum[1] / sum[3] + 0.5f),
                    (uint32_t)(sum[2] / sum[3] + 0.5f));
-        dp_blend(dp_ink_place(w->frame, x, y), c, sum[3] / (float)w->sampling.samples);
+        dp_blend(dp_ink_place(w->tile->frame, x, y), c, sum[3] / (float)w->tile->sampling.samples);
     }
-    if (target->line_class && 2 * count >= w->sampling.samples)
+    if (target->line_class && 2 * count >= w->tile->sampling.samples)
         target->line_class[(size_t)y * target->width + x] = line;
 }
 
-static void put_ink(const dp_tile_worker *w) {
-    const dp_target *const target = &w->frame->target;
-    for (uint32_t y = w->tile_y; y < w->tile_y + DP_TILE && y < target->height; y++)
-        for (uint32_t x = w->tile_x; x < w->tile_x + DP_TILE && x < target->width; x++)
+static void put_ink(const dp_printer *w) {
+    const dp_target *const target = &w->tile->frame->target;
+    for (uint32_t y = w->tile->tile_y; y < w->tile->tile_y + DP_TILE && y < target->height; y++)
+        for (uint32_t x = w->tile->tile_x; x < w->tile->tile_x + DP_TILE && x < target->width; x++)
             put_pixel(w, x, y);
 }
 
-void dp_tile_fringe_two_passes(dp_tile_worker *w) {
-    dp_tile_faces(w);
-    dp_tile_surface(w);
+void dp_tile_fringe_two_passes(dp_printer *w) {
+    dp_tile_faces(w->tile);
+    dp_tile_surface(w->tile);
     if (!begin(w)) return;
-    for (uint32_t i = 0; i < w->polygon_count; i++) add_fringes(w, w->polygons[i].id);
+    for (uint32_t i = 0; i < w->tile->polygon_count; i++) add_fringes(w, w->tile->polygons[i].id);
     put_ink(w);
 }
 
-void dp_tile_fringe_one_pass(dp_tile_worker *w) {
-    if (!begin(w) || !dp_tile_see(w, false)) return; /* nothing is known to be hidden */
-    for (uint32_t i = 0; i < w->polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
-        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
-            dp_raster_kernels_for(w->frame->lanes)->raster(w, p, i);
+void dp_tile_fringe_one_pass(dp_printer *w) {
+    if (!begin(w) || !dp_tile_see(w->tile, false)) return; /* nothing is known to be hidden */
+    for (uint32_t i = 0; i < w->tile->polygon_count; i++) {
+        const dp_tile_polygon *const p = &w->tile->polygons[i];
+        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w->tile, p))
+            dp_raster_kernels_for(w->tile->frame->lanes)->raster(w->tile, p, i);
         add_fringes(w, p->id);
     }
-    dp_tile_surface(w);
+    dp_tile_surface(w->tile);
     put_ink(w);
 }
 

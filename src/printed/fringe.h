@@ -3,7 +3,7 @@
 #define DP_PRINTED_FRINGE_H
 
 #include "features/extrude.h"
-#include "raster/tile.h"
+#include "printed/quads.h"
 
 /* Classes that have an outside. */
 enum { DP_OUTLINES = DP_SILHOUETTE | DP_BORDER };
@@ -17,8 +17,8 @@ static inline bool dp_is_fringed(const dp_frame *frame) {
 
 /* Faces, silhouettes, surface and ink of a tile; creases and intersections are for other stages
  * (tile.c). */
-void dp_tile_fringe_one_pass(dp_tile_worker *worker);
-void dp_tile_fringe_two_passes(dp_tile_worker *worker);
+void dp_tile_fringe_one_pass(dp_printer *worker);
+void dp_tile_fringe_two_passes(dp_printer *worker);
 
 /* How far beyond their polygons the widest silhouettes reach, px. */
 float dp_fringe_reach(const dp_frame *frame);

@@ -38,10 +38,10 @@ static dp_step step_of(const dp_view *view, double px) {
     return (dp_step){1, (float)(-px / view->focal)};
 }
 
-static uint32_t group_of(const dp_tile_worker *w, uint32_t polygon) {
-    const uint16_t *const groups = w->frame->polygons.groups;
+static uint32_t group_of(const dp_printer *w, uint32_t polygon) {
+    const uint16_t *const groups = w->tile->frame->polygons.groups;
     const uint32_t group = groups ? groups[polygon] : 0;
-    return group < w->frame->style_count ? group : 0;
+    return group < w->tile->frame->style_count ? group : 0;
 }
 
 /* ------- what the lines of a group are drawn with ------- */
@@ -77,14 +77,14 @@ static dp_pen pen_of(const dp_style *style, dp_line line) {
 }
 
 static void aim(dp_brush *b, const dp_style *style, dp_line line) {
-    const dp_view *const view = &b->w->frame->view;
+    const dp_view *const view = &b->w->tile->frame->view;
     const double width = (double)style->line[line].width, offset = (double)style->between_offset;
     b->reach = (float)(width / 2);
     b->trap = step_of(view, style->between == DP_BETWEEN_PLANE ? TRAP * width : offset);
     b->nearer = step_of(view, -offset);
 }
 
-static void set_tool(dp_tile_worker *w, tool *t, const dp_style *style, uint32_t group,
+static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t group,
                      dp_line line) {
     t->pen = pen_of(style, line);
     t->reach =
@@ -110,10 +110,10 @@ static void set_reach(outfit *o, const dp_view *view) {
     o->offset = view->perspective ? 0 : share;
 }
 
-static void dress(dp_tile_worker *w, outfit *o, uint32_t group) {
-    const dp_view *const view = &w->frame->view;
+static void dress(dp_printer *w, outfit *o, uint32_t group) {
+    const dp_view *const view = &w->tile->frame->view;
     o->group = group;
-    o->style = &w->frame->styles[group];
+    o->style = &w->tile->frame->styles[group];
     for (int line = 0; line < DP_LINE_COUNT; line++)
         set_tool(w, &o->tools[line], o->style, group, (dp_line)line);
     set_reach(o, view);
@@ -126,12 +126,12 @@ static void dress(dp_tile_worker *w, outfit *o, uint32_t group) {
 /* One walk over the tile's polygons: how silhouettes, ridges and borders are filled, and how
  * valleys are; NULL: they are not drawn in this pass. */
 typedef struct shading {
-    dp_tile_worker *w;
+    dp_printer *w;
     dp_fill *line, *valley;
     outfit outfit;
 } shading;
 
-static void begin_shading(shading *pass, dp_tile_worker *w, dp_fill *line, dp_fill *valley) {
+static void begin_shading(shading *pass, dp_printer *w, dp_fill *line, dp_fill *valley) {
     pass->w = w;
     pass->line = line, pass->valley = valley;
     dress(w, &pass->outfit, 0);
@@ -143,35 +143,35 @@ static uint32_t block_of(float px) {
 
 /* Nothing that the polygon adds can come out: all around it the surface is nearer by more than
  * lines reach. */
-static bool is_hidden(const dp_tile_worker *w, const outfit *o, const dp_tile_polygon *p) {
+static bool is_hidden(const dp_printer *w, const outfit *o, const dp_tile_polygon *p) {
     if (!o->may_hide) return false;
     const float limit = (float)((double)p->nearest * o->scale + o->offset);
     const uint32_t x0 = block_of(p->x0 - o->reach), x1 = block_of(p->x1 + 1 + o->reach);
     const uint32_t y0 = block_of(p->y0 - o->reach), y1 = block_of(p->y1 + 1 + o->reach);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t x = x0; x <= x1; x++)
-            if (w->farthest[0][0][y + 1][x + 1] <= limit) return false;
+            if (w->tile->farthest[0][0][y + 1][x + 1] <= limit) return false;
     return true;
 }
 
 /* A polygon of the tile with its corners fetched; false: no memory. */
-static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_tile_polygon *const p = &w->polygons[index];
+static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
+    const dp_polygons *const polygons = &w->tile->frame->polygons;
+    const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    if (!DP_WORKER_RESERVE(w, world, world_cap, n) || !DP_WORKER_RESERVE(w, clip, clip_cap, n) ||
-        !DP_WORKER_RESERVE(w, screen_edges, screen_edges_cap, n))
+    if (!DP_TILE_RESERVE(w->tile, w, world, world_cap, n) || !DP_TILE_RESERVE(w->tile, w, clip, clip_cap, n) ||
+        !DP_TILE_RESERVE(w->tile, w, screen_edges, screen_edges_cap, n))
         return false;
     for (uint32_t i = 0; i < n; i++) {
         w->world[i] = dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
-        w->clip[i] = dp_to_clip(&w->frame->view, w->world[i]);
+        w->clip[i] = dp_to_clip(&w->tile->frame->view, w->world[i]);
     }
-    *out = (dp_primitive){.view = &w->frame->view,
+    *out = (dp_primitive){.view = &w->tile->frame->view,
                           .n = n,
                           .world = w->world,
                           .clip = w->clip,
                           .edge_flags = polygons->edge_flags ? polygons->edge_flags + first : NULL,
-                          .normal = dp_polygon_normal(w->frame, p->id),
+                          .normal = dp_polygon_normal(w->tile->frame, p->id),
                           .front = p->flags & DP_POLYGON_FRONT};
     dp_screen_edges_make(out, w->screen_edges);
     out->edges = w->screen_edges;
@@ -181,8 +181,8 @@ static bool fetch(dp_tile_worker *w, uint32_t index, dp_primitive *out) {
 /* Screen to tile space, in float32 as the faces are, so that edges they share stay shared. */
 static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double bias,
                        dp_fill *with) {
-    const dp_tile_worker *const w = b->w;
-    const float tile_x = (float)w->tile_x, tile_y = (float)w->tile_y;
+    const dp_printer *const w = b->w;
+    const float tile_x = (float)w->tile->tile_x, tile_y = (float)w->tile->tile_y;
     dp_point points[DP_ADDED_POINTS];
     double nearest = a->points[0].d;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -192,9 +192,9 @@ static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double b
     }
     for (int i = 0; i < 2; i++)
         b->root[i] =
-            (dp_point){(float)(a->root[i].x - w->tile_x), (float)(a->root[i].y - w->tile_y), 0};
+            (dp_point){(float)(a->root[i].x - w->tile->tile_x), (float)(a->root[i].y - w->tile->tile_y), 0};
     const double shift = -bias * (o->off[0] * fabs(nearest) + o->off[1]);
-    b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile_x + a->dy * w->tile_y + shift),
+    b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile->tile_x + a->dy * w->tile->tile_y + shift),
                           (float)a->dx, (float)a->dy, (float)(a->nearest + shift)};
     with(b, points, a->count);
 }
@@ -202,25 +202,25 @@ static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double b
 /* Everything of one class that polygon `index` adds. */
 static void add_class(shading *pass, const dp_primitive *primitive, uint32_t index, dp_line line,
                       dp_primitive_shader *shade, double bias, dp_fill *with) {
-    dp_tile_worker *const w = pass->w;
+    dp_printer *const w = pass->w;
     tool *const t = &pass->outfit.tools[line];
     const bool folded = line != DP_LINE_SILHOUETTE && with == dp_fill_line;
     t->brush.self = index;
     for (uint32_t edge = 0; edge < primitive->n; edge++) {
         dp_added added[DP_ADDED_MOST];
-        if (!dp_tile_edge_reaches(w, &w->polygons[index], edge, t->reach)) continue;
+        if (!dp_tile_edge_reaches(w->tile, &w->tile->polygons[index], edge, t->reach)) continue;
         const uint32_t count = shade(primitive, edge, &t->pen, added);
         for (uint32_t i = 0; i < count; i++)
             fill_added(&t->brush, &pass->outfit, &added[i], bias,
                        folded && added[i].joint ? dp_fill_joint : with);
-        w->stats.added_polygons += count;
+        w->tile->stats.added_polygons += count;
     }
 }
 
 /* Ridge quads show borders too: as ridges, or with ridges off in the borders' colour. */
 static void add_lines(shading *pass, uint32_t index) {
-    dp_tile_worker *const w = pass->w;
-    const dp_tile_polygon *const p = &w->polygons[index];
+    dp_printer *const w = pass->w;
+    const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t group = group_of(w, p->id);
     if (group != pass->outfit.group) dress(w, &pass->outfit, group);
     const bool front = p->flags & DP_POLYGON_FRONT;
@@ -240,17 +240,17 @@ static void add_lines(shading *pass, uint32_t index) {
         add_class(pass, &primitive, index, DP_LINE_VALLEY, dp_shade_valley, -BIAS, pass->valley);
 }
 
-static void add_all(dp_tile_worker *w, dp_fill *line, dp_fill *valley) {
+static void add_all(dp_printer *w, dp_fill *line, dp_fill *valley) {
     shading pass;
     begin_shading(&pass, w, line, valley);
-    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) add_lines(&pass, i);
+    for (uint32_t i = 0; i < w->tile->polygon_count && !w->tile->failed; i++) add_lines(&pass, i);
 }
 
 /* ------- faces ------- */
 
 static void fill_face(dp_brush *b, const dp_tile_polygon *p, dp_fill *with) {
     b->plane = (dp_plane){p->d0, p->dx, p->dy, p->nearest};
-    const dp_vertex *const v = b->w->points + p->point;
+    const dp_vertex *const v = b->w->tile->points + p->point;
     for (uint32_t i = 2; i < p->points; i++) {
         const dp_point triangle[3] = {dp_place(v[0]), dp_place(v[i - 1]), dp_place(v[i])};
         with(b, triangle, 3);
@@ -258,11 +258,11 @@ static void fill_face(dp_brush *b, const dp_tile_polygon *p, dp_fill *with) {
 }
 
 /* The polygon itself as what is tested. `back` takes back faces too, where they are painted. */
-static void add_face(dp_tile_worker *w, uint32_t index, bool back, double bias, dp_fill *with) {
-    const dp_tile_polygon *const p = &w->polygons[index];
+static void add_face(dp_printer *w, uint32_t index, bool back, double bias, dp_fill *with) {
+    const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t group = group_of(w, p->id);
-    const dp_style *const style = &w->frame->styles[group];
-    if (!(style->lines & DP_INTERSECTION) || !dp_is_surface(w, p)) return;
+    const dp_style *const style = &w->tile->frame->styles[group];
+    if (!(style->lines & DP_INTERSECTION) || !dp_is_surface(w->tile, p)) return;
     if (!back && !(p->flags & DP_POLYGON_FRONT)) return;
     dp_brush b = {.w = w,
                   .ink = dp_ink_of(DP_LINE_INTERSECTION, group),
@@ -271,33 +271,33 @@ static void add_face(dp_tile_worker *w, uint32_t index, bool back, double bias, 
                   .other = UINT32_MAX};
     aim(&b, style, DP_LINE_INTERSECTION);
     dp_tile_polygon q = *p;
-    const float shift = (float)hold_off(&w->frame->view, (double)p->nearest, bias);
+    const float shift = (float)hold_off(&w->tile->frame->view, (double)p->nearest, bias);
     q.d0 -= shift, q.nearest -= shift;
     fill_face(&b, &q, with);
 }
 
-static void add_faces(dp_tile_worker *w, bool back, double bias, dp_fill *with) {
-    if (!(w->frame->lines & DP_INTERSECTION)) return;
-    for (uint32_t i = 0; i < w->polygon_count; i++) add_face(w, i, back, bias, with);
+static void add_faces(dp_printer *w, bool back, double bias, dp_fill *with) {
+    if (!(w->tile->frame->lines & DP_INTERSECTION)) return;
+    for (uint32_t i = 0; i < w->tile->polygon_count; i++) add_face(w, i, back, bias, with);
 }
 
 /* ------- the three between-tests ------- */
 
 /* In one walk: a valley is inked on no line, and a line over any valley, whichever comes first. */
-static void between_planes(dp_tile_worker *w) {
+static void between_planes(dp_printer *w) {
     add_all(w, dp_fill_line, dp_fill_between_planes);
     add_faces(w, true, SAME, dp_fill_between_planes);
 }
 
 /* In submission order: the polygon, its silhouette or ridge, its valley. */
-static void between_depths_once(dp_tile_worker *w) {
+static void between_depths_once(dp_printer *w) {
     shading pass;
     begin_shading(&pass, w, dp_fill_interval, dp_fill_trap_in_interval);
-    for (uint32_t i = 0; i < w->polygon_count && !w->failed; i++) {
-        const dp_tile_polygon *const p = &w->polygons[i];
+    for (uint32_t i = 0; i < w->tile->polygon_count && !w->tile->failed; i++) {
+        const dp_tile_polygon *const p = &w->tile->polygons[i];
         const uint32_t group = group_of(w, p->id);
-        const dp_style *const style = &w->frame->styles[group];
-        if (dp_is_surface(w, p)) {
+        const dp_style *const style = &w->tile->frame->styles[group];
+        if (dp_is_surface(w->tile, p)) {
             dp_brush b = {.w = w,
                           .ink = dp_ink_of(DP_LINE_INTERSECTION, group),
                           .face = true,
@@ -311,9 +311,9 @@ static void between_depths_once(dp_tile_worker *w) {
 }
 
 /* The finished z1: of faces, then of the lines that are polygons like any other. */
-static void between_depths_twice(dp_tile_worker *w) {
-    for (size_t i = 0; i < w->frame->tile_samples; i++)
-        w->ink_depth[i] = dp_maxf(w->ink_depth[i], w->depth[i]);
+static void between_depths_twice(dp_printer *w) {
+    for (size_t i = 0; i < w->tile->frame->tile_samples; i++)
+        w->ink_depth[i] = dp_maxf(w->ink_depth[i], w->tile->depth[i]);
     add_all(w, dp_fill_interval, NULL);
     add_all(w, NULL, dp_fill_trap_in_interval);
     add_faces(w, false, SAME, dp_fill_trap_in_interval);
@@ -321,24 +321,24 @@ static void between_depths_twice(dp_tile_worker *w) {
 
 /* Inks where anything is trapped and no nearer line is; the colour is that of the surface's group.
  * Clears the stencil. */
-static void ink_stencil(dp_tile_worker *w, dp_line line) {
-    for (size_t i = 0; i < w->frame->tile_samples; i++) {
+static void ink_stencil(dp_printer *w, dp_line line) {
+    for (size_t i = 0; i < w->tile->frame->tile_samples; i++) {
         const uint8_t count = w->stencil[i];
         w->stencil[i] = 0;
-        if (!count || w->winner[i] == UINT32_MAX) continue;
+        if (!count || w->tile->winner[i] == UINT32_MAX) continue;
         if (w->ink[i] & DP_INK_ADDED) continue;
-        w->ink[i] = dp_ink_of(line, group_of(w, w->polygons[w->winner[i]].id));
+        w->ink[i] = dp_ink_of(line, group_of(w, w->tile->polygons[w->tile->winner[i]].id));
     }
 }
 
-static void between_by_stencil(dp_tile_worker *w) {
+static void between_by_stencil(dp_printer *w) {
     add_all(w, dp_fill_line, NULL);
-    if (w->frame->lines & DP_VALLEY) {
+    if (w->tile->frame->lines & DP_VALLEY) {
         add_all(w, NULL, dp_fill_count_down);
         add_all(w, NULL, dp_fill_count_up);
         ink_stencil(w, DP_LINE_VALLEY);
     }
-    if (w->frame->lines & DP_INTERSECTION) {
+    if (w->tile->frame->lines & DP_INTERSECTION) {
         add_faces(w, false, -SAME,
                   dp_fill_count_down); /* the surface itself and its duplicates too */
         add_faces(w, false, 0, dp_fill_count_up);
@@ -348,23 +348,23 @@ static void between_by_stencil(dp_tile_worker *w) {
 
 /* ------- the picture ------- */
 
-static bool begin(dp_tile_worker *w) {
-    const size_t n = w->frame->tile_samples;
-    if (!DP_WORKER_RESERVE(w, ink, ink_cap, n) ||
-        !DP_WORKER_RESERVE(w, ink_depth, ink_depth_cap, n) ||
-        !DP_WORKER_RESERVE(w, stencil, stencil_cap, n))
+static bool begin(dp_printer *w) {
+    const size_t n = w->tile->frame->tile_samples;
+    if (!DP_TILE_RESERVE(w->tile, w, ink, ink_cap, n) ||
+        !DP_TILE_RESERVE(w->tile, w, ink_depth, ink_depth_cap, n) ||
+        !DP_TILE_RESERVE(w->tile, w, stencil, stencil_cap, n))
         return false;
     memset(w->ink, 0, n * sizeof *w->ink);
     memset(w->stencil, 0, n);
     /* nothing lies beyond infinity, where a steep plane in perspective may lead */
-    const float farthest = w->frame->view.perspective ? 0 : DP_DEPTH_EMPTY;
+    const float farthest = w->tile->frame->view.perspective ? 0 : DP_DEPTH_EMPTY;
     for (size_t i = 0; i < n; i++) w->ink_depth[i] = farthest;
     return true;
 }
 
-void dp_tile_quads(dp_tile_worker *w) {
-    const dp_style *const style = &w->frame->styles[0];
-    if (!w->polygon_count || !begin(w)) return;
+void dp_tile_quads(dp_printer *w) {
+    const dp_style *const style = &w->tile->frame->styles[0];
+    if (!w->tile->polygon_count || !begin(w)) return;
     if (style->between == DP_BETWEEN_PLANE)
         between_planes(w);
     else if (style->between == DP_BETWEEN_STENCIL)
@@ -375,3 +375,19 @@ void dp_tile_quads(dp_tile_worker *w) {
         between_depths_twice(w);
     dp_quads_put(w);
 }
+
+/* ------- memory ------- */
+
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_printer, ink, ink_cap),
+    DP_ARRAY(dp_printer, ink_depth, ink_depth_cap),
+    DP_ARRAY(dp_printer, stencil, stencil_cap),
+    DP_ARRAY(dp_printer, world, world_cap),
+    DP_ARRAY(dp_printer, clip, clip_cap),
+    DP_ARRAY(dp_printer, screen_edges, screen_edges_cap)};
+
+void dp_printer_free(dp_printer *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_printer_bytes(const dp_printer *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }

@@ -4,7 +4,26 @@
 #define DP_PRINTED_QUADS_H
 
 #include "raster/coverage.h"
+#include "features/features.h"
 #include "raster/tile.h"
+
+/* A worker's scratch for polygons as ink. */
+typedef struct dp_printer {
+    dp_tile *tile;
+    uint32_t *ink; /* by sample: what it holds (quads.c), its depth, the stencil buffer */
+    float *ink_depth;
+    uint8_t *stencil;
+    dp_vec3 *world; /* corners of one polygon */
+    dp_clip_point *clip;
+    struct dp_screen_edge *screen_edges;
+    size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap, screen_edges_cap;
+} dp_printer;
+
+void dp_printer_free(dp_printer *printer, const dp_allocator *memory);
+uint64_t dp_printer_bytes(const dp_printer *printer);
+
+/* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
+void dp_tile_quads(dp_printer *printer);
 
 /* Depth d farther by some pixel sizes, as scale * d + offset: a pixel grows with distance in
  * perspective. */
@@ -21,7 +40,7 @@ typedef enum dp_ink_test {
 
 /* How one class of lines of one polygon is drawn. */
 typedef struct dp_brush {
-    dp_tile_worker *w;
+    dp_printer *w;
     dp_ink_test test;
     uint32_t ink;
     uint32_t self;    /* tile polygon */
@@ -69,6 +88,6 @@ dp_fill dp_fill_count_down, dp_fill_count_up;
 void dp_quads_ask(dp_brush *brush, size_t lane, uint32_t bits, const float *d);
 
 /* The tile's ink to the target (quads_put.c). */
-void dp_quads_put(dp_tile_worker *worker);
+void dp_quads_put(dp_printer *worker);
 
 #endif

@@ -14,7 +14,7 @@
 static const float JOINT = 0.1f;
 
 static dp_f4 *depth_at(const dp_brush *b, size_t lane) {
-    return (dp_f4 *)(void *)(b->w->depth + lane);
+    return (dp_f4 *)(void *)(b->w->tile->depth + lane);
 }
 static dp_f4 *ink_depth_at(const dp_brush *b, size_t lane) {
     return (dp_f4 *)(void *)(b->w->ink_depth + lane);
@@ -34,15 +34,15 @@ static void sample_at(const dp_sampling *s, size_t lane, float *x, float *y) {
  * there does? The planes must cross within `reach` px of the root's nearest point. What merely lies
  * close before a hidden valley, or curves away beyond a corner, does not. */
 static bool passes_root(const dp_brush *b, size_t lane, float d, float reach) {
-    const dp_tile_polygon *const q = &b->w->polygons[b->w->winner[lane]];
+    const dp_tile_polygon *const q = &b->w->tile->polygons[b->w->tile->winner[lane]];
     const float gx = q->dx - b->plane.dx, gy = q->dy - b->plane.dy;
     float x, y;
-    sample_at(&b->w->sampling, lane, &x, &y);
+    sample_at(&b->w->tile->sampling, lane, &x, &y);
     const dp_point p = b->root[0], to = b->root[1];
     const float ex = to.x - p.x, ey = to.y - p.y, length2 = ex * ex + ey * ey;
     const float along = length2 > 0 ? ((x - p.x) * ex + (y - p.y) * ey) / length2 : 0;
     const float t = dp_minf(dp_maxf(along, 0), 1);
-    const float gap = b->w->depth[lane] - d - gx * (x - p.x - t * ex) - gy * (y - p.y - t * ey);
+    const float gap = b->w->tile->depth[lane] - d - gx * (x - p.x - t * ex) - gy * (y - p.y - t * ey);
     return dp_planes_cross_within(gap, gx, gy, reach);
 }
 
@@ -50,30 +50,30 @@ static bool passes_root(const dp_brush *b, size_t lane, float d, float reach) {
  * come close along every outline of a closed model without crossing there. */
 static bool may_intersect(dp_brush *b, uint32_t other) {
     if (b->other == other) return b->meets;
-    const dp_tile_polygon *const p = &b->w->polygons[b->self], *const q = &b->w->polygons[other];
+    const dp_tile_polygon *const p = &b->w->tile->polygons[b->self], *const q = &b->w->tile->polygons[other];
     b->other = other;
-    b->meets = !dp_polygons_touch(&b->w->frame->polygons, p->id, q->id);
+    b->meets = !dp_polygons_touch(&b->w->tile->frame->polygons, p->id, q->id);
     dp_vec3 from, to, normal;
     if (b->meets && !(p->flags & q->flags & DP_POLYGON_FRONT))
-        b->meets = dp_crossing_find(b->w->frame, p->id, q->id, &from, &to, &normal);
+        b->meets = dp_crossing_find(b->w->tile->frame, p->id, q->id, &from, &to, &normal);
     return b->meets;
 }
 
 /* Around a corner lie polygons that share no edge with this one and may curve away from it without
  * any fold: close surfaces must pass through the corner. */
 static bool wins_joint(const dp_brush *b, size_t lane, float d) {
-    const bool close = b->w->depth[lane] >= d * b->trap.scale + b->trap.offset;
+    const bool close = b->w->tile->depth[lane] >= d * b->trap.scale + b->trap.offset;
     return !close || passes_root(b, lane, d, JOINT * b->reach);
 }
 
 /* The between-test of planes. */
 static bool is_trapped(dp_brush *b, size_t lane, float d) {
-    const dp_tile_worker *const w = b->w;
-    const uint32_t winner = w->winner[lane], held = w->ink[lane];
+    const dp_printer *const w = b->w;
+    const uint32_t winner = w->tile->winner[lane], held = w->ink[lane];
     if (winner == UINT32_MAX || held & DP_INK_ADDED || (held && !b->face)) return false;
-    const dp_tile_polygon *const q = &w->polygons[winner];
+    const dp_tile_polygon *const q = &w->tile->polygons[winner];
     if (!b->face && !(q->flags & DP_POLYGON_FRONT)) return false;
-    if (!dp_planes_cross_within(w->depth[lane] - d, q->dx - b->plane.dx, q->dy - b->plane.dy,
+    if (!dp_planes_cross_within(w->tile->depth[lane] - d, q->dx - b->plane.dx, q->dy - b->plane.dy,
                                 b->reach))
         return false;
     return b->face ? may_intersect(b, winner) : passes_root(b, lane, d, b->reach);
@@ -161,7 +161,7 @@ static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
 }
 
 static void fill_by_kernel(dp_brush *b, const dp_point *p, uint32_t n, dp_ink_test test) {
-    void (*const ink)(dp_brush *, const dp_ink_shape *) = dp_printed_kernels_for(b->w->frame->lanes)->ink;
+    void (*const ink)(dp_brush *, const dp_ink_shape *) = dp_printed_kernels_for(b->w->tile->frame->lanes)->ink;
     dp_ink_shape shape;
     b->test = test;
     if (n <= 4) {
@@ -186,7 +186,7 @@ void dp_fill_between_planes(dp_brush *b, const dp_point *p, uint32_t n) {
 
 #define DEFINE_FILL(name, test)                                                                    \
     void name(dp_brush *b, const dp_point *p, uint32_t n) {                                        \
-        const dp_sampling *const s = &b->w->sampling;                                              \
+        const dp_sampling *const s = &b->w->tile->sampling;                                              \
         dp_coverage area;                                                                          \
         for (uint32_t i = 2; i < n; i++) {                                                         \
             if (!dp_coverage_make(p[0], p[i - 1], p[i], &area)) continue;                          \

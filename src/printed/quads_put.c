@@ -11,31 +11,31 @@ static const double SPARE = 4;
 
 /* The enlargements of back faces that are seen meet each other as folds do; only what lies beyond
  * an outline is a silhouette. */
-static void spare_back_faces(dp_tile_worker *w) {
-    for (size_t i = 0; i < w->frame->tile_samples; i++) {
-        const uint32_t winner = w->winner[i], ink = w->ink[i];
+static void spare_back_faces(dp_printer *w) {
+    for (size_t i = 0; i < w->tile->frame->tile_samples; i++) {
+        const uint32_t winner = w->tile->winner[i], ink = w->ink[i];
         if (!ink || dp_ink_line(ink) != DP_LINE_SILHOUETTE || winner == UINT32_MAX) continue;
-        if (w->polygons[winner].flags & DP_POLYGON_FRONT) continue;
+        if (w->tile->polygons[winner].flags & DP_POLYGON_FRONT) continue;
         const double width =
-            (double)w->frame->styles[dp_ink_group(ink)].line[DP_LINE_SILHOUETTE].width;
-        const double close = dp_depth_step(&w->frame->view, (double)w->depth[i], SPARE * width);
-        if ((double)w->ink_depth[i] - (double)w->depth[i] < close) w->ink[i] = 0;
+            (double)w->tile->frame->styles[dp_ink_group(ink)].line[DP_LINE_SILHOUETTE].width;
+        const double close = dp_depth_step(&w->tile->frame->view, (double)w->tile->depth[i], SPARE * width);
+        if ((double)w->ink_depth[i] - (double)w->tile->depth[i] < close) w->ink[i] = 0;
     }
 }
 
-static dp_color surface_color(const dp_tile_worker *w, size_t lane) {
-    const dp_color paper = w->frame->styles[0].paper;
-    if (w->winner[lane] == UINT32_MAX) return paper;
-    const dp_color surface = dp_polygon_style(w->frame, w->polygons[w->winner[lane]].id)->surface;
+static dp_color surface_color(const dp_printer *w, size_t lane) {
+    const dp_color paper = w->tile->frame->styles[0].paper;
+    if (w->tile->winner[lane] == UINT32_MAX) return paper;
+    const dp_color surface = dp_polygon_style(w->tile->frame, w->tile->polygons[w->tile->winner[lane]].id)->surface;
     return surface & 0xff ? surface : paper;
 }
 
 /* Adds one sample: ink over what is under it, or over nothing where that is shaded later. */
-static void add_sample(const dp_tile_worker *w, size_t lane, float sum[4]) {
+static void add_sample(const dp_printer *w, size_t lane, float sum[4]) {
     const uint32_t ink = w->ink[lane];
-    const dp_color under = w->frame->ink_layer ? 0 : surface_color(w, lane);
+    const dp_color under = w->tile->frame->ink_layer ? 0 : surface_color(w, lane);
     const dp_color over =
-        ink ? w->frame->styles[dp_ink_group(ink)].line[dp_ink_line(ink)].color : 0;
+        ink ? w->tile->frame->styles[dp_ink_group(ink)].line[dp_ink_line(ink)].color : 0;
     const float a = (float)(over & 0xff) / 255, b = (float)(under & 0xff) / 255 * (1 - a);
     for (int k = 0; k < 3; k++)
         sum[k] +=
@@ -43,8 +43,8 @@ static void add_sample(const dp_tile_worker *w, size_t lane, float sum[4]) {
     sum[3] += a + b;
 }
 
-static void put_color(const dp_tile_worker *w, size_t lane, uint8_t out[4]) {
-    const uint32_t samples = w->sampling.samples;
+static void put_color(const dp_printer *w, size_t lane, uint8_t out[4]) {
+    const uint32_t samples = w->tile->sampling.samples;
     float sum[4] = {0, 0, 0, 0};
     for (uint32_t i = 0; i < samples; i++) add_sample(w, lane + i, sum);
     for (int k = 0; k < 3 && sum[3] > 0; k++) out[k] = (uint8_t)(sum[k] / sum[3] + 0.5f);
@@ -52,38 +52,38 @@ static void put_color(const dp_tile_worker *w, size_t lane, uint8_t out[4]) {
 }
 
 /* The class that holds most of the samples, when ink holds half of them. */
-static uint8_t class_of(const dp_tile_worker *w, size_t lane) {
+static uint8_t class_of(const dp_printer *w, size_t lane) {
     uint32_t counts[DP_LINE_COUNT] = {0}, all = 0;
     uint8_t best = 0;
-    for (uint32_t i = 0; i < w->sampling.samples; i++) {
+    for (uint32_t i = 0; i < w->tile->sampling.samples; i++) {
         if (!w->ink[lane + i]) continue;
         counts[dp_ink_line(w->ink[lane + i])]++;
         all++;
     }
     for (uint8_t i = 1; i < DP_LINE_COUNT; i++)
         if (counts[i] > counts[best]) best = i;
-    return all > 0 && 2 * all >= w->sampling.samples ? (uint8_t)(best + 1) : 0;
+    return all > 0 && 2 * all >= w->tile->sampling.samples ? (uint8_t)(best + 1) : 0;
 }
 
-static bool has_ink(const dp_tile_worker *w, size_t lane) {
-    for (uint32_t i = 0; i < w->sampling.samples; i++)
+static bool has_ink(const dp_printer *w, size_t lane) {
+    for (uint32_t i = 0; i < w->tile->sampling.samples; i++)
         if (w->ink[lane + i]) return true;
     return false;
 }
 
-static void put_ink(const dp_tile_worker *w) {
-    const dp_target *const target = &w->frame->target;
-    for (uint32_t y = w->tile_y; y < w->tile_y + DP_TILE && y < target->height; y++)
-        for (uint32_t x = w->tile_x; x < w->tile_x + DP_TILE && x < target->width; x++) {
-            const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
+static void put_ink(const dp_printer *w) {
+    const dp_target *const target = &w->tile->frame->target;
+    for (uint32_t y = w->tile->tile_y; y < w->tile->tile_y + DP_TILE && y < target->height; y++)
+        for (uint32_t x = w->tile->tile_x; x < w->tile->tile_x + DP_TILE && x < target->width; x++) {
+            const size_t lane = dp_pixel_lane(&w->tile->sampling, x - w->tile->tile_x, y - w->tile->tile_y);
             if (!has_ink(w, lane)) continue;
-            if (target->rgba) put_color(w, lane, dp_ink_place(w->frame, x, y));
+            if (target->rgba) put_color(w, lane, dp_ink_place(w->tile->frame, x, y));
             if (target->line_class)
                 target->line_class[(size_t)y * target->width + x] = class_of(w, lane);
         }
 }
 
-void dp_quads_put(dp_tile_worker *w) {
+void dp_quads_put(dp_printer *w) {
     spare_back_faces(w);
     put_ink(w);
 }

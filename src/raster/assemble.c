@@ -44,7 +44,7 @@ static void box_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     set_box(out, x0, y0, x1, y1);
 }
 
-static void draw(dp_tile_worker *w, uint32_t index, bool backs) {
+static void draw(dp_tile *w, uint32_t index, bool backs) {
     const dp_tile_polygon *const p = &w->polygons[index];
     if (!dp_is_surface(w, p)) return;
     if (p->flags & DP_POLYGON_FRONT || (backs && !dp_tile_is_hidden(w, p)))
@@ -52,7 +52,7 @@ static void draw(dp_tile_worker *w, uint32_t index, bool backs) {
 }
 
 /* The points of a polygon, in tile space, at `points`. */
-static void put_points(const dp_tile_worker *w, uint32_t id, const dp_outline *outline,
+static void put_points(const dp_tile *w, uint32_t id, const dp_outline *outline,
                        dp_vertex *points) {
     const uint32_t first = dp_first_corner(&w->frame->polygons, id);
     for (uint32_t i = 0; i < outline->count; i++) {
@@ -66,7 +66,7 @@ static void put_points(const dp_tile_worker *w, uint32_t id, const dp_outline *o
 }
 
 /* Fills polygon `index`, whose points are to lie at `point`; the worker has room for both. */
-static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t point,
+static void set_polygon(dp_tile *w, uint32_t index, uint32_t id, uint32_t point,
                         const dp_outline *outline, bool backs) {
     const dp_facing facing = dp_outline_facing(w->frame, id, outline);
     dp_tile_polygon *const out = &w->polygons[index];
@@ -83,17 +83,17 @@ static void set_polygon(dp_tile_worker *w, uint32_t index, uint32_t id, uint32_t
     draw(w, index, backs);
 }
 
-static bool make_outline(dp_tile_worker *w, uint32_t id, dp_outline *outline) {
+static bool make_outline(dp_tile *w, uint32_t id, dp_outline *outline) {
     const dp_outline_state state = dp_outline_make(w->frame, id, &w->scratch, outline);
     if (state == DP_OUTLINE_MEMORY) w->failed = true;
     return !state;
 }
 
-static void add_polygon(dp_tile_worker *w, uint32_t id) {
+static void add_polygon(dp_tile *w, uint32_t id) {
     dp_outline outline;
     if (!make_outline(w, id, &outline)) return;
-    if (!DP_WORKER_RESERVE(w, polygons, polygons_cap, w->polygon_count + 1u) ||
-        !DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + outline.count))
+    if (!DP_TILE_RESERVE(w, w, polygons, polygons_cap, w->polygon_count + 1u) ||
+        !DP_TILE_RESERVE(w, w, points, points_cap, (size_t)w->point_count + outline.count))
         return;
     const uint32_t point = w->point_count;
     w->point_count += outline.count;
@@ -101,13 +101,13 @@ static void add_polygon(dp_tile_worker *w, uint32_t id) {
 }
 
 /* One that is clipped gets new points, and its old ones are left lying. */
-void dp_tile_reassemble(dp_tile_worker *w, uint32_t index, bool backs) {
+void dp_tile_reassemble(dp_tile *w, uint32_t index, bool backs) {
     const uint32_t id = w->polygons[index].id;
     uint32_t point = w->polygons[index].point;
     dp_outline outline;
     if (!make_outline(w, id, &outline)) return;
     if (outline.count > 3) {
-        if (!DP_WORKER_RESERVE(w, points, points_cap, (size_t)w->point_count + outline.count))
+        if (!DP_TILE_RESERVE(w, w, points, points_cap, (size_t)w->point_count + outline.count))
             return;
         point = w->point_count;
         w->point_count += outline.count;
@@ -116,17 +116,17 @@ void dp_tile_reassemble(dp_tile_worker *w, uint32_t index, bool backs) {
 }
 
 /* The tile's polygons in submission order, back faces apart. */
-static bool collect_ids(dp_tile_worker *w, uint32_t *count, uint32_t *back_count) {
+static bool collect_ids(dp_tile *w, uint32_t *count, uint32_t *back_count) {
     const dp_bins *const bins = &w->frame->polygon_bins;
-    const size_t all = dp_bins_tile_count(bins, w->tile);
+    const size_t all = dp_bins_tile_count(bins, w->index);
     const size_t room = all + DP_BIN_ROOM;
-    if (!DP_WORKER_RESERVE(w, ids, ids_cap, room) || !DP_WORKER_RESERVE(w, backs, backs_cap, room))
+    if (!DP_TILE_RESERVE(w, w, ids, ids_cap, room) || !DP_TILE_RESERVE(w, w, backs, backs_cap, room))
         return false;
     *count = *back_count = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
-        dp_bins_ask(bins, w->tile, c);
-        const uint32_t first = chunk->offsets[w->tile], n = chunk->offsets[w->tile + 1] - first;
+        dp_bins_ask(bins, w->index, c);
+        const uint32_t first = chunk->offsets[w->index], n = chunk->offsets[w->index + 1] - first;
         dp_raster_kernels_for(w->frame->lanes)->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);
     }
     return true;
@@ -137,7 +137,7 @@ static bool draws_backs(const dp_frame *frame) {
     return !(frame->lines && dp_is_fringed(frame) && frame->styles[0].passes == 1);
 }
 
-void dp_tile_assemble(dp_tile_worker *w) {
+void dp_tile_assemble(dp_tile *w) {
     const dp_raster_kernels *const kernels = dp_raster_kernels_for(w->frame->lanes);
     uint32_t count, back_count;
     w->polygon_count = w->point_count = 0;
@@ -151,7 +151,7 @@ void dp_tile_assemble(dp_tile_worker *w) {
         return;
     }
     w->keys_stride = count + back_count + DP_SEEN_ROOM;
-    if (!DP_WORKER_RESERVE(w, keys, keys_cap, 3 * (size_t)w->keys_stride)) return;
+    if (!DP_TILE_RESERVE(w, w, keys, keys_cap, 3 * (size_t)w->keys_stride)) return;
     kernels->assemble(w, w->ids, count, false);
     w->undrawn = w->polygon_count;
     dp_tile_find_farthest(w);

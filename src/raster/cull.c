@@ -13,7 +13,7 @@
 #include "raster/kernels.h"
 #include "raster/tile.h"
 
-static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
+static float furthest_in_row(const dp_tile *w, uint32_t x, uint32_t y) {
     const float *const d = w->depth + dp_pixel_lane(&w->sampling, x, y);
     dp_f4 least = *(const dp_f4 *)(const void *)d;
     for (uint32_t i = 4; i < DP_BLOCK * w->sampling.samples; i += 4) {
@@ -23,7 +23,7 @@ static float furthest_in_row(const dp_tile_worker *w, uint32_t x, uint32_t y) {
     return dp_minf(dp_minf(least[0], least[1]), dp_minf(least[2], least[3]));
 }
 
-static void find_blocks(const dp_tile_worker *w, float out[DP_RINGED][DP_RINGED]) {
+static void find_blocks(const dp_tile *w, float out[DP_RINGED][DP_RINGED]) {
     for (uint32_t by = 0; by < DP_BLOCKS; by++)
         for (uint32_t bx = 0; bx < DP_BLOCKS; bx++) {
             float least = furthest_in_row(w, bx * DP_BLOCK, by * DP_BLOCK);
@@ -40,7 +40,7 @@ static float furthest_in_strip(const float *strip) {
 }
 
 /* What lies beyond the tile's corners is not known: nothing is hidden there. */
-static void find_ring(const dp_tile_worker *w, float out[DP_RINGED][DP_RINGED]) {
+static void find_ring(const dp_tile *w, float out[DP_RINGED][DP_RINGED]) {
     const uint32_t last = DP_RINGED - 1;
     for (uint32_t b = 0; b < DP_BLOCKS; b++) {
         const uint32_t at = 2 * DP_BLOCK * b;
@@ -55,7 +55,7 @@ static void find_ring(const dp_tile_worker *w, float out[DP_RINGED][DP_RINGED]) 
 static uint32_t block_after(uint32_t b) { return b + 1 < DP_RINGED ? b + 1 : b; }
 
 /* What spans more blocks, from what spans one less and the block that comes after it. */
-void dp_tile_find_farthest(dp_tile_worker *w) {
+void dp_tile_find_farthest(dp_tile *w) {
     find_blocks(w, w->farthest[0][0]);
     find_ring(w, w->farthest[0][0]);
     for (uint32_t sx = 1; sx < DP_SPANS; sx++)
@@ -74,7 +74,7 @@ void dp_tile_find_farthest(dp_tile_worker *w) {
 /* Pixel coordinates go from -1 to DP_TILE; the ring is block 0. */
 static inline uint32_t block_of(int px) { return (uint32_t)(px + DP_BLOCK) / DP_BLOCK; }
 
-static inline bool hides(const dp_tile_worker *w, int x0, int y0, int x1, int y1, float nearest) {
+static inline bool hides(const dp_tile *w, int x0, int y0, int x1, int y1, float nearest) {
     const float limit = nearest + dp_depth_steps(w->frame, nearest, DP_CULL_SLACK);
     const uint32_t bx0 = block_of(x0 - 1), bx1 = block_of(x1 + 1);
     const uint32_t by0 = block_of(y0 - 1), by1 = block_of(y1 + 1);
@@ -88,26 +88,26 @@ static inline bool hides(const dp_tile_worker *w, int x0, int y0, int x1, int y1
 
 static int clamp_px(float v) { return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v; }
 
-bool dp_tile_hides(const dp_tile_worker *w, float x0, float y0, float x1, float y1, float nearest) {
+bool dp_tile_hides(const dp_tile *w, float x0, float y0, float x1, float y1, float nearest) {
     return hides(w, clamp_px(x0), clamp_px(y0), clamp_px(x1), clamp_px(y1), nearest);
 }
 
-bool dp_tile_is_hidden(const dp_tile_worker *w, const dp_tile_polygon *p) {
+bool dp_tile_is_hidden(const dp_tile *w, const dp_tile_polygon *p) {
     return hides(w, p->x0, p->y0, p->x1, p->y1, p->nearest);
 }
 
-bool dp_tile_see(dp_tile_worker *w, bool culling) {
+bool dp_tile_see(dp_tile *w, bool culling) {
     const size_t room = (size_t)w->polygon_count + DP_SEEN_ROOM;
     w->seen_count = 0;
-    if (!DP_WORKER_RESERVE(w, seen, seen_cap, room) ||
-        !DP_WORKER_RESERVE(w, seen_words, seen_words_cap, DP_SEEN_MEMBERS * room))
+    if (!DP_TILE_RESERVE(w, w, seen, seen_cap, room) ||
+        !DP_TILE_RESERVE(w, w, seen_words, seen_words_cap, DP_SEEN_MEMBERS * room))
         return false;
     w->seen_stride = (uint32_t)room;
     dp_raster_kernels_for(w->frame->lanes)->see(w, culling);
     return true;
 }
 
-void dp_tile_faces(dp_tile_worker *w) {
+void dp_tile_faces(dp_tile *w) {
     if (!dp_tile_see(w, true)) return;
     for (uint32_t i = 0; i < w->seen_count && w->seen[i] < w->undrawn; i++) {
         const dp_tile_polygon *const p = &w->polygons[w->seen[i]];

@@ -8,7 +8,7 @@
 struct dp_frame;
 struct dp_tile_polygon;
 struct dp_tile_rect;
-struct dp_tile_worker;
+struct dp_tile;
 struct dp_vertex;
 
 /* A rectangle's x0 where the kernel leaves the polygon to the general way. */
@@ -30,22 +30,22 @@ typedef struct dp_raster_kernels {
                  uint32_t *backs, uint32_t *back_count);
     /* Appends triangles to the tile's polygons, planes and boxes made, and draws front faces, or
      * else back faces that are not hidden (assemble.inc). */
-    void (*assemble)(struct dp_tile_worker *worker, const uint32_t *ids, uint32_t count,
+    void (*assemble)(struct dp_tile *worker, const uint32_t *ids, uint32_t count,
                      bool backs);
     /* Keeps those triangles that the tile's front faces do not hide; returns how many
      * (cull.inc). */
-    uint32_t (*cull)(struct dp_tile_worker *worker, uint32_t *ids, uint32_t count);
+    uint32_t (*cull)(struct dp_tile *worker, uint32_t *ids, uint32_t count);
     /* Lists those of the tile's polygons that are not hidden, and flags the others; all unless
      * `culling` (cull.inc). */
-    void (*see)(struct dp_tile_worker *worker, bool culling);
+    void (*see)(struct dp_tile *worker, bool culling);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
-    void (*raster)(struct dp_tile_worker *worker, const struct dp_tile_polygon *polygon,
+    void (*raster)(struct dp_tile *worker, const struct dp_tile_polygon *polygon,
                    uint32_t index);
     /* The unit normals of the tile's unsure triangles (normals.inc). */
-    void (*normals)(struct dp_tile_worker *worker);
+    void (*normals)(struct dp_tile *worker);
     /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is
      * a front face, and which, if they are triangles, share no corner (meet.inc). */
-    void (*cross)(struct dp_tile_worker *worker);
+    void (*cross)(struct dp_tile *worker);
 } dp_raster_kernels;
 
 DP_KERNEL_TABLES(dp_raster_kernels);

@@ -22,14 +22,14 @@ uint32_t dp_shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
     return shared;
 }
 
-static void suspect(dp_tile_worker *w, uint32_t lane, bool both_front) {
+static void suspect(dp_tile *w, uint32_t lane, bool both_front) {
     const uint32_t pixel = lane / w->sampling.samples;
     w->suspects[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
 }
 
 /* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
  * steeply. */
-static void watch_unknown(dp_tile_worker *w, uint32_t i) {
+static void watch_unknown(dp_tile *w, uint32_t i) {
     const dp_close_samples *const close = &w->close;
     const uint32_t lane = close->lane[i];
     const bool away = w->away[lane / 64] >> lane % 64 & 1,
@@ -39,7 +39,7 @@ static void watch_unknown(dp_tile_worker *w, uint32_t i) {
     suspect(w, lane, front && !away);
 }
 
-void dp_tile_watch(dp_tile_worker *w) {
+void dp_tile_watch(dp_tile *w) {
     dp_close_samples *const close = &w->close;
     for (uint32_t i = 0; w->away && i < close->count; i++)
         if (close->other[i] == UINT32_MAX) watch_unknown(w, i);

@@ -5,14 +5,14 @@
 #include <string.h>
 
 /* The unit normal in float32, for a first look. */
-void dp_tile_exact_normal(dp_tile_worker *w, uint32_t polygon) {
+void dp_tile_exact_normal(dp_tile *w, uint32_t polygon) {
     const dp_vec3 n = dp_polygon_normal(w->frame, w->polygons[polygon].id);
     float *const out = w->normals[polygon];
     out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z, out[3] = 0;
 }
 
-bool dp_tile_exact_normals(dp_tile_worker *w) {
-    if (!DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)w->polygon_count)) return false;
+bool dp_tile_exact_normals(dp_tile *w) {
+    if (!DP_TILE_RESERVE(w, w, normals, normals_cap, (size_t)w->polygon_count)) return false;
     for (uint32_t i = 0; i < w->seen_count; i++) {
         const uint32_t index = w->seen[i];
         if (w->polygons[index].flags & DP_POLYGON_FRONT)

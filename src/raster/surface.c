@@ -31,7 +31,7 @@ static uint32_t count_covered(const uint32_t *winner, uint32_t samples) {
 }
 
 /* One group: a pixel's colour follows from how many of its samples hold any surface. */
-static void shade_one_group(const dp_tile_worker *w, uint32_t x1, uint32_t y1) {
+static void shade_one_group(const dp_tile *w, uint32_t x1, uint32_t y1) {
     const dp_target *const target = &w->frame->target;
     const dp_style *const style = &w->frame->styles[0];
     const uint32_t samples = target->samples;
@@ -52,7 +52,7 @@ static void shade_one_group(const dp_tile_worker *w, uint32_t x1, uint32_t y1) {
     }
 }
 
-static void shade_groups(const dp_tile_worker *w, uint32_t x, uint32_t y) {
+static void shade_groups(const dp_tile *w, uint32_t x, uint32_t y) {
     const dp_target *const target = &w->frame->target;
     const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
     const dp_color paper = w->frame->styles[0].paper;
@@ -69,7 +69,7 @@ static void shade_groups(const dp_tile_worker *w, uint32_t x, uint32_t y) {
               target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x);
 }
 
-static void put_geometry(const dp_tile_worker *w, uint32_t x, uint32_t y) {
+static void put_geometry(const dp_tile *w, uint32_t x, uint32_t y) {
     const dp_target *const target = &w->frame->target;
     const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
     const size_t pixel = (size_t)y * target->width + x;
@@ -93,27 +93,27 @@ typedef struct span {
 } span;
 
 /* The part of the tile that lies within the picture. */
-static span tile_span(const dp_tile_worker *w) {
+static span tile_span(const dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const uint32_t x1 = w->tile_x + DP_TILE, y1 = w->tile_y + DP_TILE;
     return (span){w->tile_x, w->tile_y, x1 < target->width ? x1 : target->width,
                   y1 < target->height ? y1 : target->height};
 }
 
-static void clear_classes(const dp_tile_worker *w, span s) {
+static void clear_classes(const dp_tile *w, span s) {
     const dp_target *const target = &w->frame->target;
     for (uint32_t y = s.y0; target->line_class && y < s.y1; y++)
         memset(target->line_class + (size_t)y * target->width + s.x0, 0, s.x1 - s.x0);
 }
 
-static void clear_ink(const dp_tile_worker *w, span s) {
+static void clear_ink(const dp_tile *w, span s) {
     uint8_t *const layer = w->frame->ink_layer;
     for (uint32_t y = s.y0; layer && y < s.y1; y++)
         memset(layer + 4 * ((size_t)y * w->frame->target.width + s.x0), 0,
                4 * (size_t)(s.x1 - s.x0));
 }
 
-void dp_tile_surface(dp_tile_worker *w) {
+void dp_tile_surface(dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);
     const bool paints = target->rgba && !w->frame->painted_later,
@@ -130,7 +130,7 @@ void dp_tile_surface(dp_tile_worker *w) {
 }
 
 /* No polygon touches the tile: paper. */
-void dp_tile_bare_surface(dp_tile_worker *w) {
+void dp_tile_bare_surface(dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);
     const dp_color paper = w->frame->styles[0].paper;

@@ -17,23 +17,23 @@
 /* ------- first reading ------- */
 
 /* Which samples show a back face. */
-static void note_facing(const dp_tile_worker *w, uint64_t *away) {
-    for (size_t word = 0; word < w->frame->tile_samples / 64; word++) {
-        const uint32_t *const winner = w->winner + 64 * word;
+static void note_facing(const dp_finder *w, uint64_t *away) {
+    for (size_t word = 0; word < w->tile.frame->tile_samples / 64; word++) {
+        const uint32_t *const winner = w->tile.winner + 64 * word;
         uint64_t won = 0, back = 0;
         for (uint32_t i = 0; i < 64; i++) {
             if (winner[i] == UINT32_MAX) continue;
             won |= (uint64_t)1 << i;
-            back |= (uint64_t) !(w->polygons[winner[i]].flags & DP_POLYGON_FRONT) << i;
+            back |= (uint64_t) !(w->tile.polygons[winner[i]].flags & DP_POLYGON_FRONT) << i;
         }
         away[word] = (away[word] & ~won) | back;
     }
 }
 
 /* One pass: the triangles of a list that cross others. */
-static void note_pairs(const dp_stream_draw *s, const dp_tile_worker *w, dp_stream_worker *own) {
-    for (uint32_t i = 0; i < w->candidate_count; i++) {
-        const uint32_t ids[2] = {w->candidates[i].a, w->candidates[i].b};
+static void note_pairs(const dp_stream_draw *s, const dp_finder *w, dp_stream_worker *own) {
+    for (uint32_t i = 0; i < w->lines.candidate_count; i++) {
+        const uint32_t ids[2] = {w->lines.candidates[i].a, w->lines.candidates[i].b};
         if (own->crowd_count + 2 > s->crowd_limit) return;
         if (!dp_reserve(s->memory, &own->crowd, &own->crowd_cap, own->crowd_count + 2,
                         sizeof *own->crowd)) {
@@ -48,13 +48,13 @@ static void note_pairs(const dp_stream_draw *s, const dp_tile_worker *w, dp_stre
     }
 }
 
-void dp_stream_note_suspects(dp_stream_draw *s, dp_tile_worker *w, dp_stream_worker *own) {
-    uint64_t(*const suspects)[DP_TILE] = s->suspects[w->tile];
+void dp_stream_note_suspects(dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
+    uint64_t(*const suspects)[DP_TILE] = s->suspects[w->tile.index];
     for (int k = 0; k < 2; k++)
-        for (uint32_t y = 0; y < DP_TILE; y++) suspects[k][y] |= w->suspects[k][y];
-    note_facing(w, s->away + (size_t)w->tile * w->frame->tile_samples / 64);
+        for (uint32_t y = 0; y < DP_TILE; y++) suspects[k][y] |= w->tile.suspects[k][y];
+    note_facing(w, s->away + (size_t)w->tile.index * w->tile.frame->tile_samples / 64);
     if (s->read_again) return;
-    dp_tile_intersections(w);
+    dp_find_intersections(w);
     note_pairs(s, w, own);
 }
 
@@ -62,7 +62,7 @@ void dp_stream_note_suspects(dp_stream_draw *s, dp_tile_worker *w, dp_stream_wor
 
 /* Pixels that show nothing but back faces: on the outlines of fine meshes single samples do. */
 static void find_away(const dp_stream_draw *s, uint32_t tile, uint64_t rows[DP_TILE]) {
-    const dp_frame *const f = &s->context->frame;
+    const dp_frame *const f = s->frame;
     const uint64_t *const away = s->away + (size_t)tile * f->tile_samples / 64;
     memset(rows, 0xff, DP_TILE * sizeof *rows);
     for (size_t i = 0; i < f->tile_samples; i++) {
@@ -93,11 +93,11 @@ static int by_number(const void *left, const void *right) {
 /* All workers' triangles in order, each once. */
 static bool gather_pairs(dp_stream_draw *s) {
     size_t count = 0;
-    for (uint32_t i = 0; i < s->context->workers; i++) count += s->workers[i].crowd_count;
+    for (uint32_t i = 0; i < s->worker_count; i++) count += s->workers[i].crowd_count;
     if (!count) return true;
     if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, count, sizeof *s->crowd)) return false;
     count = 0;
-    for (uint32_t i = 0; i < s->context->workers; i++) {
+    for (uint32_t i = 0; i < s->worker_count; i++) {
         const dp_stream_worker *const w = &s->workers[i];
         if (w->crowd_count) memcpy(s->crowd + count, w->crowd, w->crowd_count * sizeof *w->crowd);
         count += w->crowd_count;
@@ -110,16 +110,16 @@ static bool gather_pairs(dp_stream_draw *s) {
 }
 
 bool dp_stream_choose_crowded(dp_stream_draw *s) {
-    if (!(s->context->frame.lines & DP_INTERSECTION)) return true;
+    if (!(s->frame->lines & DP_INTERSECTION)) return true;
     return dp_stream_for_tiles(s, choose_crowded) && (s->read_again || gather_pairs(s));
 }
 
 /* ------- at the end ------- */
 
 /* Adds a tile's crossings to the lines it has. */
-static bool add_lines(const dp_stream_draw *s, const dp_tile_worker *w, uint32_t first,
+static bool add_lines(const dp_stream_draw *s, const dp_finder *w, uint32_t first,
                       dp_tile_lines *lines) {
-    const dp_tile_lines own = {w->candidates, w->probes, w->candidate_count, w->probe_count};
+    const dp_tile_lines own = {w->lines.candidates, w->lines.probes, w->lines.candidate_count, w->lines.probe_count};
     const uint32_t candidates = lines->candidate_count + own.candidate_count;
     dp_tile_lines all;
     if (!dp_stream_make_lines(s, candidates, lines->probe_count + own.probe_count, &all))
@@ -135,27 +135,27 @@ static bool add_lines(const dp_stream_draw *s, const dp_tile_worker *w, uint32_t
 
 static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    dp_tile_worker *const w = &s->context->tile_workers[worker];
+    dp_finder *const w = &s->finders[worker];
     dp_stream_worker *const own = &s->workers[worker];
     const uint64_t *const crowded = s->crowded + (size_t)tile * DP_TILE;
-    if (!dp_bins_tile_count(&w->frame->polygon_bins, tile)) return;
-    w->finds_edges = false;
-    dp_tile_open(w, tile);
+    if (!dp_bins_tile_count(&w->tile.frame->polygon_bins, tile)) return;
+    w->tile.finds_edges = false;
+    dp_finder_open(w, tile);
     if (!dp_stream_draw_apart(s, w, own)) return;
-    for (size_t i = 0; i < w->frame->tile_samples; i++) w->depth[i] = DP_DEPTH_EMPTY;
-    dp_tile_assemble(w);
-    dp_tile_faces(w);
+    for (size_t i = 0; i < w->tile.frame->tile_samples; i++) w->tile.depth[i] = DP_DEPTH_EMPTY;
+    dp_tile_assemble(&w->tile);
+    dp_tile_faces(&w->tile);
     for (uint32_t y = 0; y < DP_TILE; y++)
-        w->suspects[0][y] &= crowded[y], w->suspects[1][y] &= crowded[y];
-    dp_tile_intersections(w);
-    if (!w->candidate_count) return;
+        w->tile.suspects[0][y] &= crowded[y], w->tile.suspects[1][y] &= crowded[y];
+    dp_find_intersections(w);
+    if (!w->lines.candidate_count) return;
     dp_stream_hide_by_samples(w);
     if (!add_lines(s, w, (uint32_t)(s->mesh_count - s->crowd_count), &s->lines[tile]))
         own->failed = true;
 }
 
 bool dp_stream_find_crossings(dp_stream_draw *s) {
-    dp_frame *const f = &s->context->frame;
+    dp_frame *const f = s->frame;
     const uint32_t first = s->mesh_count;
     if (!s->crowd_count) return true;
     if (!dp_stream_add_polygons(s, s->crowd, s->crowd_count)) return false;

@@ -55,11 +55,16 @@ typedef struct dp_tile_lines {
 } dp_tile_lines;
 
 struct dp_stream_draw {
-    dp_context *context;
+    dp_frame *frame; /* the next four as in dp_stream_setup */
+    dp_finder *finders;
+    dp_bin_worker *bin_workers;
+    dp_stats *stats;
+    dp_stream_setup setup;
+    uint32_t worker_count;
     const dp_allocator *memory;
     dp_input input;
     dp_chunk_view view;
-    dp_stream_worker *workers; /* [context->workers] */
+    dp_stream_worker *workers; /* [worker_count] */
 
     dp_chunk_rest *rests; /* [chunks] of the part at hand */
     uint32_t chunks;
@@ -78,7 +83,7 @@ struct dp_stream_draw {
     dp_kept_triangle *crowd; /* triangles where faces may cross; numbers ascend */
     size_t crowd_cap, crowd_count, crowd_limit;
     uint64_t *away; /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
-    uint64_t (*suspects)[2][DP_TILE]; /* by tile, as in dp_tile_worker */
+    uint64_t (*suspects)[2][DP_TILE]; /* by tile, as in dp_finder */
     uint64_t *crowded;                /* dp_chunk_view */
     dp_fan *fans;                     /* edges that are thought to be lines */
     uint32_t *fan_slots;              /* [fan_slot_count] 1 + fan, 0: free */
@@ -107,7 +112,7 @@ typedef enum dp_reading {
 } dp_reading;
 
 /* One reading from the start: part after part, chunk by chunk (readings.c). Progress goes from
- * `from` to `to`. Only the first counts in the context's statistics. */
+ * `from` to `to`. Only the first counts in the setup's statistics. */
 dp_result dp_stream_read(dp_stream_draw *stream, dp_reading reading, double from, double to,
                          dp_diag *diag);
 
@@ -118,14 +123,14 @@ bool dp_stream_hide_probes(dp_stream_draw *stream);
 /* After the first reading: the target's surface, and the lines among what is kept. When the source
  * is not read again, samples hide the lines' sample points (samples.c). */
 bool dp_stream_find_lines(dp_stream_draw *stream);
-void dp_stream_hide_by_samples(dp_tile_worker *worker);
+void dp_stream_hide_by_samples(dp_finder *worker);
 /* Makes frame->polygons longer by triangles; false when memory is out. */
 bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *triangles,
                             size_t count);
 
 /* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while
  * the source is read again; at the end. */
-void dp_stream_note_suspects(dp_stream_draw *stream, dp_tile_worker *worker, dp_stream_worker *own);
+void dp_stream_note_suspects(dp_stream_draw *stream, dp_finder *worker, dp_stream_worker *own);
 bool dp_stream_choose_crowded(dp_stream_draw *stream);
 bool dp_stream_find_crossings(dp_stream_draw *stream);
 
@@ -153,7 +158,7 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
 
 /* From now on the tile draws into depth of the worker's own, whatever that holds, and not into the
  * picture's (tiles.c). False when memory is out. */
-bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_tile_worker *worker,
+bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_finder *worker,
                           dp_stream_worker *own);
 
 /* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is

@@ -37,7 +37,7 @@ static uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner -
 
 static bool make_flap(const dp_stream_draw *s, const float *a, const float *b, const float *c,
                       const float *triangle, uint32_t number, int *side, flap *out) {
-    const dp_view *const view = &s->context->frame.view;
+    const dp_view *const view = &s->frame->view;
     dp_spine spine;
     const dp_clip_point clip = dp_to_clip(view, dp_v3f(c));
     if (!(clip.w > 0) || !dp_spine_make(view, dp_v3f(a), dp_v3f(b), dp_v3(0, 0, 0), &spine))
@@ -105,7 +105,7 @@ static const dp_fan *fan_at(const dp_stream_draw *s, uint32_t corner) {
 }
 
 bool dp_stream_make_fans(dp_stream_draw *s) {
-    const uint32_t tiles = s->context->frame.tiles_x * s->context->frame.tiles_y;
+    const uint32_t tiles = s->frame->tiles_x * s->frame->tiles_y;
     size_t count = 0;
     for (uint32_t t = 0; t < tiles; t++) count += s->lines[t].candidate_count;
     if (!count || count > s->crowd_limit / 2) return true; /* too many to be looked after */
@@ -172,7 +172,7 @@ static bool is_known(const dp_stream_draw *s, const dp_fan *fan, uint32_t number
 }
 
 bool dp_stream_join_fans(dp_stream_draw *s) {
-    for (uint32_t i = 0; i < s->context->workers; i++) {
+    for (uint32_t i = 0; i < s->worker_count; i++) {
         dp_stream_worker *const w = &s->workers[i];
         if (w->failed) return false;
         for (size_t k = 0; k < w->mate_count; k++) {
@@ -202,7 +202,7 @@ static int line_of(const dp_stream_draw *s, const dp_fan *fan) {
     const dp_vec3 into = dp_sub(r->corner, dp_v3f(position(s, fan->corner)));
     const dp_fold fold = {
         .normal_a = l->normal, .normal_b = r->normal, .concave = dp_dot(l->normal, into) > 0};
-    return dp_fold_line(&fold, &s->context->frame.styles[0]);
+    return dp_fold_line(&fold, &s->frame->styles[0]);
 }
 
 void dp_stream_settle_fans(const dp_stream_draw *s, dp_tile_lines *lines) {
@@ -213,7 +213,7 @@ void dp_stream_settle_fans(const dp_stream_draw *s, dp_tile_lines *lines) {
         if (!fan || !fan->met) continue;
         const int line = line_of(s, fan);
         if (line >= 0) c->line = (uint8_t)line;
-        if (line >= 0 && s->context->frame.styles[0].lines >> line & 1) continue;
+        if (line >= 0 && s->frame->styles[0].lines >> line & 1) continue;
         for (uint32_t k = 0; k < c->k1 - c->k0; k++) lines->probes.limit[c->probe + k] = INFINITY;
     }
 }

@@ -112,7 +112,7 @@ static void sift_chunk(const job *j, uint32_t index, uint32_t worker) {
     if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) leave_crowd(s, w->chunk, number, &triangles, rest);
     if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
-    if (j->reading == DP_READ_HIDERS || !s->context->frame.lines) return;
+    if (j->reading == DP_READ_HIDERS || !s->frame->lines) return;
     dp_chunk_edges(w->chunk, &triangles, &s->view);
     /* lines within the chunk are known since the first reading */
     if (j->reading == DP_READ_EDGES) memset(w->chunk->lines, 0, w->chunk->count);
@@ -161,7 +161,7 @@ static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading
         s->rests[i].first = s->covering;
         s->covering += s->rests[i].covering;
     }
-    dp_parallel(s->context->threads, chunks, list_chunk, s);
+    dp_parallel(s->frame->threads, chunks, list_chunk, s);
     return true;
 }
 
@@ -183,7 +183,7 @@ static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
     if (sum == kept->count) return true;
     if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles))
         return false;
-    dp_parallel(s->context->threads, chunks, keep_chunk, s);
+    dp_parallel(s->frame->threads, chunks, keep_chunk, s);
     kept->count = sum;
     return true;
 }
@@ -206,7 +206,7 @@ static bool keep_crowd(dp_stream_draw *s, uint32_t chunks) {
             if (s->crowd_count < s->crowd_limit)
                 s->crowd[s->crowd_count++] = rest->kept[k];
             else
-                s->context->stats.edges_lost++;
+                s->stats->edges_lost++;
         }
     }
     return true;
@@ -222,7 +222,7 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
              .reading = reading,
              .share = s->kept.share,
              .joins = s->joined < s->kept.count};
-    dp_parallel(s->context->threads, chunks + j.joins, do_task, &j);
+    dp_parallel(s->frame->threads, chunks + j.joins, do_task, &j);
     if (j.failed) return out_of_memory(diag);
     for (uint32_t i = 0; i < chunks; i++)
         if (s->rests[i].result) {
@@ -237,13 +237,10 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
 }
 
 static dp_result report(const dp_stream_draw *s, double from, double to, dp_diag *diag) {
-    const dp_context *const c = s->context;
     double done = dp_input_fraction(&s->input);
     if (done < 0 && s->triangles)
         done = (double)(s->input.first + s->input.count) / (double)s->triangles;
-    if (c->progress && c->progress(c->user, done < 0 ? done : from + (to - from) * done))
-        return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
-    return DP_OK;
+    return s->setup.report(s->setup.arg, done < 0 ? done : from + (to - from) * done, diag);
 }
 
 static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, double to,
@@ -261,21 +258,20 @@ static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, do
 
 dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, double to,
                          dp_diag *diag) {
-    dp_context *const c = s->context;
     dp_source *const source = s->input.source;
-    const dp_stats before = c->stats;
+    const dp_stats before = *s->stats;
     dp_result result = DP_OK;
     s->covering = 0;
     s->joined = s->kept.count;
     if (reading != DP_READ_FACES) {
         dp_input_close(&s->input);
-        result = dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
+        result = dp_input_open(&s->input, source, s->chunks, s->memory, s->stats, diag);
     }
     if (!result) result = read_all(s, reading, from, to, diag);
     if (reading != DP_READ_FACES) {
-        const uint64_t lost = c->stats.edges_lost;
-        c->stats = before;
-        c->stats.edges_lost = lost;
+        const uint64_t lost = s->stats->edges_lost;
+        *s->stats = before;
+        s->stats->edges_lost = lost;
     }
     return result;
 }

@@ -35,9 +35,9 @@ bool dp_stream_is_large(const dp_source *source, size_t memory) {
 void dp_stream_free(dp_stream_draw *s) {
     if (!s) return;
     const dp_allocator *const memory = s->memory;
-    const dp_frame *const f = &s->context->frame;
+    const dp_frame *const f = s->frame;
     dp_input_close(&s->input);
-    for (uint32_t i = 0; s->workers && i < s->context->workers; i++) {
+    for (uint32_t i = 0; s->workers && i < s->worker_count; i++) {
         dp_free(memory, s->workers[i].chunk);
         dp_free(memory, s->workers[i].buffer);
         dp_free(memory, s->workers[i].crowd);
@@ -64,8 +64,8 @@ void dp_stream_free(dp_stream_draw *s) {
 }
 
 static bool make_workers(dp_stream_draw *s) {
-    s->workers = dp_alloc_zeroed(s->memory, s->context->workers * sizeof *s->workers);
-    for (uint32_t i = 0; s->workers && i < s->context->workers; i++) {
+    s->workers = dp_alloc_zeroed(s->memory, s->worker_count * sizeof *s->workers);
+    for (uint32_t i = 0; s->workers && i < s->worker_count; i++) {
         s->workers[i].chunk = dp_alloc(s->memory, sizeof *s->workers[i].chunk);
         s->workers[i].buffer = dp_alloc(s->memory, dp_input_buffer_size(&s->input));
         if (!s->workers[i].chunk || !s->workers[i].buffer) return false;
@@ -90,7 +90,7 @@ static bool make_rests(dp_stream_draw *s) {
 
 /* What lasts as long as the picture: nothing is covered yet. */
 static bool make_picture(dp_stream_draw *s) {
-    const dp_frame *const f = &s->context->frame;
+    const dp_frame *const f = s->frame;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y, blocks = tiles * DP_BLOCKS * DP_BLOCKS;
     s->farthest = dp_alloc_array(s->memory, blocks, sizeof *s->farthest);
     s->wanted = dp_alloc_zeroed(s->memory, tiles * DP_TILE * sizeof *s->wanted);
@@ -108,14 +108,14 @@ static bool make_picture(dp_stream_draw *s) {
     return true;
 }
 
-static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s, dp_diag *diag) {
-    const dp_frame *const f = &c->frame;
-    const size_t chunks = c->limit / 2 / PER_CHUNK;
+static dp_result open_stream(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
+    const dp_frame *const f = s->frame;
+    const size_t limit = s->setup.limit, chunks = limit / 2 / PER_CHUNK;
     s->chunks = chunks < CHUNKS_LEAST  ? CHUNKS_LEAST
                 : chunks > CHUNKS_MOST ? CHUNKS_MOST
                                        : (uint32_t)chunks;
     const dp_result result =
-        dp_input_open(&s->input, source, s->chunks, s->memory, &c->stats, diag);
+        dp_input_open(&s->input, source, s->chunks, s->memory, s->stats, diag);
     if (result) return result;
     s->view = (dp_chunk_view){.view = &f->view,
                               .lanes = f->lanes,
@@ -126,7 +126,7 @@ static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s
     dp_sampling_init(&s->view.sampling, f->target.samples);
     s->kept = (dp_kept){.memory = s->memory, .view = &s->view, .shares = 1};
     const size_t parts = (size_t)s->chunks * PER_CHUNK;
-    s->kept.limit = (c->limit > parts ? c->limit - parts : 0) / PER_KEPT;
+    s->kept.limit = (limit > parts ? limit - parts : 0) / PER_KEPT;
     if (s->kept.limit < KEPT_LEAST) s->kept.limit = KEPT_LEAST;
     s->crowd_limit = s->kept.limit / 2;
     if (!make_workers(s) || !make_rests(s) || !make_picture(s))
@@ -136,11 +136,11 @@ static dp_result open_stream(dp_context *c, dp_source *source, dp_stream_draw *s
 }
 
 static void add_stats(dp_stream_draw *s) {
-    dp_stats *const sum = &s->context->stats;
-    for (uint32_t i = 0; i < s->context->workers; i++) {
+    dp_stats *const sum = s->stats;
+    for (uint32_t i = 0; i < s->worker_count; i++) {
         sum->dropped_finite += s->workers[i].stats.dropped_finite;
         sum->dropped_area += s->workers[i].stats.dropped_area;
-        sum->clipped += s->context->bin_workers[i].stats.clipped;
+        sum->clipped += s->bin_workers[i].stats.clipped;
     }
 }
 
@@ -162,27 +162,32 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
 
 /* First reading, and more where edges were put off. */
 static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
-    dp_context *const c = s->context;
+    const dp_frame *const f = s->frame;
     s->read_again =
-        c->frame.lines && c->frame.styles[0].passes != 1 && dp_source_rewindable(source);
+        f->lines && f->styles[0].passes != 1 && dp_source_rewindable(source);
     s->done = s->read_again ? 0.6 : 0.95;
-    dp_result result = open_stream(c, source, s, diag);
+    dp_result result = open_stream(s, source, diag);
     if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);
     if (!result) add_stats(s);
-    if (!result && c->frame.lines) result = read_edges(s, s->read_again, &s->done, diag);
-    c->stats.edges_lost = s->kept.lost + s->kept.thinned;
+    if (!result && f->lines) result = read_edges(s, s->read_again, &s->done, diag);
+    s->stats->edges_lost = s->kept.lost + s->kept.thinned;
     s->thinned = s->kept.thinned > 0;
     s->waited_in_vain = s->kept.lost > 0;
     return result;
 }
 
-dp_result dp_stream_read_model(dp_context *context, dp_source *source, dp_stream_draw **stream,
-                               dp_diag *diag) {
-    dp_stream_draw *const s = dp_alloc_zeroed(&context->memory, sizeof *s);
+dp_result dp_stream_read_model(const dp_stream_setup *setup, dp_source *source,
+                               dp_stream_draw **stream, dp_diag *diag) {
+    dp_stream_draw *const s = dp_alloc_zeroed(setup->frame->memory, sizeof *s);
     *stream = s;
     if (!s) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a streamed drawing");
-    s->context = context;
-    s->memory = &context->memory;
+    s->setup = *setup;
+    s->frame = setup->frame;
+    s->finders = setup->finders;
+    s->bin_workers = setup->bin_workers;
+    s->stats = setup->stats;
+    s->worker_count = setup->workers;
+    s->memory = setup->frame->memory;
     return read_model(s, source, diag);
 }
 
@@ -199,7 +204,7 @@ static bool want_pixels(dp_stream_draw *s) {
 }
 
 dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {
-    const bool lines = s->context->frame.lines;
+    const bool lines = s->frame->lines;
     if (!dp_stream_find_lines(s) || !dp_stream_choose_crowded(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
     if (s->read_again && !want_pixels(s))

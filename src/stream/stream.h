@@ -2,7 +2,8 @@
 #ifndef DP_STREAM_STREAM_H
 #define DP_STREAM_STREAM_H
 
-#include "draw/context.h"
+#include "find/finder.h"
+#include "raster/stages.h"
 
 /* Memory beyond the picture, bytes: what is taken when nothing is said, and the least that
  * works. */
@@ -12,12 +13,25 @@
 /* Is a source of records, whose size is known, too large to be gathered within `memory` bytes? */
 bool dp_stream_is_large(const dp_source *source, size_t memory);
 
+/* What a streamed drawing takes; all borrowed. */
+typedef struct dp_stream_setup {
+    dp_frame *frame;            /* begun: view, style, target, depth */
+    dp_finder *finders;         /* [workers] begun */
+    dp_bin_worker *bin_workers; /* [workers] */
+    uint32_t workers;
+    size_t limit;    /* bytes beyond the picture */
+    dp_stats *stats; /* counts are added */
+    /* Is told the share of the reading that is done, 0 to 1; what it returns ends the drawing. */
+    dp_result (*report)(void *arg, double done, dp_diag *diag);
+    void *arg;
+} dp_stream_setup;
+
 /* In place of dp_draw's stages up to the tiles: first all that the faces and edges of the source
- * tell; then the target's surface, the workers' pieces, and frame->polygons, which then holds only
+ * tell; then the target's surface, the finders' pieces, and frame->polygons, which then holds only
  * the triangles that have lines. What was kept stays with *stream until dp_stream_free. */
 typedef struct dp_stream_draw dp_stream_draw;
-dp_result dp_stream_read_model(dp_context *context, dp_source *source, dp_stream_draw **stream,
-                               dp_diag *diag);
+dp_result dp_stream_read_model(const dp_stream_setup *setup, dp_source *source,
+                               dp_stream_draw **stream, dp_diag *diag);
 dp_result dp_stream_find(dp_stream_draw *stream, dp_diag *diag);
 void dp_stream_free(dp_stream_draw *stream); /* NULL allowed */
 

@@ -16,17 +16,16 @@ static const float MARGIN = 0.75f; /* px, as in draw.c */
 
 /* Transforms and bins frame->polygons. */
 bool dp_stream_place_polygons(dp_stream_draw *s) {
-    dp_context *const c = s->context;
-    dp_frame *const f = &c->frame;
-    if (!dp_reserve(s->memory, &f->vertices, &c->vertices_cap, f->polygons.vertex_count,
+    dp_frame *const f = s->frame;
+    if (!dp_reserve(s->memory, &f->vertices, &f->vertices_cap, f->polygons.vertex_count,
                     sizeof *f->vertices))
         return false;
     dp_transform_vertices(f);
-    return dp_bin_polygons(f, MARGIN, c->bin_workers);
+    return dp_bin_polygons(f, MARGIN, s->bin_workers);
 }
 
 static bool place_list(dp_stream_draw *s) {
-    s->context->frame.polygons = (dp_polygons){.positions = (const float *)s->corners,
+    s->frame->polygons = (dp_polygons){.positions = (const float *)s->corners,
                                                .stride = 3 * sizeof(float),
                                                .vertex_count = 3 * s->covering,
                                                .count = s->covering};
@@ -34,51 +33,51 @@ static bool place_list(dp_stream_draw *s) {
 }
 
 static bool workers_are_sound(const dp_stream_draw *s) {
-    for (uint32_t i = 0; i < s->context->workers; i++)
-        if (s->context->tile_workers[i].failed || s->workers[i].failed) return false;
+    for (uint32_t i = 0; i < s->worker_count; i++)
+        if (s->finders[i].tile.failed || s->workers[i].failed) return false;
     return true;
 }
 
 bool dp_stream_for_tiles(dp_stream_draw *s, dp_task *task) {
-    const dp_frame *const f = &s->context->frame;
-    dp_parallel(s->context->threads, f->tiles_x * f->tiles_y, task, s);
+    const dp_frame *const f = s->frame;
+    dp_parallel(s->frame->threads, f->tiles_x * f->tiles_y, task, s);
     return workers_are_sound(s);
 }
 
 /* ------- faces ------- */
 
 /* Normals of the pixels that this list has won. */
-static void put_normals(const dp_tile_worker *w) {
-    const dp_target *const target = &w->frame->target;
-    for (uint32_t y = 0; y < DP_TILE && w->tile_y + y < target->height; y++)
-        for (uint32_t x = 0; x < DP_TILE && w->tile_x + x < target->width; x++) {
-            const uint32_t winner = w->winner[dp_pixel_lane(&w->sampling, x, y)];
+static void put_normals(const dp_finder *w) {
+    const dp_target *const target = &w->tile.frame->target;
+    for (uint32_t y = 0; y < DP_TILE && w->tile.tile_y + y < target->height; y++)
+        for (uint32_t x = 0; x < DP_TILE && w->tile.tile_x + x < target->width; x++) {
+            const uint32_t winner = w->tile.winner[dp_pixel_lane(&w->tile.sampling, x, y)];
             if (winner == UINT32_MAX) continue;
-            const dp_tile_polygon *const p = &w->polygons[winner];
+            const dp_tile_polygon *const p = &w->tile.polygons[winner];
             const dp_vec3 n =
-                dp_scale(dp_polygon_normal(w->frame, p->id), p->flags & DP_POLYGON_FRONT ? 1 : -1);
+                dp_scale(dp_polygon_normal(w->tile.frame, p->id), p->flags & DP_POLYGON_FRONT ? 1 : -1);
             float *const out =
-                target->normal + 3 * ((size_t)(w->tile_y + y) * target->width + w->tile_x + x);
+                target->normal + 3 * ((size_t)(w->tile.tile_y + y) * target->width + w->tile.tile_x + x);
             out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z;
         }
 }
 
 static void draw_faces(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    dp_frame *const f = &s->context->frame;
-    dp_tile_worker *const w = &s->context->tile_workers[worker];
+    dp_frame *const f = s->frame;
+    dp_finder *const w = &s->finders[worker];
     if (!dp_bins_tile_count(&f->polygon_bins, tile)) return;
-    w->finds_edges = false;
-    dp_tile_open(w, tile);
-    if (w->watching) w->away = s->away + (size_t)tile * f->tile_samples / 64;
-    dp_tile_assemble(w);
-    dp_tile_faces(w);
-    w->away = NULL;
+    w->tile.finds_edges = false;
+    dp_finder_open(w, tile);
+    if (w->tile.watching) w->tile.away = s->away + (size_t)tile * f->tile_samples / 64;
+    dp_tile_assemble(&w->tile);
+    dp_tile_faces(&w->tile);
+    w->tile.away = NULL;
     for (size_t y = 0; y < DP_BLOCKS; y++)
         memcpy(s->farthest + ((size_t)tile * DP_BLOCKS + y) * DP_BLOCKS,
-               &w->farthest[0][0][y + 1][1], DP_BLOCKS * sizeof *s->farthest);
+               &w->tile.farthest[0][0][y + 1][1], DP_BLOCKS * sizeof *s->farthest);
     if (f->target.normal) put_normals(w);
-    if (w->watching) dp_stream_note_suspects(s, w, &s->workers[worker]);
+    if (w->tile.watching) dp_stream_note_suspects(s, w, &s->workers[worker]);
 }
 
 bool dp_stream_draw_faces(dp_stream_draw *s) {
@@ -92,7 +91,7 @@ bool dp_stream_draw_faces(dp_stream_draw *s) {
 
 bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles, size_t count) {
     const size_t first = s->mesh_count, all = first + count;
-    dp_polygons *const polygons = &s->context->frame.polygons;
+    dp_polygons *const polygons = &s->frame->polygons;
     if (all >= UINT32_MAX / 4 ||
         !dp_reserve(s->memory, &s->positions, &s->positions_cap, 9 * all, sizeof *s->positions) ||
         !dp_reserve(s->memory, &s->edge_flags, &s->flags_cap, 3 * all, 1) ||
@@ -129,12 +128,12 @@ static bool make_mesh(dp_stream_draw *s) {
 /* Which samples hold any surface is all that one colour needs to know. */
 static void paint_surface(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    dp_tile_worker *const w = &s->context->tile_workers[worker];
-    s->context->frame.tile_pieces[tile] = (dp_tile_pieces){.worker = worker};
-    dp_tile_open(w, tile);
-    for (size_t i = 0; i < w->frame->tile_samples; i++)
-        w->winner[i] = w->depth[i] == DP_DEPTH_EMPTY ? UINT32_MAX : 0;
-    dp_tile_surface(w);
+    dp_finder *const w = &s->finders[worker];
+    s->frame->tile_pieces[tile] = (dp_tile_pieces){.worker = worker};
+    dp_finder_open(w, tile);
+    for (size_t i = 0; i < w->tile.frame->tile_samples; i++)
+        w->tile.winner[i] = w->tile.depth[i] == DP_DEPTH_EMPTY ? UINT32_MAX : 0;
+    dp_tile_surface(&w->tile);
 }
 
 /* ------- lines ------- */
@@ -181,13 +180,13 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
     memcpy(to->probes.limit + probe, from->probes.limit, bytes);
 }
 
-static dp_tile_lines lines_of(const dp_tile_worker *w) {
-    return (dp_tile_lines){w->candidates, w->probes, w->candidate_count, w->probe_count};
+static dp_tile_lines lines_of(const dp_finder *w) {
+    return (dp_tile_lines){w->lines.candidates, w->lines.probes, w->lines.candidate_count, w->lines.probe_count};
 }
 
-static bool store_lines(const dp_stream_draw *s, dp_tile_worker *w, dp_tile_lines *out) {
+static bool store_lines(const dp_stream_draw *s, dp_finder *w, dp_tile_lines *out) {
     const dp_tile_lines own = lines_of(w);
-    w->bone_count = 0;
+    w->found->bone_count = 0;
     if (!own.candidate_count) return true;
     if (!dp_stream_make_lines(s, own.candidate_count, own.probe_count, out)) return false;
     dp_stream_put_lines(&own, out, 0, 0);
@@ -197,50 +196,50 @@ static bool store_lines(const dp_stream_draw *s, dp_tile_worker *w, dp_tile_line
 /* When lines were thinned, an edge known to be a line whose other triangle is not there does not
  * emerge (else the other is hidden, and it does); nor does any other when edges were given up,
  * because then its other triangle may be anywhere. */
-static void drop_halves(const dp_stream_draw *s, dp_tile_worker *w) {
+static void drop_halves(const dp_stream_draw *s, dp_finder *w) {
     uint32_t left = 0;
-    for (uint32_t i = 0; i < w->loose_count; i++) {
-        const dp_loose_edge l = w->loose[i];
+    for (uint32_t i = 0; i < w->emergence.loose_count; i++) {
+        const dp_loose_edge l = w->emergence.loose[i];
         const bool alone =
-            s->edge_flags[3 * (size_t)w->polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
-        if (!(alone ? s->waited_in_vain : s->thinned)) w->loose[left++] = l;
+            s->edge_flags[3 * (size_t)w->tile.polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
+        if (!(alone ? s->waited_in_vain : s->thinned)) w->emergence.loose[left++] = l;
     }
-    w->loose_count = left;
+    w->emergence.loose_count = left;
 }
 
-bool dp_stream_draw_apart(const dp_stream_draw *s, dp_tile_worker *w, dp_stream_worker *own) {
-    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->frame->tile_samples,
+bool dp_stream_draw_apart(const dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
+    if (!dp_reserve(s->memory, &own->depth, &own->depth_cap, w->tile.frame->tile_samples,
                     sizeof *own->depth))
         return !(own->failed = true);
-    w->depth = own->depth;
+    w->tile.depth = own->depth;
     return true;
 }
 
 /* In one reading, samples beside the tile are looked at too, which others may be drawing again. */
 static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    dp_tile_worker *const w = &s->context->tile_workers[worker];
+    dp_finder *const w = &s->finders[worker];
     dp_tile_lines *const lines = &s->lines[tile];
-    if (!dp_bins_tile_count(&s->context->frame.polygon_bins, tile)) return;
-    w->finds_edges = true;
-    dp_tile_open(w, tile);
+    if (!dp_bins_tile_count(&s->frame->polygon_bins, tile)) return;
+    w->tile.finds_edges = true;
+    dp_finder_open(w, tile);
     if (!s->read_again) {
-        const float *const drawn = w->depth;
+        const float *const drawn = w->tile.depth;
         if (!dp_stream_draw_apart(s, w, &s->workers[worker])) return;
-        memcpy(w->depth, drawn, w->frame->tile_samples * sizeof *drawn);
+        memcpy(w->tile.depth, drawn, w->tile.frame->tile_samples * sizeof *drawn);
     }
-    dp_tile_assemble(w);
-    dp_tile_faces(w);
-    dp_tile_edges(w);
+    dp_tile_assemble(&w->tile);
+    dp_tile_faces(&w->tile);
+    dp_find_edges(w);
     drop_halves(s, w);
-    dp_tile_emerge(w);
+    dp_find_emergent(w);
     if (!s->read_again) dp_stream_hide_by_samples(w);
-    if (!store_lines(s, w, lines)) w->failed = true;
+    if (!store_lines(s, w, lines)) w->tile.failed = true;
     want_pixels(lines, s->wanted + (size_t)tile * DP_TILE);
 }
 
 bool dp_stream_find_lines(dp_stream_draw *s) {
-    dp_frame *const f = &s->context->frame;
+    dp_frame *const f = s->frame;
     float *const normal = f->target.normal; /* written list by list */
     f->target.normal = NULL;
     const bool painted = dp_stream_for_tiles(s, paint_surface);
@@ -266,72 +265,72 @@ static uint32_t place_in_list(const dp_stream_draw *s, uint32_t number) {
 }
 
 /* The candidates' own polygons by the numbers of the list at hand. */
-static bool find_owners(const dp_stream_draw *s, dp_tile_worker *w, dp_stream_worker *own) {
-    if (!dp_reserve(s->memory, &own->owners, &own->owners_cap, w->candidate_count,
+static bool find_owners(const dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
+    if (!dp_reserve(s->memory, &own->owners, &own->owners_cap, w->lines.candidate_count,
                     sizeof *own->owners))
         return false;
-    for (uint32_t i = 0; i < w->candidate_count; i++) {
-        const dp_candidate *const c = &w->candidates[i];
+    for (uint32_t i = 0; i < w->lines.candidate_count; i++) {
+        const dp_candidate *const c = &w->lines.candidates[i];
         own->owners[i][0] = place_in_list(s, s->polygon_numbers[c->a]);
         own->owners[i][1] =
             c->b == UINT32_MAX ? UINT32_MAX - 1 : place_in_list(s, s->polygon_numbers[c->b]);
     }
-    w->owners = (const uint32_t(*)[2])own->owners;
+    w->lines.owners = (const uint32_t(*)[2])own->owners;
     return true;
 }
 
 /* Lends a tile's lines to the worker, and takes its own back. */
-static void swap_lines(dp_tile_worker *w, dp_tile_lines *lines) {
+static void swap_lines(dp_finder *w, dp_tile_lines *lines) {
     const dp_tile_lines own = lines_of(w);
-    w->candidates = lines->candidates, w->probes = lines->probes;
-    w->candidate_count = lines->candidate_count, w->probe_count = lines->probe_count;
+    w->lines.candidates = lines->candidates, w->lines.probes = lines->probes;
+    w->lines.candidate_count = lines->candidate_count, w->lines.probe_count = lines->probe_count;
     *lines = own;
 }
 
 static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    dp_tile_worker *const w = &s->context->tile_workers[worker];
+    dp_finder *const w = &s->finders[worker];
     dp_stream_worker *const own = &s->workers[worker];
     dp_tile_lines *const lines = &s->lines[tile];
-    if (!lines->candidate_count || !dp_bins_tile_count(&s->context->frame.polygon_bins, tile))
+    if (!lines->candidate_count || !dp_bins_tile_count(&s->frame->polygon_bins, tile))
         return;
-    const bool watching = w->watching;
-    w->finds_edges = false;
-    dp_tile_open(w, tile);
+    const bool watching = w->tile.watching;
+    w->tile.finds_edges = false;
+    dp_finder_open(w, tile);
     swap_lines(w, lines);
-    w->watching = false; /* the faces are drawn again, which changes nothing */
-    dp_tile_assemble(w);
-    dp_tile_faces(w);
-    w->watching = watching;
+    w->tile.watching = false; /* the faces are drawn again, which changes nothing */
+    dp_tile_assemble(&w->tile);
+    dp_tile_faces(&w->tile);
+    w->tile.watching = watching;
     if (find_owners(s, w, own))
-        dp_tile_hide(w);
+        dp_hide_points(w);
     else
-        w->failed = true;
-    w->owners = NULL;
+        w->tile.failed = true;
+    w->lines.owners = NULL;
     swap_lines(w, lines);
     want_pixels(lines, s->wanted + (size_t)tile * DP_TILE);
 }
 
 bool dp_stream_hide_probes(dp_stream_draw *s) {
     if (!s->covering) return true;
-    const dp_polygons kept = s->context->frame.polygons;
+    const dp_polygons kept = s->frame->polygons;
     const bool sound = place_list(s) && dp_stream_for_tiles(s, hide_probes);
-    s->context->frame.polygons = kept;
+    s->frame->polygons = kept;
     s->covering = 0;
     return sound;
 }
 
 static void collect_tile(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    dp_tile_worker *const w = &s->context->tile_workers[worker];
-    dp_tile_pieces *const out = &s->context->frame.tile_pieces[tile];
-    *out = (dp_tile_pieces){.worker = worker, .first = w->piece_count};
+    dp_finder *const w = &s->finders[worker];
+    dp_tile_pieces *const out = &s->frame->tile_pieces[tile];
+    *out = (dp_tile_pieces){.worker = worker, .first = w->found->piece_count};
     if (!s->lines[tile].candidate_count) return;
     dp_stream_settle_fans(s, &s->lines[tile]);
     swap_lines(w, &s->lines[tile]);
-    dp_tile_collect(w);
+    dp_collect_pieces(w);
     swap_lines(w, &s->lines[tile]);
-    out->count = w->piece_count - out->first;
+    out->count = w->found->piece_count - out->first;
 }
 
 bool dp_stream_collect(dp_stream_draw *s) { return dp_stream_for_tiles(s, collect_tile); }

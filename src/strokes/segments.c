@@ -12,7 +12,8 @@
 #include "base/hostile.h"
 #include "strokes/kernels.h"
 #include "features/crossing.h"
-#include "raster/tile.h"
+#include "core/outline.h"
+#include "core/spine.h"
 
 #include <stdlib.h>
 
@@ -42,7 +43,7 @@ static bool continues(const dp_piece *p, const dp_piece *q) {
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
-static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
+static bool join_pieces(const dp_frame *frame, const dp_found *found,
                         dp_stroke_store *store, size_t *count) {
     const uint32_t tiles = frame->tiles_x * frame->tiles_y;
     size_t total = 0, closed = 0, open;
@@ -54,7 +55,7 @@ static bool join_pieces(const dp_frame *frame, const dp_tile_worker *workers,
     for (uint32_t t = 0; t < tiles; t++) {
         const dp_tile_pieces *const list = &frame->tile_pieces[t];
         const dp_piece *const pieces =
-            list->count ? workers[list->worker].pieces + list->first : NULL;
+            list->count ? found[list->worker].pieces + list->first : NULL;
         for (size_t i = 0; i < list->count; i++) {
             dp_piece *const to = &store->pieces[pieces[i].open ? --open : closed++];
             *to = pieces[i];
@@ -112,12 +113,12 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
 
 typedef struct job {
     dp_frame *frame;
-    const dp_tile_worker *workers;
+    const dp_found *found;
     const dp_stroke_store *store;
 } job;
 
 static void put_bones(const job *j, const dp_piece *piece, dp_segment_batch *out, uint32_t i) {
-    const dp_bones bones = piece->bones ? j->workers[piece->worker].bones[piece->bones - 1]
+    const dp_bones bones = piece->bones ? j->found[piece->worker].bones[piece->bones - 1]
                                         : find_bones(j->frame, piece);
     out->a[0][i] = bones.a.x, out->a[1][i] = bones.a.y, out->a[2][i] = bones.a.d;
     out->b[0][i] = bones.b.x, out->b[1][i] = bones.b.y, out->b[2][i] = bones.b.d;
@@ -181,9 +182,9 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
-bool dp_make_segments(dp_frame *frame, const dp_tile_worker *workers, dp_stroke_store *store) {
+bool dp_make_segments(dp_frame *frame, const dp_found *found, dp_stroke_store *store) {
     size_t count;
-    if (!join_pieces(frame, workers, store, &count)) return false;
+    if (!join_pieces(frame, found, store, &count)) return false;
     if (count > UINT32_MAX ||
         !dp_reserve(frame->memory, &store->segments, &store->segments_cap, count,
                     sizeof *store->segments) ||
@@ -193,7 +194,7 @@ bool dp_make_segments(dp_frame *frame, const dp_tile_worker *workers, dp_stroke_
     frame->segments = store->segments;
     frame->strokes = store->strokes;
     frame->segment_count = count;
-    job j = {frame, workers, store};
+    job j = {frame, found, store};
     dp_parallel(frame->threads, (uint32_t)(count / BLOCK + (count % BLOCK != 0)), make_block, &j);
     return true;
 }

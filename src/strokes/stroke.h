@@ -3,6 +3,7 @@
 #define DP_STROKES_STROKE_H
 
 #include "core/frame.h"
+#include "core/piece.h"
 
 /* A capsule on the screen: all points within half_width of the spine. */
 typedef struct dp_stroke {
@@ -57,9 +58,8 @@ typedef struct dp_stroke_store {
 
 void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory);
 
-struct dp_tile_worker;
-bool dp_make_segments(dp_frame *frame, const struct dp_tile_worker *workers,
-                      dp_stroke_store *store);
+/* `found`: by worker. False when memory is out. */
+bool dp_make_segments(dp_frame *frame, const dp_found *found, dp_stroke_store *store);
 
 /* Strokes to tiles. False when memory is out. */
 bool dp_bin_strokes(dp_frame *frame);

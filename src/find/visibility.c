@@ -12,14 +12,14 @@
  * Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
 #include "base/hostile.h"
 #include "find/kernels.h"
-#include "raster/tile.h"
+#include "find/finder.h"
 
 #include <string.h>
 
 /* The tile that owns a point, by the pixel it lies in: the same answer in every tile. */
-static bool owned(const dp_tile_worker *w, dp_pointd p) {
-    return p.x >= w->tile_x && p.y >= w->tile_y && p.x < w->tile_x + DP_TILE &&
-           p.y < w->tile_y + DP_TILE && p.x < w->frame->view.width && p.y < w->frame->view.height;
+static bool owned(const dp_finder *w, dp_pointd p) {
+    return p.x >= w->tile.tile_x && p.y >= w->tile.tile_y && p.x < w->tile.tile_x + DP_TILE &&
+           p.y < w->tile.tile_y + DP_TILE && p.x < w->tile.frame->view.width && p.y < w->tile.frame->view.height;
 }
 
 /* Cuts [*t0, *t1] to where from + t * (to - from) lies in [lo, hi]. */
@@ -39,20 +39,20 @@ static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
 }
 
 /* So far inside that points between two such ones are the tile's too, however they are rounded. */
-static bool well_inside(const dp_tile_worker *w, dp_pointd p) {
-    const double slack = 1e-6, x = p.x - w->tile_x, y = p.y - w->tile_y;
-    const double width = dp_min(DP_TILE, (double)w->frame->view.width - w->tile_x),
-                 height = dp_min(DP_TILE, (double)w->frame->view.height - w->tile_y);
+static bool well_inside(const dp_finder *w, dp_pointd p) {
+    const double slack = 1e-6, x = p.x - w->tile.tile_x, y = p.y - w->tile.tile_y;
+    const double width = dp_min(DP_TILE, (double)w->tile.frame->view.width - w->tile.tile_x),
+                 height = dp_min(DP_TILE, (double)w->tile.frame->view.height - w->tile.tile_y);
     return x >= slack && y >= slack && x < width - slack && y < height - slack;
 }
 
 /* Which sample points may be the tile's: one more on either side than the cut says, and of most
  * spines, which are short, all. */
-static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
+static bool find_range(const dp_finder *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
     if (well_inside(w, s->probe_a) && well_inside(w, s->probe_b)) return *k0 < *k1;
     double t0 = 0, t1 = 1;
-    cut(s->probe_a.x, s->probe_b.x, w->tile_x, w->tile_x + DP_TILE, &t0, &t1);
-    cut(s->probe_a.y, s->probe_b.y, w->tile_y, w->tile_y + DP_TILE, &t0, &t1);
+    cut(s->probe_a.x, s->probe_b.x, w->tile.tile_x, w->tile.tile_x + DP_TILE, &t0, &t1);
+    cut(s->probe_a.y, s->probe_b.y, w->tile.tile_y, w->tile.tile_y + DP_TILE, &t0, &t1);
     if (t0 > t1) return false;
     const double lo = t0 * s->n - 1.5, hi = t1 * s->n + 2.5;
     if (lo > *k0) *k0 = (uint32_t)lo;
@@ -62,52 +62,34 @@ static bool find_range(const dp_tile_worker *w, const dp_spine *s, uint32_t *k0,
     return *k0 < *k1;
 }
 
-static bool reserve_probes(dp_tile_worker *w, size_t need) {
-    return DP_WORKER_RESERVE(w, probes.x, probe_x_cap, need) &&
-           DP_WORKER_RESERVE(w, probes.y, probe_y_cap, need) &&
-           DP_WORKER_RESERVE(w, probes.limit, probe_limit_cap, need);
+static bool reserve_probes(dp_finder *w, size_t need) {
+    return DP_TILE_RESERVE(&w->tile, w, lines.probes.x, lines.probe_x_cap, need) &&
+           DP_TILE_RESERVE(&w->tile, w, lines.probes.y, lines.probe_y_cap, need) &&
+           DP_TILE_RESERVE(&w->tile, w, lines.probes.limit, lines.probe_limit_cap, need);
 }
 
 /* Keeps what segments will be made of; where there are too many, that is found again. */
-static uint32_t keep_bones(dp_tile_worker *w, const dp_spine *spine, const dp_vec3 normals[2]) {
+static uint32_t keep_bones(dp_finder *w, const dp_spine *spine, const dp_vec3 normals[2]) {
     const uint32_t most = DP_TUNED((1u << 24) - 1, 100);
-    if (w->bone_count == most || !DP_WORKER_RESERVE(w, bones, bones_cap, w->bone_count + 1u))
+    if (w->found->bone_count == most || !DP_TILE_RESERVE(&w->tile, w, found->bones, found->bones_cap, w->found->bone_count + 1u))
         return 0;
-    w->bones[w->bone_count++] = (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
-    return w->bone_count;
+    w->found->bones[w->found->bone_count++] = (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
+    return w->found->bone_count;
 }
 
-void dp_tile_add_candidate(dp_tile_worker *w, dp_candidate c, const dp_spine *spine,
+void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
                            const dp_vec3 normals[2]) {
     if (c.k1 > spine->n) c.k1 = spine->n;
     if (!find_range(w, spine, &c.k0, &c.k1)) return;
-    if (!DP_WORKER_RESERVE(w, candidates, candidates_cap, w->candidate_count + 1u) ||
-        !reserve_probes(w, (size_t)w->probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
+    if (!DP_TILE_RESERVE(&w->tile, w, lines.candidates, lines.candidates_cap, w->lines.candidate_count + 1u) ||
+        !reserve_probes(w, (size_t)w->lines.probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
         return;
     c.n = spine->n;
-    c.probe = w->probe_count;
+    c.probe = w->lines.probe_count;
     c.bones = (normals ? keep_bones(w, spine, normals) : 0) & 0xffffff;
-    w->candidates[w->candidate_count++] = c;
-    dp_find_kernels_for(w->frame->lanes)->points(w, spine, c.k0, c.k1, &w->probes, c.probe);
-    w->probe_count += c.k1 - c.k0;
-}
-
-/* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of
- * two polygons that share an edge exactly one has it. */
-static bool left_of(dp_vertex a, dp_vertex b, float x, float y, bool flip) {
-    const bool swap = a.y > b.y || (a.y == b.y && a.x > b.x);
-    const dp_vertex s = swap ? b : a, t = swap ? a : b;
-    const double e =
-        ((double)t.x - s.x) * ((double)y - s.y) - ((double)t.y - s.y) * ((double)x - s.x);
-    return swap != flip ? e < 0 : e >= 0;
-}
-
-bool dp_tile_covers(const dp_tile_worker *w, const dp_tile_polygon *polygon, float x, float y) {
-    const dp_vertex *const p = w->points + polygon->point;
-    const bool front = polygon->flags & DP_POLYGON_FRONT;
-    for (uint32_t i = 0; i < polygon->points; i++)
-        if (!left_of(p[i], p[i + 1 == polygon->points ? 0 : i + 1], x, y, front)) return false;
-    return true;
+    w->lines.candidates[w->lines.candidate_count++] = c;
+    dp_find_kernels_for(w->tile.frame->lanes)->points(w, spine, c.k0, c.k1, &w->lines.probes, c.probe);
+    w->lines.probe_count += c.k1 - c.k0;
 }
 
 /* ------- groups ------- */
@@ -161,32 +143,32 @@ static void put_group(dp_probe_groups *out, dp_probe_group group, const bounds *
         }
 }
 
-static bool reserve_groups(dp_tile_worker *w, uint32_t count) {
+static bool reserve_groups(dp_finder *w, uint32_t count) {
     const size_t room = (size_t)count + DP_PROBES_ROOM;
-    return DP_WORKER_RESERVE(w, groups.group, groups.group_cap, count) &&
-           DP_WORKER_RESERVE(w, groups.box, groups.box_cap, room) &&
-           DP_WORKER_RESERVE(w, groups.limit, groups.limit_cap, room);
+    return DP_TILE_RESERVE(&w->tile, w, lines.groups.group, lines.groups.group_cap, count) &&
+           DP_TILE_RESERVE(&w->tile, w, lines.groups.box, lines.groups.box_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, lines.groups.limit, lines.groups.limit_cap, room);
 }
 
 /* Counts them by cell, or puts them there. */
-static void visit_groups(dp_tile_worker *w, bool counting) {
-    for (uint32_t k = 0; k < w->candidate_count; k++) {
-        const dp_candidate *const c = &w->candidates[k];
+static void visit_groups(dp_finder *w, bool counting) {
+    for (uint32_t k = 0; k < w->lines.candidate_count; k++) {
+        const dp_candidate *const c = &w->lines.candidates[k];
         for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
             const uint32_t last = group_last(c, i);
-            const bounds b = bounds_of(&w->probes, i, last);
+            const bounds b = bounds_of(&w->lines.probes, i, last);
             if (b.limit == INFINITY) continue; /* all are hidden */
             if (counting)
-                w->groups.first[cell_of(&b)]++;
+                w->lines.groups.first[cell_of(&b)]++;
             else
-                put_group(&w->groups, (dp_probe_group){i, last + 1 - i, k}, &b);
+                put_group(&w->lines.groups, (dp_probe_group){i, last + 1 - i, k}, &b);
         }
     }
 }
 
 /* Sorts them by cell (counting sort), and finds each cell's least limit. */
-static bool make_groups(dp_tile_worker *w) {
-    dp_probe_groups *const out = &w->groups;
+static bool make_groups(dp_finder *w) {
+    dp_probe_groups *const out = &w->lines.groups;
     uint32_t sum = 0;
     for (uint32_t i = 0; i < DP_CELL_ROOM; i++) out->least[0][0][i] = INFINITY;
     memset(out->first, 0, sizeof out->first);
@@ -199,9 +181,9 @@ static bool make_groups(dp_tile_worker *w) {
     return true;
 }
 
-static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
-    if (!DP_WORKER_RESERVE(w, pieces, pieces_cap, w->piece_count + 1)) return;
-    w->pieces[w->piece_count++] =
+static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
+    if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1)) return;
+    w->found->pieces[w->found->piece_count++] =
         (dp_piece){.a = c->a,
                    .b = c->b,
                    .edge = c->edge,
@@ -214,25 +196,42 @@ static void add_piece(dp_tile_worker *w, const dp_candidate *c, uint32_t k0, uin
 }
 
 /* Runs of visible sample points. */
-static void collect(dp_tile_worker *w, const dp_candidate *c) {
+static void collect(dp_finder *w, const dp_candidate *c) {
     uint32_t start = c->k0;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
-        const bool visible = k < c->k1 && w->probes.limit[c->probe + (k - c->k0)] < INFINITY;
+        const bool visible = k < c->k1 && w->lines.probes.limit[c->probe + (k - c->k0)] < INFINITY;
         if (visible) continue;
         if (k > start) add_piece(w, c, start, k);
         start = k + 1;
     }
 }
 
-void dp_tile_hide(dp_tile_worker *w) {
-    if (w->probe_count && make_groups(w)) dp_find_kernels_for(w->frame->lanes)->hide(w);
+void dp_hide_points(dp_finder *w) {
+    if (w->lines.probe_count && make_groups(w)) dp_find_kernels_for(w->tile.frame->lanes)->hide(w);
 }
 
-void dp_tile_collect(dp_tile_worker *w) {
-    for (uint32_t i = 0; i < w->candidate_count && !w->failed; i++) collect(w, &w->candidates[i]);
+void dp_collect_pieces(dp_finder *w) {
+    for (uint32_t i = 0; i < w->lines.candidate_count && !w->tile.failed; i++) collect(w, &w->lines.candidates[i]);
 }
 
-void dp_tile_probe(dp_tile_worker *w) {
-    dp_tile_hide(w);
-    dp_tile_collect(w);
+void dp_find_visible(dp_finder *w) {
+    dp_hide_points(w);
+    dp_collect_pieces(w);
 }
+
+/* ------- memory ------- */
+
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_line_store, candidates, candidates_cap),
+    DP_ARRAY(dp_line_store, probes.x, probe_x_cap),
+    DP_ARRAY(dp_line_store, probes.y, probe_y_cap),
+    DP_ARRAY(dp_line_store, probes.limit, probe_limit_cap),
+    DP_ARRAY(dp_line_store, groups.group, groups.group_cap),
+    DP_ARRAY(dp_line_store, groups.box, groups.box_cap),
+    DP_ARRAY(dp_line_store, groups.limit, groups.limit_cap)};
+
+void dp_line_store_free(dp_line_store *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_line_store_bytes(const dp_line_store *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }

@@ -1,0 +1,41 @@
+/* Edges that the table leaves, and who looks at which pixel for what lies across (emerge.c). */
+#ifndef DP_FIND_EMERGENCE_H
+#define DP_FIND_EMERGENCE_H
+
+#include "core/frame.h"
+
+/* Points in lists by the tile's pixels. */
+typedef struct dp_pixel_lists {
+    uint64_t row[DP_TILE];            /* pixels that hold any */
+    uint32_t head[DP_TILE * DP_TILE]; /* first of a pixel; valid where `row` has its bit */
+} dp_pixel_lists;
+
+/* A polygon's edge that the table leaves to emerge. */
+typedef struct dp_loose_edge {
+    uint32_t polygon, edge; /* tile polygon, corner */
+} dp_loose_edge;
+
+typedef struct dp_emergence {
+    dp_pixel_lists pixels;
+    dp_loose_edge *loose;
+    struct dp_lookup *lookups; /* emerge.c */
+    size_t loose_cap, lookups_cap;
+    uint32_t loose_count;
+} dp_emergence;
+
+void dp_emergence_free(dp_emergence *emergence, const dp_allocator *memory);
+uint64_t dp_emergence_bytes(const dp_emergence *emergence);
+
+/* Puts item `index` into the list of the pixel that holds (x, y), or the tile's nearest one;
+ * returns what was first there, or UINT32_MAX. */
+static inline uint32_t dp_pixel_push(dp_pixel_lists *lists, float x, float y, uint32_t index) {
+    const uint32_t px = x <= 0 ? 0 : x >= DP_TILE ? DP_TILE - 1 : (uint32_t)x;
+    const uint32_t py = y <= 0 ? 0 : y >= DP_TILE ? DP_TILE - 1 : (uint32_t)y;
+    uint32_t *const head = &lists->head[py * DP_TILE + px];
+    const uint32_t next = lists->row[py] >> px & 1 ? *head : UINT32_MAX;
+    lists->row[py] |= (uint64_t)1 << px;
+    *head = index;
+    return next;
+}
+
+#endif
