@@ -33,11 +33,11 @@ struct dp_context {
         float *distance;         /* the same, INFINITY: paper */
         size_t rgba_cap, distance_cap;
     } mirror;
-    dp_bin_worker *bin_workers;   /* [workers] */
-    dp_finder *finders;           /* [workers] */
-    dp_printer *printers;         /* [workers] */
-    dp_found *found;              /* [workers] */
-    dp_ink_worker *ink_workers;   /* [workers] */
+    dp_bin_worker *bin_workers; /* [workers] */
+    dp_finder *finders;         /* [workers] */
+    dp_printer *printers;       /* [workers] */
+    dp_found *found;            /* [workers] */
+    dp_ink_worker *ink_workers; /* [workers] */
     dp_frame frame;
     dp_adjacency adjacency; /* of the last source that asked for it */
 

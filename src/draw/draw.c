@@ -162,7 +162,8 @@ static bool begin_frame(dp_context *c) {
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y;
     return dp_reserve(&c->memory, &f->depth, &f->depth_cap, tiles * f->tile_samples,
                       sizeof *f->depth) &&
-           dp_reserve(&c->memory, &f->tile_pieces, &f->tile_pieces_cap, tiles, sizeof *f->tile_pieces) &&
+           dp_reserve(&c->memory, &f->tile_pieces, &f->tile_pieces_cap, tiles,
+                      sizeof *f->tile_pieces) &&
            begin_workers(c);
 }
 
@@ -346,8 +347,8 @@ static dp_result report(void *arg, double done, dp_diag *diag) {
 
 static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
                               double *since, dp_diag *diag) {
-    const dp_stream_setup setup = {&c->frame, c->finders, c->bin_workers, c->workers, c->limit,
-                                   &c->stats, report,     c};
+    const dp_stream_setup setup = {&c->frame, c->finders, c->bin_workers, c->workers,
+                                   c->limit,  &c->stats,  report,         c};
     dp_result result = dp_stream_read_model(&setup, source, stream, diag);
     if (result) return result;
     lap(&c->stats, DP_STAGE_GATHER, since);

@@ -63,8 +63,7 @@ bool dp_edge_runs_between(const dp_finder *w, dp_edge_place edge, uint32_t va, u
 /* ------- listing ------- */
 
 /* Keys come from the tile's points where these are the corners, else from the vertices. */
-static uint32_t key_of(const dp_finder *w, const dp_tile_polygon *p, uint32_t i,
-                       uint32_t first) {
+static uint32_t key_of(const dp_finder *w, const dp_tile_polygon *p, uint32_t i, uint32_t first) {
     if (!(p->flags & DP_POLYGON_CLIPPED)) return w->tile.points[p->point + i].key;
     return w->tile.frame->vertices[dp_corner_vertex(&w->tile.frame->polygons, first + i)].key;
 }
@@ -93,11 +92,13 @@ void dp_edge_list_polygon(dp_finder *w, uint32_t index) {
 }
 
 static bool reserve_list(dp_finder *w, size_t edges) {
-    return edges < DP_SLOT_MORE && DP_TILE_RESERVE(&w->tile, w, table.edges.polygon, table.edges.polygon_cap, edges) &&
+    return edges < DP_SLOT_MORE &&
+           DP_TILE_RESERVE(&w->tile, w, table.edges.polygon, table.edges.polygon_cap, edges) &&
            DP_TILE_RESERVE(&w->tile, w, table.edges.edge, table.edges.edge_cap, edges) &&
            DP_TILE_RESERVE(&w->tile, w, table.edges.from, table.edges.from_cap, edges) &&
            DP_TILE_RESERVE(&w->tile, w, table.edges.name, table.edges.name_cap, edges) &&
-           DP_TILE_RESERVE(&w->tile, &w->tile, unsure, unsure_cap, (size_t)w->tile.seen_count + DP_EDGES_ROOM);
+           DP_TILE_RESERVE(&w->tile, &w->tile, unsure, unsure_cap,
+                           (size_t)w->tile.seen_count + DP_EDGES_ROOM);
 }
 
 /* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices,
@@ -158,12 +159,14 @@ static bool is_same_edge(const dp_edge_list *list, uint32_t a, uint32_t b) {
 
 /* A third or later polygon at an edge. */
 static void add_meeting(dp_finder *w, uint32_t slot, uint32_t number) {
-    if (!DP_TILE_RESERVE(&w->tile, w, table.meetings, table.meetings_cap, w->table.meeting_count + 1u) ||
-        !DP_TILE_RESERVE(&w->tile, w, table.slot_meetings, table.slot_meetings_cap, w->table.slot_count))
+    if (!DP_TILE_RESERVE(&w->tile, w, table.meetings, table.meetings_cap,
+                         w->table.meeting_count + 1u) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.slot_meetings, table.slot_meetings_cap,
+                         w->table.slot_count))
         return;
     const uint32_t met = met_at(w->table.slots[slot]);
-    w->table.meetings[w->table.meeting_count] =
-        (dp_meeting){first_of(w, met), number, met & DP_SLOT_MORE ? w->table.slot_meetings[slot] : 0};
+    w->table.meetings[w->table.meeting_count] = (dp_meeting){
+        first_of(w, met), number, met & DP_SLOT_MORE ? w->table.slot_meetings[slot] : 0};
     w->table.slot_meetings[slot] = ++w->table.meeting_count;
     w->table.slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
 }
@@ -198,7 +201,8 @@ static inline __attribute__((always_inline)) uint32_t
 find_slot(const dp_finder *w, const dp_edge_slot *slots, uint32_t count, uint32_t s,
           uint32_t number, uint32_t name, const bool exact) {
     while (is_other(slots[s], name) ||
-           (exact && slots[s] && !is_same_edge(&w->table.edges, first_of(w, met_at(slots[s])), number)))
+           (exact && slots[s] &&
+            !is_same_edge(&w->table.edges, first_of(w, met_at(slots[s])), number)))
         s = s == count ? 0 : s + 1;
     return s;
 }
@@ -244,8 +248,10 @@ static bool clear_table(dp_finder *w) {
                  marks = (count + 8) / 8 * 8;
     if (slots >= UINT32_MAX || !DP_TILE_RESERVE(&w->tile, w, table.slots, table.slots_cap, slots) ||
         !DP_TILE_RESERVE(&w->tile, w, table.marks, table.marks_cap, marks) ||
-        !DP_TILE_RESERVE(&w->tile, w, table.pair_first, table.pair_first_cap, count / 2 + DP_EDGES_ROOM) ||
-        !DP_TILE_RESERVE(&w->tile, w, table.pair_second, table.pair_second_cap, count / 2 + DP_EDGES_ROOM))
+        !DP_TILE_RESERVE(&w->tile, w, table.pair_first, table.pair_first_cap,
+                         count / 2 + DP_EDGES_ROOM) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.pair_second, table.pair_second_cap,
+                         count / 2 + DP_EDGES_ROOM))
         return false;
     w->table.meeting_count = w->table.pairs = 0;
     w->table.slot_count = (uint32_t)slots;
@@ -258,7 +264,8 @@ static bool clear_table(dp_finder *w) {
 /* Meetings are few, and seldom of another edge. */
 static bool are_meetings_sound(const dp_finder *w) {
     for (uint32_t i = 0; i < w->table.meeting_count; i++)
-        if (!is_same_edge(&w->table.edges, w->table.meetings[i].first, w->table.meetings[i].number)) return false;
+        if (!is_same_edge(&w->table.edges, w->table.meetings[i].first, w->table.meetings[i].number))
+            return false;
     return true;
 }
 
@@ -308,8 +315,8 @@ dp_edge_entry dp_edge_table_entry(const dp_finder *w, uint32_t number) {
     const dp_edge_place a = dp_edge_place_of(w, number);
     const uint32_t name = list->name[number], last = w->table.slot_count - 1;
     const uint32_t at =
-        find_slot(w, w->table.slots, last, first_slot(w->table.slots, last, list->from[number], name),
-                  number, name, true);
+        find_slot(w, w->table.slots, last,
+                  first_slot(w->table.slots, last, list->from[number], name), number, name, true);
     const uint32_t met = met_at(w->table.slots[at]);
     dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
     if (!(met & DP_SLOT_PAIR)) return out;
@@ -343,17 +350,16 @@ uint64_t dp_umbrellas_bytes(const dp_umbrellas *umbrellas) {
     return dp_arrays_bytes(umbrellas, DP_ARRAYS(umbrella_arrays));
 }
 
-static const dp_array store_arrays[] = {
-    DP_ARRAY(dp_edge_store, edges.polygon, edges.polygon_cap),
-    DP_ARRAY(dp_edge_store, edges.edge, edges.edge_cap),
-    DP_ARRAY(dp_edge_store, edges.from, edges.from_cap),
-    DP_ARRAY(dp_edge_store, edges.name, edges.name_cap),
-    DP_ARRAY(dp_edge_store, slots, slots_cap),
-    DP_ARRAY(dp_edge_store, marks, marks_cap),
-    DP_ARRAY(dp_edge_store, pair_first, pair_first_cap),
-    DP_ARRAY(dp_edge_store, pair_second, pair_second_cap),
-    DP_ARRAY(dp_edge_store, meetings, meetings_cap),
-    DP_ARRAY(dp_edge_store, slot_meetings, slot_meetings_cap)};
+static const dp_array store_arrays[] = {DP_ARRAY(dp_edge_store, edges.polygon, edges.polygon_cap),
+                                        DP_ARRAY(dp_edge_store, edges.edge, edges.edge_cap),
+                                        DP_ARRAY(dp_edge_store, edges.from, edges.from_cap),
+                                        DP_ARRAY(dp_edge_store, edges.name, edges.name_cap),
+                                        DP_ARRAY(dp_edge_store, slots, slots_cap),
+                                        DP_ARRAY(dp_edge_store, marks, marks_cap),
+                                        DP_ARRAY(dp_edge_store, pair_first, pair_first_cap),
+                                        DP_ARRAY(dp_edge_store, pair_second, pair_second_cap),
+                                        DP_ARRAY(dp_edge_store, meetings, meetings_cap),
+                                        DP_ARRAY(dp_edge_store, slot_meetings, slot_meetings_cap)};
 
 void dp_edge_store_free(dp_edge_store *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(store_arrays));

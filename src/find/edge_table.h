@@ -35,7 +35,6 @@ dp_edge_entry dp_edge_table_entry(const dp_finder *worker, uint32_t number);
  * vertices, one way or the other? */
 dp_edge_place dp_edge_place_of(const dp_finder *worker, uint32_t number);
 void dp_edge_ends(const dp_finder *worker, dp_edge_place edge, uint32_t *va, uint32_t *vb);
-bool dp_edge_runs_between(const dp_finder *worker, dp_edge_place edge, uint32_t va,
-                          uint32_t vb);
+bool dp_edge_runs_between(const dp_finder *worker, dp_edge_place edge, uint32_t va, uint32_t vb);
 
 #endif

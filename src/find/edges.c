@@ -13,7 +13,9 @@
 #include <string.h>
 
 static void leave(dp_finder *w, uint32_t polygon, uint32_t edge) {
-    if (!DP_TILE_RESERVE(&w->tile, w, emergence.loose, emergence.loose_cap, w->emergence.loose_count + 1u)) return;
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.loose, emergence.loose_cap,
+                         w->emergence.loose_count + 1u))
+        return;
     w->emergence.loose[w->emergence.loose_count++] = (dp_loose_edge){polygon, edge};
 }
 
@@ -36,8 +38,8 @@ static bool draws(const dp_finder *w, const dp_edge_entry *e, dp_line line) {
 }
 
 /* A line of class `line` along an edge of polygon a. */
-static void add_spine(dp_finder *w, const dp_edge_entry *e, dp_line line,
-                      const dp_spine *spine, const dp_vec3 normals[2]) {
+static void add_spine(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
+                      const dp_vec3 normals[2]) {
     dp_add_candidate(
         w,
         (dp_candidate){.a = w->tile.polygons[e->a].id,
@@ -77,8 +79,8 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
     const uint32_t front_b = w->tile.polygons[met->b].flags & DP_POLYGON_FRONT;
     if (!front_a && !front_b) return;
     const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
-    const dp_fold fold =
-        dp_fold_seen(w->tile.frame, w->tile.polygons[e->a].id, true, w->tile.polygons[e->b].id, true, e->edge_b);
+    const dp_fold fold = dp_fold_seen(w->tile.frame, w->tile.polygons[e->a].id, true,
+                                      w->tile.polygons[e->b].id, true, e->edge_b);
     if (front_a && front_b)
         add_fold(w, e, &fold);
     else
@@ -89,8 +91,8 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
 static bool is_shared(const dp_finder *w, const dp_edge_entry *e) {
     bool shared = dp_edge_runs_between(w, (dp_edge_place){e->b, e->edge_b}, e->va, e->vb);
     for (uint32_t i = e->more; i && shared; i = w->table.meetings[i - 1].next)
-        shared =
-            dp_edge_runs_between(w, dp_edge_place_of(w, w->table.meetings[i - 1].number), e->va, e->vb);
+        shared = dp_edge_runs_between(w, dp_edge_place_of(w, w->table.meetings[i - 1].number),
+                                      e->va, e->vb);
     return shared;
 }
 
@@ -102,7 +104,8 @@ static bool put_pair(const dp_finder *w, dp_edge_entry *e, dp_fold_batch *f, uin
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e))
         return false;
-    if (!((w->tile.polygons[e->a].flags | w->tile.polygons[e->b].flags) & DP_POLYGON_FRONT)) return false;
+    if (!((w->tile.polygons[e->a].flags | w->tile.polygons[e->b].flags) & DP_POLYGON_FRONT))
+        return false;
     *e = owned_by_first(w, e);
     dp_fold_put(polygons, w->tile.polygons[e->a].id, w->tile.polygons[e->b].id, e->va, e->vb, f, i);
     return true;
@@ -113,14 +116,13 @@ static int pair_line(const dp_finder *w, const dp_edge_entry *e, const dp_fold_b
                      uint32_t i) {
     if (!(w->tile.polygons[e->a].flags & w->tile.polygons[e->b].flags & DP_POLYGON_FRONT))
         return DP_LINE_SILHOUETTE;
-    const dp_fold fold =
-        dp_fold_between(w->tile.frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i),
-                        dp_fold_vector(f->normal, i), w->tile.polygons[e->b].id, e->edge_b);
+    const dp_fold fold = dp_fold_between(
+        w->tile.frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i),
+        dp_fold_vector(f->normal, i), w->tile.polygons[e->b].id, e->edge_b);
     return dp_fold_line(&fold, dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id));
 }
 
-static void resolve_put(dp_finder *w, const dp_edge_entry *e, const dp_fold_batch *f,
-                        uint32_t i) {
+static void resolve_put(dp_finder *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
     if (f->plain[i] == 0) {
         resolve_pair(w, e);
         return;
@@ -209,8 +211,9 @@ static void resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     }
     if (!best[0].front && !best[1].front) return;
     const dp_edge_entry owned = owned_by_flaps(w, &best[0], &best[1]);
-    const dp_fold fold = dp_fold_seen(w->tile.frame, w->tile.polygons[best[0].polygon].id, best[0].front,
-                                      w->tile.polygons[best[1].polygon].id, best[1].front, best[1].edge);
+    const dp_fold fold =
+        dp_fold_seen(w->tile.frame, w->tile.polygons[best[0].polygon].id, best[0].front,
+                     w->tile.polygons[best[1].polygon].id, best[1].front, best[1].edge);
     add_fold(w, &owned, &fold);
 }
 

@@ -133,8 +133,8 @@ static void look(dp_finder *w) {
         const uint64_t span = dp_box_span(p);
         for (uint32_t y = p->y0; y <= p->y1; y++)
             for (uint64_t bits = w->emergence.pixels.row[y] & span; bits; bits &= bits - 1)
-                look_in_pixel(w, i,
-                              w->emergence.pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
+                look_in_pixel(
+                    w, i, w->emergence.pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
     }
 }
 
@@ -179,8 +179,8 @@ static finding judge(const dp_finder *w, const emerging *e, uint32_t k) {
     if (covered)
         return (finding){-1, behind, {0, 0, 0}}; /* another polygon at this edge is in front */
     if (across == UINT32_MAX) {
-        const bool both_back =
-            behind != UINT32_MAX && !((p->flags | w->tile.polygons[behind].flags) & DP_POLYGON_FRONT);
+        const bool both_back = behind != UINT32_MAX &&
+                               !((p->flags | w->tile.polygons[behind].flags) & DP_POLYGON_FRONT);
         return both_back ? (finding){-1, behind, {0, 0, 0}} : outline_finding(w, e, behind);
     }
     return fold_finding(w, e, across);
@@ -236,7 +236,8 @@ void dp_find_emergent(dp_finder *w) {
     if (!w->emergence.loose_count) return;
     memset(w->emergence.pixels.row, 0, sizeof w->emergence.pixels.row);
     for (uint32_t i = 0; i < w->emergence.loose_count; i++)
-        if (begin_edge(w, w->emergence.loose[i], &e) && find_range(w, &e) && !place_lookups(w, &e, &count))
+        if (begin_edge(w, w->emergence.loose[i], &e) && find_range(w, &e) &&
+            !place_lookups(w, &e, &count))
             return;
     if (!count) return;
     look(w);
@@ -252,12 +253,13 @@ void dp_find_emergent(dp_finder *w) {
 
 /* ------- memory ------- */
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_emergence, loose, loose_cap),
-    DP_ARRAY(dp_emergence, lookups, lookups_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_emergence, loose, loose_cap),
+                                  DP_ARRAY(dp_emergence, lookups, lookups_cap)};
 
 void dp_emergence_free(dp_emergence *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
 }
 
-uint64_t dp_emergence_bytes(const dp_emergence *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }
+uint64_t dp_emergence_bytes(const dp_emergence *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
+}

@@ -1,5 +1,5 @@
-/* What a worker finds in its tile: edges, lines, sample points, visible pieces. Each stage's scratch
- * is declared beside its functions; here they are put together. */
+/* What a worker finds in its tile: edges, lines, sample points, visible pieces. Each stage's
+ * scratch is declared beside its functions; here they are put together. */
 #ifndef DP_FIND_FINDER_H
 #define DP_FIND_FINDER_H
 
@@ -33,8 +33,8 @@ void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: instead, by adjac
 void dp_find_emergent(dp_finder *finder);       /* emerge.c */
 void dp_find_intersections(dp_finder *finder);  /* intersect.c */
 void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two */
-void dp_hide_points(dp_finder *finder);    /* the tile's seen polygons hide sample points */
-void dp_collect_pieces(dp_finder *finder); /* runs of visible sample points become pieces */
+void dp_hide_points(dp_finder *finder);         /* the tile's seen polygons hide sample points */
+void dp_collect_pieces(dp_finder *finder);      /* runs of visible sample points become pieces */
 
 /* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe, bones and
  * the final k0, k1 are filled here (visibility.c). `normals`: of its polygons, a's and b's (a's, if

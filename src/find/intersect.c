@@ -56,8 +56,7 @@ static bool is_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_til
 }
 
 /* Not in sight of each other's planes. */
-static bool are_beside(const dp_finder *w, const dp_tile_polygon *p,
-                       const dp_tile_polygon *q) {
+static bool are_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
     uint32_t of_p, of_q;
     find_shared(w, p, q, &of_p, &of_q);
     if ((p->flags | q->flags) & DP_POLYGON_EDGE_ON) return false;
@@ -73,12 +72,12 @@ static void test_pair(dp_finder *w, uint32_t a, uint32_t b) {
     if (!dp_crossing_find(w->tile.frame, p->id, q->id, &from, &to, &normal)) return;
     if (!dp_spine_make(&w->tile.frame->view, from, to, normal, &spine)) return;
     dp_add_candidate(w,
-                          (dp_candidate){.a = p->id,
-                                         .b = q->id,
-                                         .edge = DP_CROSSING,
-                                         .k1 = UINT32_MAX,
-                                         .line = DP_LINE_INTERSECTION},
-                          &spine, NULL);
+                     (dp_candidate){.a = p->id,
+                                    .b = q->id,
+                                    .edge = DP_CROSSING,
+                                    .k1 = UINT32_MAX,
+                                    .line = DP_LINE_INTERSECTION},
+                     &spine, NULL);
 }
 
 /* ------- the crowd ------- */
@@ -158,7 +157,8 @@ static bool list_crowd(dp_finder *w, const surroundings *near, uint32_t *polygon
     const uint32_t *const flags = dp_seen_words(&w->tile, DP_SEEN_FLAGS);
     dp_cell_bits cells;
     find_cells(near, cells);
-    const uint32_t count = dp_find_kernels_for(w->tile.frame->lanes)->come_near(w, &cells[0][0][0], polygon);
+    const uint32_t count =
+        dp_find_kernels_for(w->tile.frame->lanes)->come_near(w, &cells[0][0][0], polygon);
     crowd->count = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
@@ -170,7 +170,8 @@ static bool list_crowd(dp_finder *w, const surroundings *near, uint32_t *polygon
     const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
     return DP_TILE_RESERVE(&w->tile, w, crowd.polygon, crowd.polygon_cap, room) &&
            DP_TILE_RESERVE(&w->tile, w, crowd.met, crowd.met_cap, room) &&
-           DP_TILE_RESERVE(&w->tile, w, crowd.members, crowd.members_cap, DP_CROWD_MEMBERS * room) &&
+           DP_TILE_RESERVE(&w->tile, w, crowd.members, crowd.members_cap,
+                           DP_CROWD_MEMBERS * room) &&
            DP_TILE_RESERVE(&w->tile, w, crowd.keys, crowd.keys_cap, 3 * room);
 }
 
@@ -229,13 +230,14 @@ void dp_find_intersections(dp_finder *w) {
     if (!look_around(w->tile.suspects[0], &near.front)) return;
     uint32_t rows[DP_TILE + 1] = {0};
     if (!DP_TILE_RESERVE(&w->tile, w, crowd.listed, crowd.listed_cap,
-                           (size_t)w->tile.seen_count + DP_CROWD_ROOM) ||
+                         (size_t)w->tile.seen_count + DP_CROWD_ROOM) ||
         !list_crowd(w, &near, w->crowd.listed, rows))
         return;
     sort_crowd(w, w->crowd.listed, rows);
     for (uint32_t i = 0; i < w->crowd.count && !w->tile.failed; i++) {
         const uint32_t a = w->crowd.polygon[i];
-        const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)->meet(&w->crowd, i, rows[w->tile.polygons[a].y1 + 1]);
+        const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)
+                                 ->meet(&w->crowd, i, rows[w->tile.polygons[a].y1 + 1]);
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
             if (meet_near(&near, &w->tile.polygons[a], &w->tile.polygons[b]))
@@ -247,10 +249,8 @@ void dp_find_intersections(dp_finder *w) {
 /* ------- memory ------- */
 
 static const dp_array arrays[] = {
-    DP_ARRAY(dp_crowd, polygon, polygon_cap),
-    DP_ARRAY(dp_crowd, members, members_cap),
-    DP_ARRAY(dp_crowd, keys, keys_cap),
-    DP_ARRAY(dp_crowd, met, met_cap),
+    DP_ARRAY(dp_crowd, polygon, polygon_cap), DP_ARRAY(dp_crowd, members, members_cap),
+    DP_ARRAY(dp_crowd, keys, keys_cap), DP_ARRAY(dp_crowd, met, met_cap),
     DP_ARRAY(dp_crowd, listed, listed_cap)};
 
 void dp_crowd_free(dp_crowd *store, const dp_allocator *memory) {

@@ -31,8 +31,7 @@ typedef struct dp_find_kernels {
     void (*show_backs)(const struct dp_finder *worker, const uint64_t *asked, uint64_t *out);
     /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a
      * vector more; returns how many (meet.inc). */
-    uint32_t (*come_near)(const struct dp_finder *worker, const uint32_t *cells,
-                          uint32_t *list);
+    uint32_t (*come_near)(const struct dp_finder *worker, const uint32_t *cells, uint32_t *list);
     /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for
      * neighbours and triangles on one side of each other; returns how many (meet.inc). */
     uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);

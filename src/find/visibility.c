@@ -19,7 +19,8 @@
 /* The tile that owns a point, by the pixel it lies in: the same answer in every tile. */
 static bool owned(const dp_finder *w, dp_pointd p) {
     return p.x >= w->tile.tile_x && p.y >= w->tile.tile_y && p.x < w->tile.tile_x + DP_TILE &&
-           p.y < w->tile.tile_y + DP_TILE && p.x < w->tile.frame->view.width && p.y < w->tile.frame->view.height;
+           p.y < w->tile.tile_y + DP_TILE && p.x < w->tile.frame->view.width &&
+           p.y < w->tile.frame->view.height;
 }
 
 /* Cuts [*t0, *t1] to where from + t * (to - from) lies in [lo, hi]. */
@@ -71,24 +72,28 @@ static bool reserve_probes(dp_finder *w, size_t need) {
 /* Keeps what segments will be made of; where there are too many, that is found again. */
 static uint32_t keep_bones(dp_finder *w, const dp_spine *spine, const dp_vec3 normals[2]) {
     const uint32_t most = DP_TUNED((1u << 24) - 1, 100);
-    if (w->found->bone_count == most || !DP_TILE_RESERVE(&w->tile, w, found->bones, found->bones_cap, w->found->bone_count + 1u))
+    if (w->found->bone_count == most ||
+        !DP_TILE_RESERVE(&w->tile, w, found->bones, found->bones_cap, w->found->bone_count + 1u))
         return 0;
-    w->found->bones[w->found->bone_count++] = (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
+    w->found->bones[w->found->bone_count++] =
+        (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
     return w->found->bone_count;
 }
 
 void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
-                           const dp_vec3 normals[2]) {
+                      const dp_vec3 normals[2]) {
     if (c.k1 > spine->n) c.k1 = spine->n;
     if (!find_range(w, spine, &c.k0, &c.k1)) return;
-    if (!DP_TILE_RESERVE(&w->tile, w, lines.candidates, lines.candidates_cap, w->lines.candidate_count + 1u) ||
+    if (!DP_TILE_RESERVE(&w->tile, w, lines.candidates, lines.candidates_cap,
+                         w->lines.candidate_count + 1u) ||
         !reserve_probes(w, (size_t)w->lines.probe_count + (c.k1 - c.k0) + DP_PROBES_ROOM))
         return;
     c.n = spine->n;
     c.probe = w->lines.probe_count;
     c.bones = (normals ? keep_bones(w, spine, normals) : 0) & 0xffffff;
     w->lines.candidates[w->lines.candidate_count++] = c;
-    dp_find_kernels_for(w->tile.frame->lanes)->points(w, spine, c.k0, c.k1, &w->lines.probes, c.probe);
+    dp_find_kernels_for(w->tile.frame->lanes)
+        ->points(w, spine, c.k0, c.k1, &w->lines.probes, c.probe);
     w->lines.probe_count += c.k1 - c.k0;
 }
 
@@ -182,7 +187,8 @@ static bool make_groups(dp_finder *w) {
 }
 
 static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
-    if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1)) return;
+    if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1))
+        return;
     w->found->pieces[w->found->piece_count++] =
         (dp_piece){.a = c->a,
                    .b = c->b,
@@ -211,7 +217,8 @@ void dp_hide_points(dp_finder *w) {
 }
 
 void dp_collect_pieces(dp_finder *w) {
-    for (uint32_t i = 0; i < w->lines.candidate_count && !w->tile.failed; i++) collect(w, &w->lines.candidates[i]);
+    for (uint32_t i = 0; i < w->lines.candidate_count && !w->tile.failed; i++)
+        collect(w, &w->lines.candidates[i]);
 }
 
 void dp_find_visible(dp_finder *w) {
@@ -221,17 +228,18 @@ void dp_find_visible(dp_finder *w) {
 
 /* ------- memory ------- */
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_line_store, candidates, candidates_cap),
-    DP_ARRAY(dp_line_store, probes.x, probe_x_cap),
-    DP_ARRAY(dp_line_store, probes.y, probe_y_cap),
-    DP_ARRAY(dp_line_store, probes.limit, probe_limit_cap),
-    DP_ARRAY(dp_line_store, groups.group, groups.group_cap),
-    DP_ARRAY(dp_line_store, groups.box, groups.box_cap),
-    DP_ARRAY(dp_line_store, groups.limit, groups.limit_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_line_store, candidates, candidates_cap),
+                                  DP_ARRAY(dp_line_store, probes.x, probe_x_cap),
+                                  DP_ARRAY(dp_line_store, probes.y, probe_y_cap),
+                                  DP_ARRAY(dp_line_store, probes.limit, probe_limit_cap),
+                                  DP_ARRAY(dp_line_store, groups.group, groups.group_cap),
+                                  DP_ARRAY(dp_line_store, groups.box, groups.box_cap),
+                                  DP_ARRAY(dp_line_store, groups.limit, groups.limit_cap)};
 
 void dp_line_store_free(dp_line_store *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
 }
 
-uint64_t dp_line_store_bytes(const dp_line_store *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }
+uint64_t dp_line_store_bytes(const dp_line_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
+}

@@ -133,8 +133,8 @@ static void screen_weights(const dp_tile *w, const dp_tile_polygon *p, float x, 
 }
 
 /* The same in space, for a polygon whose points are not its corners any more. */
-static void space_weights(const dp_tile *w, const dp_tile_polygon *p, float x, float y,
-                          float d, weights *out) {
+static void space_weights(const dp_tile *w, const dp_tile_polygon *p, float x, float y, float d,
+                          weights *out) {
     const dp_polygons *const polygons = &w->frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
     const dp_vec3 q =

@@ -13,8 +13,8 @@
 
 #include "gbuffer/fill.inc"
 
-const dp_detectors DP_KERNEL_TABLE(dp_detectors) = {DP_LANES,        diagonal_normals, diagonal_depth_printed,
-                                   diagonal_scaled, c1_printed,       c1_scaled,
-                                   c1_slope,        strengths};
+const dp_detectors DP_KERNEL_TABLE(dp_detectors) = {
+    DP_LANES, diagonal_normals, diagonal_depth_printed, diagonal_scaled, c1_printed, c1_scaled,
+    c1_slope, strengths};
 
 const dp_fillers DP_KERNEL_TABLE(dp_fillers) = {DP_LANES, pick, find, touch, collect, finish};

@@ -1,10 +1,10 @@
 /* Kernels: loops over many vertices, polygons, samples or pixels, for several kinds of processors.
  *
- * Each folder keeps its kernels beside the structs that they work on: written once, in .inc files, on
- * vectors of DP_LANES floats (lanes.h), gathered in the folder's kernels.c, which the build compiles
- * once for each width (CMakeLists.txt), and declared as a table of functions in its kernels.h. Plain
- * C, one lane, is the truth: the others do the same operations in the same order and give the same
- * bits (tests/unit/test_kernels*.c). */
+ * Each folder keeps its kernels beside the structs that they work on: written once, in .inc files,
+ * on vectors of DP_LANES floats (lanes.h), gathered in the folder's kernels.c, which the build
+ * compiles once for each width (CMakeLists.txt), and declared as a table of functions in its
+ * kernels.h. Plain C, one lane, is the truth: the others do the same operations in the same order
+ * and give the same bits (tests/unit/test_kernels*.c). */
 #ifndef DP_KERNEL_KERNELS_H
 #define DP_KERNEL_KERNELS_H
 
@@ -25,8 +25,8 @@ uint32_t dp_widths_list(dp_width list[DP_WIDTHS_MOST]);
  * another. */
 uint32_t dp_lanes_best(void);
 
-/* Declares a folder's tables of type `type`, one a width, and type_for(lanes), which gives that of a
- * width. */
+/* Declares a folder's tables of type `type`, one a width, and type_for(lanes), which gives that of
+ * a width. */
 #ifdef __x86_64__
 #define DP_KERNEL_TABLES(type)                                                                     \
     extern const type type##_plain, type##_base, type##_avx2, type##_avx512;                       \

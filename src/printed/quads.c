@@ -84,8 +84,7 @@ static void aim(dp_brush *b, const dp_style *style, dp_line line) {
     b->nearer = step_of(view, -offset);
 }
 
-static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t group,
-                     dp_line line) {
+static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t group, dp_line line) {
     t->pen = pen_of(style, line);
     t->reach =
         (float)t->pen.reach * (t->pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1) + 1;
@@ -159,7 +158,8 @@ static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
     const dp_polygons *const polygons = &w->tile->frame->polygons;
     const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
-    if (!DP_TILE_RESERVE(w->tile, w, world, world_cap, n) || !DP_TILE_RESERVE(w->tile, w, clip, clip_cap, n) ||
+    if (!DP_TILE_RESERVE(w->tile, w, world, world_cap, n) ||
+        !DP_TILE_RESERVE(w->tile, w, clip, clip_cap, n) ||
         !DP_TILE_RESERVE(w->tile, w, screen_edges, screen_edges_cap, n))
         return false;
     for (uint32_t i = 0; i < n; i++) {
@@ -191,11 +191,12 @@ static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double b
         nearest = dp_max(nearest, a->points[i].d);
     }
     for (int i = 0; i < 2; i++)
-        b->root[i] =
-            (dp_point){(float)(a->root[i].x - w->tile->tile_x), (float)(a->root[i].y - w->tile->tile_y), 0};
+        b->root[i] = (dp_point){(float)(a->root[i].x - w->tile->tile_x),
+                                (float)(a->root[i].y - w->tile->tile_y), 0};
     const double shift = -bias * (o->off[0] * fabs(nearest) + o->off[1]);
-    b->plane = (dp_plane){(float)(a->d0 + a->dx * w->tile->tile_x + a->dy * w->tile->tile_y + shift),
-                          (float)a->dx, (float)a->dy, (float)(a->nearest + shift)};
+    b->plane =
+        (dp_plane){(float)(a->d0 + a->dx * w->tile->tile_x + a->dy * w->tile->tile_y + shift),
+                   (float)a->dx, (float)a->dy, (float)(a->nearest + shift)};
     with(b, points, a->count);
 }
 
@@ -378,16 +379,17 @@ void dp_tile_quads(dp_printer *w) {
 
 /* ------- memory ------- */
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_printer, ink, ink_cap),
-    DP_ARRAY(dp_printer, ink_depth, ink_depth_cap),
-    DP_ARRAY(dp_printer, stencil, stencil_cap),
-    DP_ARRAY(dp_printer, world, world_cap),
-    DP_ARRAY(dp_printer, clip, clip_cap),
-    DP_ARRAY(dp_printer, screen_edges, screen_edges_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_printer, ink, ink_cap),
+                                  DP_ARRAY(dp_printer, ink_depth, ink_depth_cap),
+                                  DP_ARRAY(dp_printer, stencil, stencil_cap),
+                                  DP_ARRAY(dp_printer, world, world_cap),
+                                  DP_ARRAY(dp_printer, clip, clip_cap),
+                                  DP_ARRAY(dp_printer, screen_edges, screen_edges_cap)};
 
 void dp_printer_free(dp_printer *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
 }
 
-uint64_t dp_printer_bytes(const dp_printer *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }
+uint64_t dp_printer_bytes(const dp_printer *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
+}

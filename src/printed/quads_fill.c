@@ -42,7 +42,8 @@ static bool passes_root(const dp_brush *b, size_t lane, float d, float reach) {
     const float ex = to.x - p.x, ey = to.y - p.y, length2 = ex * ex + ey * ey;
     const float along = length2 > 0 ? ((x - p.x) * ex + (y - p.y) * ey) / length2 : 0;
     const float t = dp_minf(dp_maxf(along, 0), 1);
-    const float gap = b->w->tile->depth[lane] - d - gx * (x - p.x - t * ex) - gy * (y - p.y - t * ey);
+    const float gap =
+        b->w->tile->depth[lane] - d - gx * (x - p.x - t * ex) - gy * (y - p.y - t * ey);
     return dp_planes_cross_within(gap, gx, gy, reach);
 }
 
@@ -50,7 +51,9 @@ static bool passes_root(const dp_brush *b, size_t lane, float d, float reach) {
  * come close along every outline of a closed model without crossing there. */
 static bool may_intersect(dp_brush *b, uint32_t other) {
     if (b->other == other) return b->meets;
-    const dp_tile_polygon *const p = &b->w->tile->polygons[b->self], *const q = &b->w->tile->polygons[other];
+    const dp_tile_polygon *const p = &b->w->tile->polygons[b->self], *const q =
+                                                                         &b->w->tile
+                                                                              ->polygons[other];
     b->other = other;
     b->meets = !dp_polygons_touch(&b->w->tile->frame->polygons, p->id, q->id);
     dp_vec3 from, to, normal;
@@ -161,7 +164,8 @@ static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
 }
 
 static void fill_by_kernel(dp_brush *b, const dp_point *p, uint32_t n, dp_ink_test test) {
-    void (*const ink)(dp_brush *, const dp_ink_shape *) = dp_printed_kernels_for(b->w->tile->frame->lanes)->ink;
+    void (*const ink)(dp_brush *, const dp_ink_shape *) =
+        dp_printed_kernels_for(b->w->tile->frame->lanes)->ink;
     dp_ink_shape shape;
     b->test = test;
     if (n <= 4) {
@@ -186,7 +190,7 @@ void dp_fill_between_planes(dp_brush *b, const dp_point *p, uint32_t n) {
 
 #define DEFINE_FILL(name, test)                                                                    \
     void name(dp_brush *b, const dp_point *p, uint32_t n) {                                        \
-        const dp_sampling *const s = &b->w->tile->sampling;                                              \
+        const dp_sampling *const s = &b->w->tile->sampling;                                        \
         dp_coverage area;                                                                          \
         for (uint32_t i = 2; i < n; i++) {                                                         \
             if (!dp_coverage_make(p[0], p[i - 1], p[i], &area)) continue;                          \

@@ -18,7 +18,8 @@ static void spare_back_faces(dp_printer *w) {
         if (w->tile->polygons[winner].flags & DP_POLYGON_FRONT) continue;
         const double width =
             (double)w->tile->frame->styles[dp_ink_group(ink)].line[DP_LINE_SILHOUETTE].width;
-        const double close = dp_depth_step(&w->tile->frame->view, (double)w->tile->depth[i], SPARE * width);
+        const double close =
+            dp_depth_step(&w->tile->frame->view, (double)w->tile->depth[i], SPARE * width);
         if ((double)w->ink_depth[i] - (double)w->tile->depth[i] < close) w->ink[i] = 0;
     }
 }
@@ -26,7 +27,8 @@ static void spare_back_faces(dp_printer *w) {
 static dp_color surface_color(const dp_printer *w, size_t lane) {
     const dp_color paper = w->tile->frame->styles[0].paper;
     if (w->tile->winner[lane] == UINT32_MAX) return paper;
-    const dp_color surface = dp_polygon_style(w->tile->frame, w->tile->polygons[w->tile->winner[lane]].id)->surface;
+    const dp_color surface =
+        dp_polygon_style(w->tile->frame, w->tile->polygons[w->tile->winner[lane]].id)->surface;
     return surface & 0xff ? surface : paper;
 }
 
@@ -74,8 +76,10 @@ static bool has_ink(const dp_printer *w, size_t lane) {
 static void put_ink(const dp_printer *w) {
     const dp_target *const target = &w->tile->frame->target;
     for (uint32_t y = w->tile->tile_y; y < w->tile->tile_y + DP_TILE && y < target->height; y++)
-        for (uint32_t x = w->tile->tile_x; x < w->tile->tile_x + DP_TILE && x < target->width; x++) {
-            const size_t lane = dp_pixel_lane(&w->tile->sampling, x - w->tile->tile_x, y - w->tile->tile_y);
+        for (uint32_t x = w->tile->tile_x; x < w->tile->tile_x + DP_TILE && x < target->width;
+             x++) {
+            const size_t lane =
+                dp_pixel_lane(&w->tile->sampling, x - w->tile->tile_x, y - w->tile->tile_y);
             if (!has_ink(w, lane)) continue;
             if (target->rgba) put_color(w, lane, dp_ink_place(w->tile->frame, x, y));
             if (target->line_class)

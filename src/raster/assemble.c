@@ -120,14 +120,16 @@ static bool collect_ids(dp_tile *w, uint32_t *count, uint32_t *back_count) {
     const dp_bins *const bins = &w->frame->polygon_bins;
     const size_t all = dp_bins_tile_count(bins, w->index);
     const size_t room = all + DP_BIN_ROOM;
-    if (!DP_TILE_RESERVE(w, w, ids, ids_cap, room) || !DP_TILE_RESERVE(w, w, backs, backs_cap, room))
+    if (!DP_TILE_RESERVE(w, w, ids, ids_cap, room) ||
+        !DP_TILE_RESERVE(w, w, backs, backs_cap, room))
         return false;
     *count = *back_count = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
         dp_bins_ask(bins, w->index, c);
         const uint32_t first = chunk->offsets[w->index], n = chunk->offsets[w->index + 1] - first;
-        dp_raster_kernels_for(w->frame->lanes)->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);
+        dp_raster_kernels_for(w->frame->lanes)
+            ->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);
     }
     return true;
 }

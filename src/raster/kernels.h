@@ -30,8 +30,7 @@ typedef struct dp_raster_kernels {
                  uint32_t *backs, uint32_t *back_count);
     /* Appends triangles to the tile's polygons, planes and boxes made, and draws front faces, or
      * else back faces that are not hidden (assemble.inc). */
-    void (*assemble)(struct dp_tile *worker, const uint32_t *ids, uint32_t count,
-                     bool backs);
+    void (*assemble)(struct dp_tile *worker, const uint32_t *ids, uint32_t count, bool backs);
     /* Keeps those triangles that the tile's front faces do not hide; returns how many
      * (cull.inc). */
     uint32_t (*cull)(struct dp_tile *worker, uint32_t *ids, uint32_t count);
@@ -39,8 +38,7 @@ typedef struct dp_raster_kernels {
      * `culling` (cull.inc). */
     void (*see)(struct dp_tile *worker, bool culling);
     /* Draws one convex polygon into the tile's samples (raster.inc). */
-    void (*raster)(struct dp_tile *worker, const struct dp_tile_polygon *polygon,
-                   uint32_t index);
+    void (*raster)(struct dp_tile *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* The unit normals of the tile's unsure triangles (normals.inc). */
     void (*normals)(struct dp_tile *worker);
     /* Keeps of the tile's close samples those at which both polygons' planes cross, one of which is

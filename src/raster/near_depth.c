@@ -1,9 +1,9 @@
 /* Pixels where faces may cross, noted while faces are drawn (Raskar 2001, 2.4).
  *
- * The paper's between-test, used as a first look: where a face is rasterized and falls close to what
- * a sample already holds, that is kept, and later the two planes are compared: if they cross within
- * dp_watch_px of the sample, its pixel is a suspect. As the two frontmost surfaces meet at every
- * visible sample of a crossing, whichever comes first, one pass finds all of them. */
+ * The paper's between-test, used as a first look: where a face is rasterized and falls close to
+ * what a sample already holds, that is kept, and later the two planes are compared: if they cross
+ * within dp_watch_px of the sample, its pixel is a suspect. As the two frontmost surfaces meet at
+ * every visible sample of a crossing, whichever comes first, one pass finds all of them. */
 #include "raster/kernels.h"
 #include "raster/tile.h"
 

@@ -96,7 +96,7 @@ typedef struct dp_tile {
     dp_allocator memory;
     bool failed; /* out of memory: the tile is abandoned */
 
-    bool watching; /* for intersections, while faces are drawn */
+    bool watching;        /* for intersections, while faces are drawn */
     const uint64_t *away; /* a bit per sample that no polygon of this tile has won and that holds
                              something all the same: does that face away? NULL: there are no such
                              samples (src/stream/) */
@@ -129,10 +129,10 @@ typedef struct dp_tile {
     uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count;
 
-    dp_close_samples close;         /* to be looked at */
-    uint64_t suspects[2][DP_TILE];  /* pixels where two front faces may cross; a front and a back
-                                       face */
-    dp_outline_scratch scratch;     /* for one polygon */
+    dp_close_samples close;        /* to be looked at */
+    uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back
+                                      face */
+    dp_outline_scratch scratch;    /* for one polygon */
     dp_stats stats;
 } dp_tile;
 
@@ -153,11 +153,11 @@ uint64_t dp_tile_bytes(const dp_tile *tile);
 void dp_tile_open(dp_tile *tile, uint32_t index);
 
 /* The stages, each in its own file. */
-void dp_tile_assemble(dp_tile *tile);      /* assemble.c; draws faces, but for … */
-void dp_tile_find_farthest(dp_tile *tile); /* cull.c */
-void dp_tile_faces(dp_tile *tile);         /* cull.c; … some back faces */
+void dp_tile_assemble(dp_tile *tile);          /* assemble.c; draws faces, but for … */
+void dp_tile_find_farthest(dp_tile *tile);     /* cull.c */
+void dp_tile_faces(dp_tile *tile);             /* cull.c; … some back faces */
 bool dp_tile_see(dp_tile *tile, bool culling); /* cull.c: lists what is not hidden, or all */
-void dp_tile_surface(dp_tile *tile);       /* surface.c */
+void dp_tile_surface(dp_tile *tile);           /* surface.c */
 void dp_tile_bare_surface(dp_tile *tile);
 
 /* Culling: how far behind the surface is well behind it, pixel sizes. */
@@ -165,16 +165,15 @@ void dp_tile_bare_surface(dp_tile *tile);
 
 /* Does the surface hide all that lies in this box of tile space, `nearest` at the nearest
  * (cull.c)? */
-bool dp_tile_hides(const dp_tile *tile, float x0, float y0, float x1, float y1,
-                   float nearest);
+bool dp_tile_hides(const dp_tile *tile, float x0, float y0, float x1, float y1, float nearest);
 
 /* The same of a polygon's box. */
 bool dp_tile_is_hidden(const dp_tile *tile, const dp_tile_polygon *polygon);
 
 /* Does edge i of a polygon come as near to the tile as `reach` px? A polygon that is not clipped
  * has an edge from point to point of its outline. */
-static inline bool dp_tile_edge_reaches(const dp_tile *w, const dp_tile_polygon *p,
-                                        uint32_t i, float reach) {
+static inline bool dp_tile_edge_reaches(const dp_tile *w, const dp_tile_polygon *p, uint32_t i,
+                                        float reach) {
     if (p->flags & DP_POLYGON_CLIPPED) return true;
     const dp_vertex a = w->points[p->point + i],
                     b = w->points[p->point + (i + 1 == p->points ? 0 : i + 1)];
@@ -183,8 +182,7 @@ static inline bool dp_tile_edge_reaches(const dp_tile *w, const dp_tile_polygon 
 }
 
 /* Does it come near the tile? Others are other tiles'. */
-static inline bool dp_tile_edge_is_near(const dp_tile *w, const dp_tile_polygon *p,
-                                        uint32_t i) {
+static inline bool dp_tile_edge_is_near(const dp_tile *w, const dp_tile_polygon *p, uint32_t i) {
     if (p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED))
         return p->flags & (uint32_t)DP_POLYGON_NEAR << i;
     return dp_tile_edge_reaches(w, p, i, DP_BESIDE);
@@ -200,8 +198,8 @@ bool dp_tile_exact_normals(dp_tile *tile);
 void dp_tile_reassemble(dp_tile *tile, uint32_t index, bool backs);
 
 /* Makes suspects of the pixels of close samples where the planes cross, and forgets the samples
- * (near_depth.c). Before faces are drawn in a box as narrow as a vector, or in one row of others, no
- * more than DP_CLOSE_FULL are kept. */
+ * (near_depth.c). Before faces are drawn in a box as narrow as a vector, or in one row of others,
+ * no more than DP_CLOSE_FULL are kept. */
 void dp_tile_watch(dp_tile *tile);
 
 /* How many corner positions two polygons share. Their keys are hashes: a false match costs one
@@ -260,4 +258,3 @@ static inline float dp_plane_at(const dp_tile_polygon *polygon, float x, float y
 }
 
 #endif
-

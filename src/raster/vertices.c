@@ -28,9 +28,10 @@ static void transform_block(void *arg, uint32_t index, uint32_t worker) {
     const uint32_t size = block_size(frame), first = index * size,
                    count = frame->polygons.vertex_count;
     const uint32_t last = count - first < size ? count : first + size;
-    dp_raster_kernels_for(frame->lanes)->transform(&frame->view, dp_vertex_position(&frame->polygons, first),
-                              frame->polygons.stride, last - first, frame->vertices + first,
-                              are_read_elsewhere(frame));
+    dp_raster_kernels_for(frame->lanes)
+        ->transform(&frame->view, dp_vertex_position(&frame->polygons, first),
+                    frame->polygons.stride, last - first, frame->vertices + first,
+                    are_read_elsewhere(frame));
 }
 
 void dp_transform_vertices(dp_frame *frame) {

@@ -169,8 +169,9 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
         const size_t y = ink->y0 + py;
         if (!pixels) continue;
         if (target->rgba)
-            dp_sink_kernels_for(ink->frame->lanes)->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
-                                     ink->x1 - ink->x0, coverage, pixels, color);
+            dp_sink_kernels_for(ink->frame->lanes)
+                ->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
+                      ink->x1 - ink->x0, coverage, pixels, color);
         for (uint64_t bits = target->line_class ? pixels : 0; bits; bits &= bits - 1) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);
             if (coverage[px] >= 0.5f)

@@ -4,6 +4,7 @@
 #define DP_STREAM_CHUNK_H
 
 #include "raster/tile.h"
+#include "stream/kernels.h"
 
 #include <string.h>
 
@@ -68,7 +69,7 @@ typedef struct dp_pixel_maps {
 /* What a chunk is held against. */
 typedef struct dp_chunk_view {
     const dp_view *view;
-    uint32_t lanes; /* as of the frame */
+    const dp_stream_kernels *kernels;
     dp_sampling sampling;
     uint32_t tiles_x, tiles_y;
     const float *farthest;   /* [tile][DP_BLOCKS][DP_BLOCKS]: depth of the furthest sample in each

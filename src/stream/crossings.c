@@ -119,7 +119,8 @@ bool dp_stream_choose_crowded(dp_stream_draw *s) {
 /* Adds a tile's crossings to the lines it has. */
 static bool add_lines(const dp_stream_draw *s, const dp_finder *w, uint32_t first,
                       dp_tile_lines *lines) {
-    const dp_tile_lines own = {w->lines.candidates, w->lines.probes, w->lines.candidate_count, w->lines.probe_count};
+    const dp_tile_lines own = {w->lines.candidates, w->lines.probes, w->lines.candidate_count,
+                               w->lines.probe_count};
     const uint32_t candidates = lines->candidate_count + own.candidate_count;
     dp_tile_lines all;
     if (!dp_stream_make_lines(s, candidates, lines->probe_count + own.probe_count, &all))

@@ -158,8 +158,7 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
 
 /* From now on the tile draws into depth of the worker's own, whatever that holds, and not into the
  * picture's (tiles.c). False when memory is out. */
-bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_finder *worker,
-                          dp_stream_worker *own);
+bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_finder *worker, dp_stream_worker *own);
 
 /* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is
  * out. */

@@ -72,8 +72,10 @@ static void offer(dp_fan *fan, int side, const flap *f) {
 /* As kernels make it of a chunk's edges. */
 static uint32_t edge_key(const dp_stream_draw *s, const float *a, const float *b) {
     dp_vertex v[2];
-    dp_raster_kernels_for(s->view.lanes)->transform(s->view.view, a, 3 * sizeof *a, 1, &v[0], false);
-    dp_raster_kernels_for(s->view.lanes)->transform(s->view.view, b, 3 * sizeof *b, 1, &v[1], false);
+    dp_raster_kernels_for(s->frame->lanes)
+        ->transform(s->view.view, a, 3 * sizeof *a, 1, &v[0], false);
+    dp_raster_kernels_for(s->frame->lanes)
+        ->transform(s->view.view, b, 3 * sizeof *b, 1, &v[1], false);
     return v[0].key + v[1].key;
 }
 

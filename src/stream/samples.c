@@ -23,7 +23,8 @@ static plane plane_of(const dp_finder *w, uint32_t polygon, float x, float y, fl
                  bd = (double)v[1].d - v[0].d;
     const double cx = (double)v[2].x - v[0].x, cy = (double)v[2].y - v[0].y,
                  cd = (double)v[2].d - v[0].d;
-    const double area = bx * cy - by * cx, most = fabs(dp_depth_step(&w->tile.frame->view, d, STEEPEST));
+    const double area = bx * cy - by * cx,
+                 most = fabs(dp_depth_step(&w->tile.frame->view, d, STEEPEST));
     const double dx = (bd * cy - by * cd) / area, dy = (bx * cd - bd * cx) / area;
     if (!(fabs(dx) + fabs(dy) <= most)) return p; /* also NaN: clipped */
     return (plane){d - dx * x - dy * y, dx, dy};
@@ -38,7 +39,8 @@ static const float *samples_at(const dp_frame *frame, uint32_t x, uint32_t y) {
 /* Does some sample of a pixel (tile place px, py) leave the point visible? */
 static bool is_clear(const dp_finder *w, const plane own[2], double slack, int px, int py) {
     const int x = px + (int)w->tile.tile_x, y = py + (int)w->tile.tile_y;
-    if (x < 0 || y < 0 || x >= (int)w->tile.frame->target.width || y >= (int)w->tile.frame->target.height)
+    if (x < 0 || y < 0 || x >= (int)w->tile.frame->target.width ||
+        y >= (int)w->tile.frame->target.height)
         return false;
     const float *const d = samples_at(w->tile.frame, (uint32_t)x, (uint32_t)y);
     const uint32_t samples = w->tile.frame->target.samples;
@@ -53,7 +55,8 @@ static bool is_clear(const dp_finder *w, const plane own[2], double slack, int p
 
 static bool is_visible(const dp_finder *w, const dp_candidate *c, uint32_t probe) {
     static const int beside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    const float x = w->lines.probes.x[probe], y = w->lines.probes.y[probe], d = w->lines.probes.limit[probe];
+    const float x = w->lines.probes.x[probe], y = w->lines.probes.y[probe],
+                d = w->lines.probes.limit[probe];
     const plane own[2] = {plane_of(w, c->a, x, y, d), plane_of(w, c->b, x, y, d)};
     const double slack = fabs(dp_depth_step(&w->tile.frame->view, d, SLACK));
     const int px = (int)floorf(x), py = (int)floorf(y);

@@ -10,8 +10,6 @@
  * both can. */
 #include "stream/chunk.h"
 
-#include "stream/kernels.h"
-
 enum { NOT_FINITE = 128 };
 
 /* Its place on the screen; x NaN where *outcode is not 0: dp_outcode, or NOT_FINITE. */
@@ -170,9 +168,9 @@ void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chun
     chunk->count = triangles->count;
     chunk->unsure_count = 0;
     if (view->wanted)
-        dp_stream_kernels_for(view->lanes)->touch(chunk, triangles, view);
+        view->kernels->touch(chunk, triangles, view);
     else
-        dp_stream_kernels_for(view->lanes)->sift(chunk, triangles, view);
+        view->kernels->sift(chunk, triangles, view);
     for (uint32_t i = 0; i < chunk->unsure_count; i++)
         sift_triangle(chunk, chunk->unsure[i], triangles, view, stats);
 }

@@ -114,11 +114,10 @@ static dp_result open_stream(dp_stream_draw *s, dp_source *source, dp_diag *diag
     s->chunks = chunks < CHUNKS_LEAST  ? CHUNKS_LEAST
                 : chunks > CHUNKS_MOST ? CHUNKS_MOST
                                        : (uint32_t)chunks;
-    const dp_result result =
-        dp_input_open(&s->input, source, s->chunks, s->memory, s->stats, diag);
+    const dp_result result = dp_input_open(&s->input, source, s->chunks, s->memory, s->stats, diag);
     if (result) return result;
     s->view = (dp_chunk_view){.view = &f->view,
-                              .lanes = f->lanes,
+                              .kernels = dp_stream_kernels_for(f->lanes),
                               .tiles_x = f->tiles_x,
                               .tiles_y = f->tiles_y,
                               .flat_cosine = f->flat_cosine};
@@ -163,8 +162,7 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
 /* First reading, and more where edges were put off. */
 static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
     const dp_frame *const f = s->frame;
-    s->read_again =
-        f->lines && f->styles[0].passes != 1 && dp_source_rewindable(source);
+    s->read_again = f->lines && f->styles[0].passes != 1 && dp_source_rewindable(source);
     s->done = s->read_again ? 0.6 : 0.95;
     dp_result result = open_stream(s, source, diag);
     if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);

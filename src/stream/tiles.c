@@ -26,9 +26,9 @@ bool dp_stream_place_polygons(dp_stream_draw *s) {
 
 static bool place_list(dp_stream_draw *s) {
     s->frame->polygons = (dp_polygons){.positions = (const float *)s->corners,
-                                               .stride = 3 * sizeof(float),
-                                               .vertex_count = 3 * s->covering,
-                                               .count = s->covering};
+                                       .stride = 3 * sizeof(float),
+                                       .vertex_count = 3 * s->covering,
+                                       .count = s->covering};
     return dp_stream_place_polygons(s);
 }
 
@@ -54,10 +54,10 @@ static void put_normals(const dp_finder *w) {
             const uint32_t winner = w->tile.winner[dp_pixel_lane(&w->tile.sampling, x, y)];
             if (winner == UINT32_MAX) continue;
             const dp_tile_polygon *const p = &w->tile.polygons[winner];
-            const dp_vec3 n =
-                dp_scale(dp_polygon_normal(w->tile.frame, p->id), p->flags & DP_POLYGON_FRONT ? 1 : -1);
-            float *const out =
-                target->normal + 3 * ((size_t)(w->tile.tile_y + y) * target->width + w->tile.tile_x + x);
+            const dp_vec3 n = dp_scale(dp_polygon_normal(w->tile.frame, p->id),
+                                       p->flags & DP_POLYGON_FRONT ? 1 : -1);
+            float *const out = target->normal + 3 * ((size_t)(w->tile.tile_y + y) * target->width +
+                                                     w->tile.tile_x + x);
             out[0] = (float)n.x, out[1] = (float)n.y, out[2] = (float)n.z;
         }
 }
@@ -181,7 +181,8 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
 }
 
 static dp_tile_lines lines_of(const dp_finder *w) {
-    return (dp_tile_lines){w->lines.candidates, w->lines.probes, w->lines.candidate_count, w->lines.probe_count};
+    return (dp_tile_lines){w->lines.candidates, w->lines.probes, w->lines.candidate_count,
+                           w->lines.probe_count};
 }
 
 static bool store_lines(const dp_stream_draw *s, dp_finder *w, dp_tile_lines *out) {
@@ -292,8 +293,7 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     dp_finder *const w = &s->finders[worker];
     dp_stream_worker *const own = &s->workers[worker];
     dp_tile_lines *const lines = &s->lines[tile];
-    if (!lines->candidate_count || !dp_bins_tile_count(&s->frame->polygon_bins, tile))
-        return;
+    if (!lines->candidate_count || !dp_bins_tile_count(&s->frame->polygon_bins, tile)) return;
     const bool watching = w->tile.watching;
     w->tile.finds_edges = false;
     dp_finder_open(w, tile);

@@ -43,8 +43,8 @@ static bool continues(const dp_piece *p, const dp_piece *q) {
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
-static bool join_pieces(const dp_frame *frame, const dp_found *found,
-                        dp_stroke_store *store, size_t *count) {
+static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_stroke_store *store,
+                        size_t *count) {
     const uint32_t tiles = frame->tiles_x * frame->tiles_y;
     size_t total = 0, closed = 0, open;
     for (uint32_t t = 0; t < tiles; t++) total += frame->tile_pieces[t].count;

@@ -67,13 +67,13 @@ static double time_one(const dp_detectors *d, int which) {
 int main(void) {
     static const char *const names[4] = {"diagonal_scaled", "diagonal_printed", "c1_scaled",
                                          "c1_printed"};
-    const dp_kernels *list[DP_KERNELS_MAX];
+    dp_width list[DP_WIDTHS_MOST];
     for (size_t i = 0; i < sizeof planes / sizeof(float); i++)
         ((float *)planes)[i] = (float)(rand() & 1023) / 1024 + 0.5f;
-    const uint32_t n = dp_kernels_list(list);
+    const uint32_t n = dp_widths_list(list);
     for (uint32_t k = 0; k < n; k++) {
-        const dp_detectors *const d = dp_detectors_for(list[k]->lanes);
-        printf("{\"processor\": \"%s\"", list[k]->name);
+        const dp_detectors *const d = dp_detectors_for(list[k].lanes);
+        printf("{\"processor\": \"%s\"", list[k].name);
         for (int which = 0; which < 4; which++)
             printf(", \"%s_ns\": %.2f", names[which], time_one(d, which));
         printf("}\n");

@@ -220,14 +220,14 @@ static void stride_leaves_the_rest_alone(void **state) {
 /* Plain C and vectors of any width, in perspective and without, with lines and without. */
 static void check_kernels(dp_source *source, const dp_camera *camera, const dp_style *style,
                           uint32_t samples, const char *what) {
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     for (uint32_t i = 0; i < count; i++) {
         dp_context *const context = new_context(2);
-        assert_int_equal(setenv("DRYPOINT_CPU", list[i]->name, 1), 0);
-        assert_string_equal(dp_kernels_best()->name, list[i]->name);
+        assert_int_equal(setenv("DRYPOINT_CPU", list[i].name, 1), 0);
+        assert_int_equal(dp_lanes_best(), list[i].lanes);
         draw(context, source, camera, style, samples, &results[i > 0]);
-        if (i > 0) expect_same(&results[0], &results[1], what, list[i]->name);
+        if (i > 0) expect_same(&results[0], &results[1], what, list[i].name);
         dp_context_destroy(context);
     }
     unsetenv("DRYPOINT_CPU");

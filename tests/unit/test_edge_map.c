@@ -134,7 +134,7 @@ static void wider_vectors_give_the_same_bits(void **state) {
     (void)state;
     enum { LENGTH = 61, ROW = LENGTH + 8 };
     static float planes[4][9][ROW], slope[LENGTH];
-    const dp_kernels *list[DP_KERNELS_MAX];
+    dp_width list[DP_WIDTHS_MOST];
     uint32_t seed = 7;
     for (int p = 0; p < 4; p++)
         for (int y = 0; y < 9; y++)
@@ -144,9 +144,9 @@ static void wider_vectors_give_the_same_bits(void **state) {
                     (float)(seed >> 8) / (1 << 24) * (p < 3 ? 2 : 9) - (p < 3 ? 1 : 0);
                 if (p == 3 && seed % 13 == 0) planes[p][y][x] = DP_FAR;
             }
-    for (uint32_t k = 0, n = dp_kernels_list(list); k < n; k++) {
-        const dp_detectors *const wide = dp_detectors_for(list[k]->lanes), *const base =
-                                                                               &dp_detectors_plain;
+    for (uint32_t k = 0, n = dp_widths_list(list); k < n; k++) {
+        const dp_detectors *const wide = dp_detectors_for(list[k].lanes), *const base =
+                                                                              &dp_detectors_plain;
         for (int r = 1; r <= 4; r++)
             for (int mode = 0; mode < 4; mode++) {
                 const dp_depth_measure m = {

@@ -18,49 +18,50 @@ enum { MOST = 40 };
 /* Keys with one sum and one exclusive or: 1 + 6 and 2 + 5. */
 typedef struct scene {
     dp_frame frame;
-    dp_tile_worker worker;
+    dp_finder worker;
     dp_vertex vertices[3 * MOST];
     uint32_t count;
 } scene;
 
 static void add_triangle(scene *s, uint32_t a, uint32_t b, uint32_t c) {
-    dp_tile_worker *const w = &s->worker;
+    dp_finder *const w = &s->worker;
     const uint32_t key[3] = {a, b, c}, t = s->count++;
-    w->polygons[t] =
+    w->tile.polygons[t] =
         (dp_tile_polygon){.id = t,
                           .point = 3 * t,
                           .points = 3,
                           .flags = DP_POLYGON_FRONT | DP_POLYGON_TOUCHES | DP_POLYGON_NEAR * 7};
     for (uint32_t k = 0; k < 3; k++) {
-        w->points[3 * t + k] = (dp_vertex){.x = (float)k, .y = (float)(k * k), .key = key[k]};
-        w->keys[k * w->keys_stride + t] = key[k];
+        w->tile.points[3 * t + k] = (dp_vertex){.x = (float)k, .y = (float)(k * k), .key = key[k]};
+        w->tile.keys[k * w->tile.keys_stride + t] = key[k];
     }
-    memcpy(w->normals[t], (float[4]){0, 0, 1, 0}, sizeof *w->normals);
+    memcpy(w->tile.normals[t], (float[4]){0, 0, 1, 0}, sizeof *w->tile.normals);
 }
 
 /* Nothing is flat, so that every edge is told of. */
-static void begin(scene *s, const dp_kernels *kernels) {
+static void begin(scene *s, dp_width kernels) {
     static const float positions[3 * MOST][3];
-    dp_tile_worker *const w = &s->worker;
-    *s = (scene){.frame = {.kernels = kernels, .flat_cosine = 2}};
+    dp_finder *const w = &s->worker;
+    *s = (scene){.frame = {.lanes = kernels.lanes, .flat_cosine = 2}};
     s->frame.polygons = (dp_polygons){.positions = positions[0],
                                       .stride = sizeof *positions,
                                       .vertex_count = 3 * MOST,
                                       .count = MOST};
     s->frame.vertices = s->vertices;
-    w->frame = &s->frame;
-    w->memory = dp_allocator_resolve(NULL);
-    w->keys_stride = MOST + DP_SEEN_ROOM;
-    assert_true(DP_WORKER_RESERVE(w, polygons, polygons_cap, (size_t)MOST) &&
-                DP_WORKER_RESERVE(w, points, points_cap, (size_t)3 * MOST) &&
-                DP_WORKER_RESERVE(w, normals, normals_cap, (size_t)MOST + 16) &&
-                DP_WORKER_RESERVE(w, keys, keys_cap, 3 * (size_t)w->keys_stride));
+    w->tile.frame = &s->frame;
+    w->tile.memory = dp_allocator_resolve(NULL);
+    w->tile.keys_stride = MOST + DP_SEEN_ROOM;
+    assert_true(
+        DP_TILE_RESERVE(&w->tile, &w->tile, polygons, polygons_cap, (size_t)MOST) &&
+        DP_TILE_RESERVE(&w->tile, &w->tile, points, points_cap, (size_t)3 * MOST) &&
+        DP_TILE_RESERVE(&w->tile, &w->tile, normals, normals_cap, (size_t)MOST + 16) &&
+        DP_TILE_RESERVE(&w->tile, &w->tile, keys, keys_cap, 3 * (size_t)w->tile.keys_stride));
 }
 
 static void fill(scene *s) {
-    s->worker.polygon_count = s->count;
-    assert_true(dp_tile_see(&s->worker, false));
-    assert_int_equal(s->worker.seen_count, s->count);
+    s->worker.tile.polygon_count = s->count;
+    assert_true(dp_tile_see(&s->worker.tile, false));
+    assert_int_equal(s->worker.tile.seen_count, s->count);
     assert_true(dp_edge_table_list(&s->worker) && dp_edge_table_fill(&s->worker));
 }
 
@@ -122,7 +123,7 @@ static void same_way(scene *s) {
 static uint32_t spread_key(uint32_t i) { return (i + 1) * 0x9e3779b1u; }
 
 static void begin_calm(scene *s) {
-    s->frame.calm_spread = 0.25f * DP_UMBRELLA_ONE * DP_UMBRELLA_ONE;
+    s->worker.rings.spread = 0.25f * DP_UMBRELLA_ONE * DP_UMBRELLA_ONE;
 }
 
 /* Around vertex 0, vertices 1 to 6 in a ring; all flat. Vertices of the ring are open. */
@@ -134,15 +135,16 @@ static void add_umbrella(scene *s, uint32_t triangles) {
 
 static void set_normal(scene *s, uint32_t triangle, float x, float kind) {
     const float z = x * x < 1 ? sqrtf(1 - x * x) : 0;
-    memcpy(s->worker.normals[triangle], (float[4]){x, 0, z, kind}, sizeof *s->worker.normals);
+    memcpy(s->worker.tile.normals[triangle], (float[4]){x, 0, z, kind},
+           sizeof *s->worker.tile.normals);
 }
 
 /* How many edges the list holds that end at vertex 0. */
 static uint32_t count_spokes(scene *s) {
     uint32_t spokes = 0;
-    const dp_edge_list *const list = &s->worker.edges;
-    s->worker.polygon_count = s->count;
-    assert_true(dp_tile_see(&s->worker, false) && dp_edge_table_list(&s->worker));
+    const dp_edge_list *const list = &s->worker.table.edges;
+    s->worker.tile.polygon_count = s->count;
+    assert_true(dp_tile_see(&s->worker.tile, false) && dp_edge_table_list(&s->worker));
     for (uint32_t i = 0; i < list->count; i++)
         spokes +=
             list->from[i] == spread_key(0) || (list->from[i] ^ list->name[i]) == spread_key(0);
@@ -153,7 +155,7 @@ static uint32_t count_spokes(scene *s) {
 static void expect_spokes(scene *s, uint32_t count) {
     const uint32_t spokes = count_spokes(s);
     assert_true(spokes == count || (DP_TUNED(0, 1) && spokes == 12));
-    assert_int_equal(s->worker.edges.count + s->worker.calm_edges, 3 * s->count);
+    assert_int_equal(s->worker.table.edges.count + s->worker.table.calm_edges, 3 * s->count);
 }
 
 static void expect_calm(scene *s) { expect_spokes(s, 0); }
@@ -163,7 +165,7 @@ static void calm(scene *s) {
     expect_calm(s);
     for (uint32_t i = 0; i < 6; i++) set_normal(s, i, i % 2 ? 0.2f : -0.2f, i % 3 ? 0 : DP_ROUGH);
     expect_calm(s);
-    for (uint32_t i = 0; i < 6; i++) memcpy(s->worker.normals[i], dp_away, sizeof dp_away);
+    for (uint32_t i = 0; i < 6; i++) memcpy(s->worker.tile.normals[i], dp_away, sizeof dp_away);
     expect_calm(s);
 }
 
@@ -179,8 +181,8 @@ static void bent(scene *s) {
 }
 
 static void turn_away(scene *s, uint32_t triangle) {
-    s->worker.polygons[triangle].flags &= ~(uint32_t)DP_POLYGON_FRONT;
-    memcpy(s->worker.normals[triangle], dp_away, sizeof dp_away);
+    s->worker.tile.polygons[triangle].flags &= ~(uint32_t)DP_POLYGON_FRONT;
+    memcpy(s->worker.tile.normals[triangle], dp_away, sizeof dp_away);
 }
 
 /* Of a vertex with flat front faces and some back faces, only edges between them are listed, by
@@ -191,7 +193,8 @@ static void rim(scene *s) {
     expect_spokes(s, 4);
     turn_away(s, 4);
     expect_spokes(s, 4);
-    for (uint32_t i = 0; i < s->worker.edges.count; i++) assert_true(s->worker.edges.edge[i] < 3);
+    for (uint32_t i = 0; i < s->worker.table.edges.count; i++)
+        assert_true(s->worker.table.edges.edge[i] < 3);
     set_normal(s, 0, 0.6f, 0);
     assert_int_equal(count_spokes(s), 12);
 }
@@ -206,12 +209,12 @@ static void unknown(scene *s) {
     set_normal(s, 2, 0, DP_UNKNOWN);
     set_normal(s, 4, 0, DP_ROUGH);
     expect_calm(s);
-    assert_true(s->worker.normals[2][2] == 1 && s->worker.normals[2][3] == 0);
+    assert_true(s->worker.tile.normals[2][2] == 1 && s->worker.tile.normals[2][3] == 0);
     set_normal(s, 2, 0, DP_UNKNOWN);
     places[3 * 2 + 2][2] = 1; /* upright now */
     assert_int_equal(count_spokes(s), 12);
-    assert_int_equal(s->worker.unsure_count, 1);
-    assert_int_equal(s->worker.unsure[0], 4);
+    assert_int_equal(s->worker.tile.unsure_count, 1);
+    assert_int_equal(s->worker.tile.unsure[0], 4);
 }
 
 /* A triangle that is wound the other way does not close the ring. */
@@ -226,7 +229,7 @@ static void same_slot(scene *s) {
     begin_calm(s);
     add_triangle(s, 1, 2, 3);
     count_spokes(s);
-    assert_int_equal(s->worker.edges.count, 3);
+    assert_int_equal(s->worker.table.edges.count, 3);
     s->count = 0;
     const uint32_t around[3] = {spread_key(1), spread_key(2), spread_key(3)};
     for (uint32_t i = 0; i < 3; i++) {
@@ -234,14 +237,14 @@ static void same_slot(scene *s) {
         add_triangle(s, 1 + (i + 1) % 3, around[i], around[(i + 1) % 3]);
     }
     count_spokes(s);
-    assert_int_equal(s->worker.edges.count, 18);
+    assert_int_equal(s->worker.table.edges.count, 18);
 }
 
 /* What is clipped has its edges listed, and those of the triangles around it. */
 static void clipped(scene *s) {
     add_umbrella(s, 6);
-    s->worker.polygons[1].flags |= DP_POLYGON_CLIPPED;
-    for (uint32_t i = 0; i < 3 * MOST; i++) s->frame.vertices[i].key = s->worker.points[i].key;
+    s->worker.tile.polygons[1].flags |= DP_POLYGON_CLIPPED;
+    for (uint32_t i = 0; i < 3 * MOST; i++) s->frame.vertices[i].key = s->worker.tile.points[i].key;
     assert_int_equal(count_spokes(s), 12);
 }
 
@@ -272,14 +275,14 @@ typedef struct trial {
 
 static void for_all_kernels(void **state) {
     const trial *const t = *state;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     for (uint32_t k = 0; k < count; k++) {
         scene *const s = malloc(sizeof *s);
         assert_non_null(s);
         begin(s, list[k]);
         t->run(s);
-        dp_tile_worker_free(&s->worker);
+        dp_finder_free(&s->worker);
         free(s);
     }
 }

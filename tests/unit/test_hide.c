@@ -1,7 +1,9 @@
 /* find/probes.c and find/hide.inc: which sample points lie hidden is what asking every point
  * about every polygon gives, with kernels of any width, for all but points that rounding may put on
  * either side. */
-#include "kernel/kernels.h"
+#include "find/finder.h"
+#include "find/kernels.h"
+#include "raster/kernels.h"
 #include "raster/tile.h"
 
 #include <setjmp.h>
@@ -18,7 +20,7 @@ enum { POLYGONS = 120, CORNERS = 4, SPINES = 60, ROUNDS = 60 };
 typedef struct scene {
     dp_frame frame;
     dp_style style;
-    dp_tile_worker worker;
+    dp_finder worker;
     dp_spine spines[SPINES];
 } scene;
 
@@ -31,7 +33,7 @@ static uint32_t clamp_px(float v) {
 }
 
 /* A triangle or a square, small or large, on a plane of its own, of either facing. */
-static void put_polygon(dp_tile_worker *w, uint32_t index, uint32_t points, uint32_t *seed) {
+static void put_polygon(dp_finder *w, uint32_t index, uint32_t points, uint32_t *seed) {
     const bool front = next_random(seed) % 4;
     const float x = random_float(seed, -4, DP_TILE + 4), y = random_float(seed, -4, DP_TILE + 4),
                 size = next_random(seed) % 3 ? random_float(seed, 0.3f, 4)
@@ -50,14 +52,14 @@ static void put_polygon(dp_tile_worker *w, uint32_t index, uint32_t points, uint
     for (uint32_t i = 0; i < points; i++) {
         const float angle = turn + (front ? -6.2832f : 6.2832f) * (float)i / (float)points;
         const dp_vertex v = {x + size * cosf(angle), y + size * sinf(angle), 0, 0};
-        w->points[p.point + i] = v;
+        w->tile.points[p.point + i] = v;
         p.nearest = dp_maxf(p.nearest, p.d0 + p.dx * v.x + p.dy * v.y);
         x0 = dp_minf(x0, v.x), x1 = dp_maxf(x1, v.x), y0 = dp_minf(y0, v.y), y1 = dp_maxf(y1, v.y);
     }
     if (x1 < 0 || y1 < 0 || x0 >= DP_TILE || y0 >= DP_TILE) p.flags = 0;
     p.x0 = (uint8_t)clamp_px(x0), p.x1 = (uint8_t)clamp_px(x1);
     p.y0 = (uint8_t)clamp_px(y0), p.y1 = (uint8_t)clamp_px(y1);
-    w->polygons[index] = p;
+    w->tile.polygons[index] = p;
 }
 
 static dp_pointd random_end(uint32_t *seed, dp_pointd from, float length) {
@@ -67,21 +69,22 @@ static dp_pointd random_end(uint32_t *seed, dp_pointd from, float length) {
 }
 
 static void begin(scene *s, uint32_t *seed) {
-    dp_tile_worker *const w = &s->worker;
+    dp_finder *const w = &s->worker;
     *s = (scene){.style = {.cull_back_faces = next_random(seed) % 2}};
     s->frame = (dp_frame){.view = make_view(false), .styles = &s->style, .style_count = 1};
-    w->frame = &s->frame;
-    w->memory = dp_allocator_resolve(NULL);
-    w->keys_stride = POLYGONS + DP_SEEN_ROOM;
-    assert_true(DP_WORKER_RESERVE(w, polygons, polygons_cap, (size_t)POLYGONS) &&
-                DP_WORKER_RESERVE(w, points, points_cap, (size_t)CORNERS * POLYGONS) &&
-                DP_WORKER_RESERVE(w, keys, keys_cap, 3 * (size_t)w->keys_stride));
-    memset(w->points, 0, (size_t)CORNERS * POLYGONS * sizeof *w->points);
-    memset(w->keys, 0, 3 * (size_t)w->keys_stride * sizeof *w->keys);
+    w->tile.frame = &s->frame;
+    w->tile.memory = dp_allocator_resolve(NULL);
+    w->tile.keys_stride = POLYGONS + DP_SEEN_ROOM;
+    assert_true(
+        DP_TILE_RESERVE(&w->tile, &w->tile, polygons, polygons_cap, (size_t)POLYGONS) &&
+        DP_TILE_RESERVE(&w->tile, &w->tile, points, points_cap, (size_t)CORNERS * POLYGONS) &&
+        DP_TILE_RESERVE(&w->tile, &w->tile, keys, keys_cap, 3 * (size_t)w->tile.keys_stride));
+    memset(w->tile.points, 0, (size_t)CORNERS * POLYGONS * sizeof *w->tile.points);
+    memset(w->tile.keys, 0, 3 * (size_t)w->tile.keys_stride * sizeof *w->tile.keys);
     const bool triangles = next_random(seed) % 2;
     for (uint32_t i = 0; i < POLYGONS; i++)
         put_polygon(w, i, triangles || next_random(seed) % 2 ? 3 : 4, seed);
-    w->polygon_count = POLYGONS;
+    w->tile.polygon_count = POLYGONS;
     for (uint32_t i = 0; i < SPINES; i++) {
         const dp_pointd a = {random_float(seed, 0, DP_TILE), random_float(seed, 0, DP_TILE),
                              random_float(seed, 0.5f, 1.5f)};
@@ -93,35 +96,36 @@ static void begin(scene *s, uint32_t *seed) {
 }
 
 /* Hides the spines' points; some belong to polygons, and some are hidden before. */
-static void hide(scene *s, const dp_kernels *kernels) {
-    dp_tile_worker *const w = &s->worker;
-    s->frame.kernels = kernels;
-    w->candidate_count = w->probe_count = 0;
-    assert_true(dp_tile_see(w, false));
+static void hide(scene *s, dp_width kernels) {
+    dp_finder *const w = &s->worker;
+    s->frame.lanes = kernels.lanes;
+    w->lines.candidate_count = w->lines.probe_count = 0;
+    assert_true(dp_tile_see(&w->tile, false));
     for (uint32_t i = 0; i < SPINES; i++)
-        dp_tile_add_candidate(w, (dp_candidate){.a = 2 * i, .b = 2 * i + 1, .k1 = UINT32_MAX},
-                              &s->spines[i], NULL);
-    for (uint32_t i = 0; i < w->probe_count; i += 7) w->probes.limit[i] = INFINITY;
-    dp_tile_hide(w);
+        dp_add_candidate(w, (dp_candidate){.a = 2 * i, .b = 2 * i + 1, .k1 = UINT32_MAX},
+                         &s->spines[i], NULL);
+    for (uint32_t i = 0; i < w->lines.probe_count; i += 7) w->lines.probes.limit[i] = INFINITY;
+    dp_hide_points(w);
 }
 
 /* 1: hidden, 0: not, -1: cannot be told. */
-static int hides(const dp_tile_worker *w, const dp_tile_polygon *p, float x, float y, float limit) {
+static int hides(const dp_finder *w, const dp_tile_polygon *p, float x, float y, float limit) {
     const float beside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}, slack = 1e-3f;
     const float d = dp_minf(dp_plane_at(p, x, y), p->nearest);
     int covered = 0;
-    if (!dp_is_surface(w, p) || d < limit - 1e-5f) return 0;
+    if (!dp_is_surface(&w->tile, p) || d < limit - 1e-5f) return 0;
     for (int i = 0; i < 5; i++)
-        covered += dp_tile_covers(w, p, x + slack * beside[i][0], y + slack * beside[i][1]);
+        covered += dp_tile_covers(&w->tile, p, x + slack * beside[i][0], y + slack * beside[i][1]);
     if (!covered) return 0;
     return covered == 5 && d > limit + 1e-5f ? 1 : -1;
 }
 
-static int expected(const dp_tile_worker *w, const dp_candidate *c, uint32_t i, float limit) {
+static int expected(const dp_finder *w, const dp_candidate *c, uint32_t i, float limit) {
     int found = 0;
     for (uint32_t k = 0; k < POLYGONS; k++) {
         if (k == c->a || k == c->b) continue;
-        const int one = hides(w, &w->polygons[k], w->probes.x[i], w->probes.y[i], limit);
+        const int one =
+            hides(w, &w->tile.polygons[k], w->lines.probes.x[i], w->lines.probes.y[i], limit);
         if (one == 1) return 1;
         if (one < 0) found = -1;
     }
@@ -133,53 +137,54 @@ typedef struct counts {
 } counts;
 
 /* Asks every point about every polygon. */
-static void compare(const dp_tile_worker *w, const float *before, counts *found) {
-    for (uint32_t k = 0; k < w->candidate_count; k++) {
-        const dp_candidate *const c = &w->candidates[k];
+static void compare(const dp_finder *w, const float *before, counts *found) {
+    for (uint32_t k = 0; k < w->lines.candidate_count; k++) {
+        const dp_candidate *const c = &w->lines.candidates[k];
         for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i++) {
             if (i % 7 == 0) {
-                assert_true(w->probes.limit[i] == INFINITY);
+                assert_true(w->lines.probes.limit[i] == INFINITY);
                 continue;
             }
             const int hidden = expected(w, c, i, before[i]);
             found->hidden += hidden == 1, found->seen += hidden == 0, found->unsure += hidden < 0;
             if (hidden < 0) continue;
-            assert_int_equal(w->probes.limit[i] == INFINITY, hidden);
-            if (!hidden) assert_true(w->probes.limit[i] == before[i]);
+            assert_int_equal(w->lines.probes.limit[i] == INFINITY, hidden);
+            if (!hidden) assert_true(w->lines.probes.limit[i] == before[i]);
         }
     }
 }
 
 static void free_scene(scene *s) {
-    s->frame.kernels = &dp_kernels_plain;
-    dp_tile_worker_free(&s->worker);
+    s->frame.lanes = 1;
+    dp_finder_free(&s->worker);
 }
 
 static void points_behind_polygons_are_hidden(void **state) {
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t kernels = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t kernels = dp_widths_list(list);
     uint32_t seed = 5;
     counts found = {0};
     static scene s;
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
         begin(&s, &seed);
-        const dp_tile_worker *const w = &s.worker;
-        hide(&s, &dp_kernels_plain);
-        const uint32_t count = w->probe_count;
+        const dp_finder *const w = &s.worker;
+        hide(&s, (dp_width){"plain", 1});
+        const uint32_t count = w->lines.probe_count;
         float *const plain = malloc(2 * (size_t)count * sizeof *plain), *const before =
                                                                             plain + count;
         assert_non_null(plain);
-        memcpy(plain, w->probes.limit, count * sizeof *plain);
-        for (uint32_t k = 0; k < w->candidate_count; k++) {
-            const dp_candidate *const c = &w->candidates[k];
-            s.frame.kernels->points(w, &s.spines[c->a / 2], c->k0, c->k1, &w->probes, c->probe);
+        memcpy(plain, w->lines.probes.limit, count * sizeof *plain);
+        for (uint32_t k = 0; k < w->lines.candidate_count; k++) {
+            const dp_candidate *const c = &w->lines.candidates[k];
+            dp_find_kernels_for(s.frame.lanes)
+                ->points(w, &s.spines[c->a / 2], c->k0, c->k1, &w->lines.probes, c->probe);
         }
-        memcpy(before, w->probes.limit, count * sizeof *before);
+        memcpy(before, w->lines.probes.limit, count * sizeof *before);
         for (uint32_t i = 0; i < kernels; i++) {
             hide(&s, list[i]);
-            assert_int_equal(w->probe_count, count);
-            assert_memory_equal(w->probes.limit, plain, count * sizeof *plain);
+            assert_int_equal(w->lines.probe_count, count);
+            assert_memory_equal(w->lines.probes.limit, plain, count * sizeof *plain);
         }
         compare(w, before, &found);
         free(plain);

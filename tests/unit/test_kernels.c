@@ -2,7 +2,9 @@
  *
  * Kernels that work on a whole tile are compared by the pictures and lines they make
  * (test_determinism.c). With DRYPOINT_BENCH in the environment, times are printed as well. */
-#include "kernel/kernels.h"
+#include "find/finder.h"
+#include "find/kernels.h"
+#include "raster/kernels.h"
 #include "core/bin.h"
 #include "core/fold.h"
 #include "find/fold_batch.h"
@@ -39,9 +41,9 @@ static void make_model(void) {
     }
 }
 
-static void report(const char *what, const dp_kernels *kernels, double start, uint32_t count) {
+static void report(const char *what, dp_width kernels, double start, uint32_t count) {
     if (getenv("DRYPOINT_BENCH"))
-        print_message("%-10s %-7s %6.2f ns each\n", what, kernels->name,
+        print_message("%-10s %-7s %6.2f ns each\n", what, kernels.name,
                       (now_ns() - start) / count / REPEATS);
 }
 
@@ -58,23 +60,25 @@ static void expect_same_vertices(const dp_vertex *a, const dp_vertex *b, uint32_
 
 static void transforms_agree(void **state) {
     static dp_vertex truth[VERTICES], vertices[VERTICES];
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     (void)state;
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         const dp_view view = make_view(orthographic);
-        dp_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth, false);
+        dp_raster_kernels_plain.transform(&view, positions[0], sizeof *positions, VERTICES, truth,
+                                          false);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();
             for (int r = 0; r < REPEATS; r++)
-                list[i]->transform(&view, positions[0], sizeof *positions, VERTICES, vertices,
-                                   r & 1);
+                dp_raster_kernels_for(list[i].lanes)
+                    ->transform(&view, positions[0], sizeof *positions, VERTICES, vertices, r & 1);
             report("transform", list[i], start, VERTICES);
-            expect_same_vertices(truth, vertices, VERTICES, list[i]->name);
+            expect_same_vertices(truth, vertices, VERTICES, list[i].name);
             for (uint32_t n = 1; n < 20; n++) { /* any length, and not a byte beyond */
                 memset(vertices, 0x55, sizeof vertices);
-                list[i]->transform(&view, positions[3], sizeof *positions, n, vertices, n & 1);
-                expect_same_vertices(truth + 3, vertices, n, list[i]->name);
+                dp_raster_kernels_for(list[i].lanes)
+                    ->transform(&view, positions[3], sizeof *positions, n, vertices, n & 1);
+                expect_same_vertices(truth + 3, vertices, n, list[i].name);
                 assert_int_equal(vertices[n].key, 0x55555555);
             }
         }
@@ -83,13 +87,13 @@ static void transforms_agree(void **state) {
 
 static void equal_positions_have_equal_keys(void **state) {
     const float same[2][3] = {{0.0f, 1, -0.0f}, {-0.0f, 1, 0.0f}};
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     const dp_view view = make_view(false);
     (void)state;
     for (uint32_t i = 0; i < count; i++) {
         dp_vertex v[2];
-        list[i]->transform(&view, same[0], sizeof *same, 2, v, false);
+        dp_raster_kernels_for(list[i].lanes)->transform(&view, same[0], sizeof *same, 2, v, false);
         assert_int_equal(v[0].key, v[1].key);
     }
 }
@@ -105,8 +109,8 @@ static bool same_rect(const dp_tile_rect *a, const dp_tile_rect *b) {
 static void places_agree(void **state) {
     static dp_vertex vertices[VERTICES];
     static dp_tile_rect truth[TRIANGLES], rects[TRIANGLES];
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     (void)state;
     for (int indexed = 0; indexed < 2; indexed++) {
         dp_frame frame = {.view = make_view(false), .tiles_x = 19, .tiles_y = 13};
@@ -117,20 +121,21 @@ static void places_agree(void **state) {
                                        .vertex_count = VERTICES,
                                        .corners = indexed ? corners : NULL,
                                        .count = indexed ? TRIANGLES : VERTICES / 3};
-        dp_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES, vertices,
-                                   false);
-        dp_kernels_plain.place(&frame, 0.75f, 0, frame.polygons.count, truth);
+        dp_raster_kernels_plain.transform(&frame.view, positions[0], sizeof *positions, VERTICES,
+                                          vertices, false);
+        dp_raster_kernels_plain.place(&frame, 0.75f, 0, frame.polygons.count, truth);
         for (uint32_t i = 0; i < count; i++) {
             const double start = now_ns();
             uint32_t placed = 0;
             for (int r = 0; r < REPEATS; r++)
-                list[i]->place(&frame, 0.75f, 0, frame.polygons.count, rects);
+                dp_raster_kernels_for(list[i].lanes)
+                    ->place(&frame, 0.75f, 0, frame.polygons.count, rects);
             report("place", list[i], start, frame.polygons.count);
             for (uint32_t t = 0; t < frame.polygons.count; t++) {
                 placed += rects[t].x0 != DP_UNPLACED;
                 if (indexed && rects[t].x0 == DP_UNPLACED) continue;
                 if (!same_rect(&truth[t], &rects[t]))
-                    fail_msg("%s: triangle %u differs", list[i]->name, t);
+                    fail_msg("%s: triangle %u differs", list[i].name, t);
             }
             assert_true(placed > frame.polygons.count / 50);
         }
@@ -144,12 +149,12 @@ static void parts_agree(void **state) {
     uint32_t seed = 3;
     for (uint32_t i = 0; i < ENTRIES; i++)
         entries[i] = next_random(&seed) | (next_random(&seed) % 3 ? 0 : DP_BIN_TAG);
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t kinds = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t kinds = dp_widths_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
         for (uint32_t n = 0; n < ENTRIES; n = n < 40 ? n + 1 : n + 97) {
             uint32_t count = 1, back_count = 2, front = 1, back = 2;
-            list[k]->part(entries, n, ids, &count, backs, &back_count);
+            dp_raster_kernels_for(list[k].lanes)->part(entries, n, ids, &count, backs, &back_count);
             for (uint32_t i = 0; i < n; i++) {
                 const bool away = entries[i] & DP_BIN_TAG;
                 assert_int_equal(away ? backs[back++] : ids[front++], entries[i] & ~DP_BIN_TAG);
@@ -160,7 +165,8 @@ static void parts_agree(void **state) {
         const double start = now_ns();
         for (int i = 0; i < REPEATS; i++) {
             uint32_t count = 0, back_count = 0;
-            list[k]->part(entries, ENTRIES, ids, &count, backs, &back_count);
+            dp_raster_kernels_for(list[k].lanes)
+                ->part(entries, ENTRIES, ids, &count, backs, &back_count);
         }
         report("part", list[k], start, ENTRIES);
     }
@@ -240,13 +246,13 @@ static void meetings_agree(void **state) {
     fill_crowd(members, keys, &seed);
     const dp_crowd crowd = {
         .members = members, .keys = keys, .met = met, .count = CROWD, .stride = CROWD_STRIDE};
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t kinds = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t kinds = dp_widths_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
         const double start = now_ns();
         for (uint32_t self = 0; self < CROWD; self++) {
             const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self),
-                           count = list[k]->meet(&crowd, self, end);
+                           count = dp_find_kernels_for(list[k].lanes)->meet(&crowd, self, end);
             uint32_t expected = 0, pairs;
             for (uint32_t i = self + 1; i < end; i++) {
                 if (!bounds_meet(&crowd, self, i)) continue;
@@ -271,11 +277,11 @@ static void meetings_agree(void **state) {
 enum { CLOSE_POLYGONS = 40 };
 
 /* Polygons and samples that came close, of one tile with four samples per pixel. */
-static void make_close(dp_tile_worker *w, dp_tile_polygon *polygons, uint32_t *keys,
-                       uint32_t *winner) {
+static void make_close(dp_finder *w, dp_tile_polygon *polygons, uint32_t *keys, uint32_t *winner) {
     uint32_t seed = 77;
-    w->polygons = polygons, w->winner = winner, w->keys = keys, w->keys_stride = CLOSE_POLYGONS;
-    dp_sampling_init(&w->sampling, 4);
+    w->tile.polygons = polygons, w->tile.winner = winner, w->tile.keys = keys,
+    w->tile.keys_stride = CLOSE_POLYGONS;
+    dp_sampling_init(&w->tile.sampling, 4);
     for (uint32_t i = 0; i < 3 * CLOSE_POLYGONS; i++) keys[i] = next_random(&seed) % 90;
     for (uint32_t i = 0; i < CLOSE_POLYGONS; i++)
         polygons[i] = (dp_tile_polygon){.flags = next_random(&seed) % 2 ? DP_POLYGON_FRONT : 0,
@@ -283,55 +289,55 @@ static void make_close(dp_tile_worker *w, dp_tile_polygon *polygons, uint32_t *k
                                         .dy = (float)(next_random(&seed) % 9)};
     for (uint32_t i = 0; i < DP_TILE * DP_TILE * 4; i++)
         winner[i] = next_random(&seed) % 9 ? UINT32_MAX : next_random(&seed) % CLOSE_POLYGONS;
-    w->close.count = 500;
-    for (uint32_t i = 0; i < w->close.count; i++) {
-        w->close.polygon[i] = next_random(&seed) % CLOSE_POLYGONS;
-        w->close.other[i] = i % 7 ? next_random(&seed) % CLOSE_POLYGONS : UINT32_MAX;
-        w->close.lane[i] = i;
-        w->close.gap[i] = (float)(next_random(&seed) % 16) * 0.75f;
+    w->tile.close.count = 500;
+    for (uint32_t i = 0; i < w->tile.close.count; i++) {
+        w->tile.close.polygon[i] = next_random(&seed) % CLOSE_POLYGONS;
+        w->tile.close.other[i] = i % 7 ? next_random(&seed) % CLOSE_POLYGONS : UINT32_MAX;
+        w->tile.close.lane[i] = i;
+        w->tile.close.gap[i] = (float)(next_random(&seed) % 16) * 0.75f;
     }
 }
 
-static bool is_crossed(const dp_tile_worker *w, uint32_t a, uint32_t b, float gap) {
-    const dp_tile_polygon *const p = &w->polygons[a], *const q = &w->polygons[b];
+static bool is_crossed(const dp_finder *w, uint32_t a, uint32_t b, float gap) {
+    const dp_tile_polygon *const p = &w->tile.polygons[a], *const q = &w->tile.polygons[b];
     for (uint32_t i = 0; i < 9; i++)
-        if (w->keys[i / 3 * CLOSE_POLYGONS + a] == w->keys[i % 3 * CLOSE_POLYGONS + b])
+        if (w->tile.keys[i / 3 * CLOSE_POLYGONS + a] == w->tile.keys[i % 3 * CLOSE_POLYGONS + b])
             return false;
     return (p->flags | q->flags) & DP_POLYGON_FRONT &&
-           gap <= dp_watch_px(w) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
+           gap <= dp_watch_px(&w->tile) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
 }
 
 /* Close samples at which planes cross, and pixels that show back faces, one by one. */
 static void suspicions_agree(void **state) {
-    static dp_tile_worker w;
+    static dp_finder w;
     static dp_tile_polygon polygons[CLOSE_POLYGONS];
     static uint32_t keys[3 * CLOSE_POLYGONS], winner[DP_TILE * DP_TILE * 4];
     static dp_close_samples all;
     static dp_frame frame;
     (void)state;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t kinds = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t kinds = dp_widths_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
         uint32_t kept = 0, seed = 3;
-        w.frame = &frame;
+        w.tile.frame = &frame;
         make_close(&w, polygons, keys, winner);
-        all = w.close;
-        list[k]->cross(&w);
+        all = w.tile.close;
+        dp_raster_kernels_for(list[k].lanes)->cross(&w.tile);
         for (uint32_t i = 0; i < all.count; i++) {
             const uint32_t a = all.polygon[i], b = all.other[i];
             if (b == UINT32_MAX || a == b || !is_crossed(&w, a, b, all.gap[i])) continue;
-            assert_int_equal(w.close.polygon[kept], a);
-            assert_int_equal(w.close.other[kept], b);
-            assert_int_equal(w.close.lane[kept++], i);
+            assert_int_equal(w.tile.close.polygon[kept], a);
+            assert_int_equal(w.tile.close.other[kept], b);
+            assert_int_equal(w.tile.close.lane[kept++], i);
         }
-        assert_int_equal(w.close.count, kept);
+        assert_int_equal(w.tile.close.count, kept);
         assert_in_range(kept, 1, all.count - 1);
 
         uint64_t asked[DP_TILE], shown[DP_TILE];
         for (uint32_t y = 0; y < DP_TILE; y++)
             asked[y] = ((uint64_t)next_random(&seed) << 40 | next_random(&seed)) &
                        ~(uint64_t)0 >> (64 - DP_TILE);
-        list[k]->show_backs(&w, asked, shown);
+        dp_find_kernels_for(list[k].lanes)->show_backs(&w, asked, shown);
         for (uint32_t i = 0; i < DP_TILE * DP_TILE; i++) {
             bool back = false;
             for (uint32_t l = 4 * i; l < 4 * i + 4; l++)
@@ -377,29 +383,30 @@ static bool is_near(dp_cell_bits cells, uint32_t box, uint32_t flags) {
 static void approaches_agree(void **state) {
     enum { SEEN = 300 };
     static uint32_t words[DP_SEEN_MEMBERS * (SEEN + DP_SEEN_ROOM)], list[SEEN + DP_SEEN_ROOM];
-    static dp_tile_worker w;
+    static dp_finder w;
     static dp_cell_bits cells;
     uint32_t seed = 5;
     (void)state;
-    w.seen_count = SEEN, w.seen_stride = SEEN + DP_SEEN_ROOM, w.seen_words = words;
+    w.tile.seen_count = SEEN, w.tile.seen_stride = SEEN + DP_SEEN_ROOM, w.tile.seen_words = words;
     put_cells(cells, &seed);
     for (uint32_t i = 0; i < SEEN; i++) {
         const uint32_t x0 = next_random(&seed) % DP_TILE, y0 = next_random(&seed) % DP_TILE,
                        most = DP_TILE - 1;
         const uint32_t x1 = x0 + next_random(&seed) % 12, y1 = y0 + next_random(&seed) % 12;
-        words[DP_SEEN_BOX * w.seen_stride + i] =
+        words[DP_SEEN_BOX * w.tile.seen_stride + i] =
             x0 | y0 << 8 | (x1 < most ? x1 : most) << 16 | (y1 < most ? y1 : most) << 24;
-        words[DP_SEEN_FLAGS * w.seen_stride + i] =
+        words[DP_SEEN_FLAGS * w.tile.seen_stride + i] =
             (next_random(&seed) % 4 ? DP_POLYGON_TOUCHES : 0) |
             (next_random(&seed) % 2 ? DP_POLYGON_FRONT : 0);
     }
-    const dp_kernels *kinds[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(kinds);
+    dp_width kinds[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(kinds);
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t near = kinds[k]->come_near(&w, &cells[0][0][0], list);
+        const uint32_t near =
+            dp_find_kernels_for(kinds[k].lanes)->come_near(&w, &cells[0][0][0], list);
         uint32_t expected = 0;
         for (uint32_t i = 0; i < SEEN; i++)
-            if (is_near(cells, words[i], words[DP_SEEN_FLAGS * w.seen_stride + i]))
+            if (is_near(cells, words[i], words[DP_SEEN_FLAGS * w.tile.seen_stride + i]))
                 assert_int_equal(list[expected++], i);
         assert_int_equal(near, expected);
         assert_in_range(near, 10, SEEN - 10);
@@ -443,11 +450,11 @@ static void folds_agree(void **state) {
             for (int k = 0; k < 3; k++)
                 batch.from[k][i] = at[6 * i][k], batch.to[k][i] = at[6 * i + 1][k];
         }
-        const dp_kernels *list[DP_KERNELS_MAX];
-        const uint32_t kinds = dp_kernels_list(list);
+        dp_width list[DP_WIDTHS_MOST];
+        const uint32_t kinds = dp_widths_list(list);
         for (uint32_t kind = 0; kind < kinds; kind++) {
             const uint32_t count = 1 + next_random(&seed) % DP_FOLDS;
-            list[kind]->folds(&frame.view, &batch, count);
+            dp_find_kernels_for(list[kind].lanes)->folds(&frame.view, &batch, count);
             for (uint32_t i = 0; i < count; i++) {
                 if (batch.plain[i] == 0) continue;
                 plain++;

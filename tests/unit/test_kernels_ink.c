@@ -1,6 +1,6 @@
 /* The kernels that ink: all agree with plain C, bit for bit, and plain C with what is defined. With
  * DRYPOINT_BENCH set it reports their times. */
-#include "kernel/kernels.h"
+#include "sink/kernels.h"
 #include "core/blend.h"
 #include "core/frame.h"
 #include "strokes/stroke.h"
@@ -86,10 +86,10 @@ static void covers_agree(void **state) {
     static const uint32_t samples[4] = {1, 4, 8, 16};
     static float depth[16 * TILE_PIXELS];
     static dp_ink_worker before, truth, w;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     uint32_t seed = 3;
-    double spent[DP_KERNELS_MAX] = {0};
+    double spent[DP_WIDTHS_MOST] = {0};
     (void)state;
     for (uint32_t i = 0; i < 16 * TILE_PIXELS; i++)
         depth[i] = (float)(next_random(&seed) % 6400) / 100;
@@ -103,25 +103,25 @@ static void covers_agree(void **state) {
         const dp_ink_patch patch = random_patch(depth, &seed);
         for (uint32_t y = 0; y < DP_TILE; y++) before.row[y] = 0xf0f0f0f0f0f0f0f0u << k % 5;
         truth = before;
-        dp_kernels_plain.cover(&frame, &s, &patch, &truth);
+        dp_sink_kernels_plain.cover(&frame, &s, &patch, &truth);
         expect_cover(&frame, &s, &patch, &before, &truth);
         for (uint32_t i = 0; i < count; i++) {
             w = before;
             const double start = now_ns();
-            list[i]->cover(&frame, &s, &patch, &w);
+            dp_sink_kernels_for(list[i].lanes)->cover(&frame, &s, &patch, &w);
             spent[i] += now_ns() - start;
             assert_memory_equal(w.row, truth.row, sizeof w.row);
             assert_memory_equal(w.coverage, truth.coverage, sizeof w.coverage);
         }
     }
     for (uint32_t i = 0; i < count && getenv("DRYPOINT_BENCH"); i++)
-        print_message("%-10s %-7s %6.2f ns a patch\n", "cover", list[i]->name, spent[i] / STROKES);
+        print_message("%-10s %-7s %6.2f ns a patch\n", "cover", list[i].name, spent[i] / STROKES);
 }
 
 /* Ink over a row of a tile, against dp_blend. */
 static void layings_agree(void **state) {
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     uint32_t seed = 8;
     (void)state;
     for (uint32_t k = 0; k < 200; k++) {
@@ -140,7 +140,7 @@ static void layings_agree(void **state) {
             if (pixels >> i & 1) dp_blend(truth + 4 * (size_t)i, color, coverage[i]);
         for (uint32_t i = 0; i < count; i++) {
             memcpy(row, under, sizeof under);
-            list[i]->lay(row, width, coverage, pixels, color);
+            dp_sink_kernels_for(list[i].lanes)->lay(row, width, coverage, pixels, color);
             assert_memory_equal(row, truth, sizeof truth);
         }
     }

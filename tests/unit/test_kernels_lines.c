@@ -1,6 +1,8 @@
 /* The kernels that find lines' sample points and edges that lie hidden: all agree with plain C, bit
  * for bit, and plain C with what is defined. */
-#include "kernel/kernels.h"
+#include "find/finder.h"
+#include "find/kernels.h"
+#include "strokes/kernels.h"
 #include "raster/tile.h"
 #include "strokes/segment_batch.h"
 
@@ -38,9 +40,9 @@ static void expect_point(const dp_view *view, const dp_spine *s, uint32_t k, con
 
 /* Any run of a spine's points. */
 static void points_agree(void **state) {
-    static dp_tile_worker w;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    static dp_finder w;
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     uint32_t seed = 7;
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
@@ -52,13 +54,13 @@ static void points_agree(void **state) {
                             .probe_b = random_point(&seed, orthographic),
                             .n = 1 + next_random(&seed) % POINTS};
         const uint32_t k0 = next_random(&seed) % s.n, k1 = k0 + 1 + next_random(&seed) % (s.n - k0);
-        w.frame = &frame;
-        w.tile_x = TILE_X;
+        w.tile.frame = &frame;
+        w.tile.tile_x = TILE_X;
         const uint32_t at = next_random(&seed) % (POINTS - (k1 - k0) + 1);
-        dp_kernels_plain.points(&w, &s, k0, k1, &expected, at);
+        dp_find_kernels_plain.points(&w, &s, k0, k1, &expected, at);
         for (uint32_t k = k0; k < k1; k++) expect_point(&frame.view, &s, k, &expected, at + k - k0);
         for (uint32_t i = 0; i < count; i++) {
-            list[i]->points(&w, &s, k0, k1, &out, at);
+            dp_find_kernels_for(list[i].lanes)->points(&w, &s, k0, k1, &out, at);
             for (int m = 0; m < 3; m++)
                 assert_memory_equal(own[m] + at, truth[m] + at, (k1 - k0) * sizeof(float));
         }
@@ -77,19 +79,19 @@ typedef struct scene {
 
 /* Triangles of all sizes, some clipped, of whose edges some are alone; and blocks of pixels that
  * hide what lies further away. */
-static void make_scene(scene *s, dp_tile_worker *w, uint32_t *seed) {
-    memset(w->farthest, 0, sizeof w->farthest);
+static void make_scene(scene *s, dp_finder *w, uint32_t *seed) {
+    memset(w->tile.farthest, 0, sizeof w->tile.farthest);
     for (uint32_t y = 0; y < DP_RINGED; y++)
         for (uint32_t x = 0; x < DP_RINGED; x++)
-            w->farthest[0][0][y][x] = (float)(next_random(seed) % 4);
+            w->tile.farthest[0][0][y][x] = (float)(next_random(seed) % 4);
     for (uint32_t k = 1; k < DP_SPANS * DP_SPANS; k++) /* as dp_tile_find_farthest does */
         for (uint32_t y = 0; y < DP_RINGED; y++)
             for (uint32_t x = 0; x < DP_RINGED; x++) {
                 float least = INFINITY;
                 for (uint32_t v = y; v <= y + k / DP_SPANS && v < DP_RINGED; v++)
                     for (uint32_t u = x; u <= x + k % DP_SPANS && u < DP_RINGED; u++)
-                        least = dp_minf(least, w->farthest[0][0][v][u]);
-                w->farthest[k / DP_SPANS][k % DP_SPANS][y][x] = least;
+                        least = dp_minf(least, w->tile.farthest[0][0][v][u]);
+                w->tile.farthest[k / DP_SPANS][k % DP_SPANS][y][x] = least;
             }
     for (uint32_t t = 0; t < TRIANGLES; t++) {
         const double x = random_place(seed), y = random_place(seed),
@@ -106,36 +108,36 @@ static void make_scene(scene *s, dp_tile_worker *w, uint32_t *seed) {
     }
 }
 
-static bool is_hidden(const scene *s, const dp_tile_worker *w, uint32_t number) {
+static bool is_hidden(const scene *s, const dp_finder *w, uint32_t number) {
     const dp_tile_polygon *const p = &s->polygons[s->polygon[number]];
     const dp_vertex a = s->points[p->point + s->edge[number]],
                     b = s->points[p->point + (s->edge[number] + 1) % 3];
     return !(p->flags & DP_POLYGON_CLIPPED) &&
-           dp_tile_hides(w, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x),
+           dp_tile_hides(&w->tile, dp_minf(a.x, b.x), dp_minf(a.y, b.y), dp_maxf(a.x, b.x),
                          dp_maxf(a.y, b.y), dp_maxf(a.d, b.d));
 }
 
 static void edges_alone_are_unmarked_where_hidden(void **state) {
-    static dp_tile_worker w;
+    static dp_finder w;
     static scene s;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     uint32_t seed = 11, unmarked = 0, kept = 0;
     (void)state;
     s.frame = (dp_frame){.view = make_view(false), .step_scale = 0.01f};
-    w.frame = &s.frame;
-    w.polygons = s.polygons, w.points = s.points;
-    w.edges = (dp_edge_list){.polygon = s.polygon, .edge = s.edge};
+    w.tile.frame = &s.frame;
+    w.tile.polygons = s.polygons, w.tile.points = s.points;
+    w.table.edges = (dp_edge_list){.polygon = s.polygon, .edge = s.edge};
     for (int round = 0; round < ROUNDS; round++) {
         uint8_t marks[EDGES];
         make_scene(&s, &w, &seed);
-        w.edge_marks = marks;
-        w.edges.count = 1 + next_random(&seed) % EDGES;
+        w.table.marks = marks;
+        w.table.edges.count = 1 + next_random(&seed) % EDGES;
         for (uint32_t i = 0; i < count; i++) {
             memcpy(marks, s.marks, sizeof marks);
-            list[i]->unmark_alone(&w);
+            dp_find_kernels_for(list[i].lanes)->unmark_alone(&w);
             for (uint32_t k = 0; k < EDGES; k++) {
-                const bool asked = k < w.edges.count && s.marks[k] == DP_MARK_ALONE,
+                const bool asked = k < w.table.edges.count && s.marks[k] == DP_MARK_ALONE,
                            hidden = asked && is_hidden(&s, &w, k);
                 unmarked += hidden, kept += asked && !hidden;
                 assert_int_equal(marks[k], hidden ? 0 : s.marks[k]);
@@ -190,8 +192,8 @@ static void expect_segment(const dp_view *view, const dp_segment_batch *s, uint3
 }
 
 static void segments_agree(void **state) {
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t kinds = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t kinds = dp_widths_list(list);
     uint32_t seed = 13;
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
@@ -208,13 +210,13 @@ static void segments_agree(void **state) {
             }
         }
         const dp_segment_batch asked = truth;
-        dp_kernels_plain.segments(&view, &truth, DP_SEGMENTS);
+        dp_stroke_kernels_plain.segments(&view, &truth, DP_SEGMENTS);
         for (uint32_t i = 0; i < DP_SEGMENTS; i++) expect_segment(&view, &truth, i);
         for (uint32_t k = 0; k < kinds; k++) {
             const float *const want = &truth.screen[0][0][0];
             dp_segment_batch own = asked;
             const float *const got = &own.screen[0][0][0];
-            list[k]->segments(&view, &own, count);
+            dp_stroke_kernels_for(list[k].lanes)->segments(&view, &own, count);
             const size_t members =
                 (sizeof own - offsetof(dp_segment_batch, screen)) / (DP_SEGMENTS * sizeof(float));
             for (size_t m = 0; m < members; m++)

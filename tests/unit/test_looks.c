@@ -198,8 +198,8 @@ static void look_at(const dp_shaders *shaders, int look, bool object, bool textu
 static void wider_vectors_shade_the_same(void **state) {
     (void)state;
     static pixel_rows p;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    for (uint32_t k = 0, kinds = dp_kernels_list(list); k < kinds; k++)
+    dp_width list[DP_WIDTHS_MOST];
+    for (uint32_t k = 0, kinds = dp_widths_list(list); k < kinds; k++)
         for (int look = 0; look < DP_SHADING_COUNT; look++)
             for (int mode = 0; mode < 4; mode++) {
                 static const uint32_t lengths[4] = {1, 15, 33, DP_TILE};
@@ -207,10 +207,10 @@ static void wider_vectors_shade_the_same(void **state) {
                 uint32_t a[DP_TILE], b[DP_TILE];
                 make_rows(&p, (uint32_t)(100 * look + mode));
                 look_at(plain, look, mode & 1, mode & 2, n, &p, a);
-                look_at(dp_shaders_for(list[k]->lanes), look, mode & 1, mode & 2, n, &p, b);
+                look_at(dp_shaders_for(list[k].lanes), look, mode & 1, mode & 2, n, &p, b);
                 for (uint32_t i = 0; i < n; i++)
                     if (p.id[1][i] && a[i] != b[i])
-                        fail_msg("%s, look %d, mode %d, pixel %u: %x, not %x", list[k]->name, look,
+                        fail_msg("%s, look %d, mode %d, pixel %u: %x, not %x", list[k].name, look,
                                  mode, i, b[i], a[i]);
             }
 }
@@ -221,7 +221,7 @@ static void wider_vectors_smooth_the_same(void **state) {
     static uint8_t colors[3][3 * DP_TILE][4], out[2][DP_TILE][4];
     static float distance[3][3 * DP_TILE];
     static uint16_t id[3][3 * DP_TILE];
-    const dp_kernels *list[DP_KERNELS_MAX];
+    dp_width list[DP_WIDTHS_MOST];
     uint32_t seed = 5;
     for (int y = 0; y < 3; y++)
         for (int x = 0; x < 3 * DP_TILE; x++) {
@@ -252,9 +252,9 @@ static void wider_vectors_smooth_the_same(void **state) {
     assert_int_equal(out[0][7][2], (sum + 8) / 16);
     assert_int_equal(out[0][5][2], 77); /* a patch */
     run.out = out[1][0];
-    for (uint32_t k = 0, kinds = dp_kernels_list(list); k < kinds; k++) {
+    for (uint32_t k = 0, kinds = dp_widths_list(list); k < kinds; k++) {
         memset(out[1], 0, sizeof out[1]);
-        dp_shaders_for(list[k]->lanes)->smooth(&run, ~(uint64_t)0);
+        dp_shaders_for(list[k].lanes)->smooth(&run, ~(uint64_t)0);
         assert_memory_equal(out[0], out[1], sizeof out[0]);
     }
 }

@@ -129,14 +129,14 @@ static void test_every_kernel_draws_the_same(void **state) {
                              {.pencil_tones = 6},
                              {.strokes = {odd, 3, 5}, .stroke_scale = 0.05f}};
     const char *const shapes[] = {"torus", "gear"};
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     (void)state;
     for (size_t k = 0; k < 2 * sizeof ways / sizeof *ways; k++) {
         dp_shade shade = ways[k / 2];
         shade.shading = DP_SHADING_PENCIL;
         for (uint32_t i = 0; i < count; i++) {
-            assert_int_equal(setenv("DRYPOINT_CPU", list[i]->name, 1), 0);
+            assert_int_equal(setenv("DRYPOINT_CPU", list[i].name, 1), 0);
             draw(shapes[k % 2], &shade, 1, pictures[i > 0][0][0]);
             if (i > 0) assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
         }
@@ -148,8 +148,8 @@ static void test_every_kernel_draws_the_same(void **state) {
  * both. */
 static void test_turns(void **state) {
     static const float right[3] = {1, 0, 0}, up[3] = {0, 1, 0};
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     float along[64][3];
     dp_turn turns[64];
     (void)state;
@@ -160,7 +160,7 @@ static void test_turns(void **state) {
     }
     along[63][0] = along[63][1] = 0; /* towards the eye: none is as good as any */
     for (uint32_t k = 0; k < count; k++) {
-        dp_pencil_rows_for(list[k]->lanes)->turn((const float(*)[3])along, right, up, 64, turns);
+        dp_pencil_rows_for(list[k].lanes)->turn((const float(*)[3])along, right, up, 64, turns);
         for (int i = 0; i < 63; i++) {
             const int step = (i - 20 + 72) % 36 / 2, part = turns[i] & 0xff;
             if (i % 2 == 0)
@@ -169,7 +169,7 @@ static void test_turns(void **state) {
                 assert_true(turns[i] >> 8 == step && part > 126 && part < 129);
         }
         assert_int_equal(turns[63], 0);
-        dp_pencil_rows_for(list[k]->lanes)
+        dp_pencil_rows_for(list[k].lanes)
             ->turn_exactly((const float(*)[3])along, right, up, 64, turns);
         for (int i = 0; i < 63; i++) {
             const int wanted = (i - 20 + 72) % 36 * 65536 / 36;

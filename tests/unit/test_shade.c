@@ -327,11 +327,11 @@ static void any_texture_will_do(void **state) {
             assert_int_equal(draw_batch(&batch, &camera, &style, p, NULL, NULL), DP_OK);
         }
     static pixels plain_picture;
-    const dp_kernels *list[DP_KERNELS_MAX];
-    for (uint32_t k = 0, kinds = dp_kernels_list(list); k < kinds;
+    dp_width list[DP_WIDTHS_MOST];
+    for (uint32_t k = 0, kinds = dp_widths_list(list); k < kinds;
          k++) { /* with texture coordinates, by any kernels */
         const dp_style style = {.shade = {.shading = DP_SHADING_HATCH, .object_space = true}};
-        assert_int_equal(setenv("DRYPOINT_CPU", list[k]->name, 1), 0);
+        assert_int_equal(setenv("DRYPOINT_CPU", list[k].name, 1), 0);
         assert_int_equal(draw_batch(&batch, &camera, &style, k ? p : plain_picture, NULL, NULL),
                          DP_OK);
         if (k) assert_memory_equal(p, plain_picture, sizeof p);

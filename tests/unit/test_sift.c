@@ -2,7 +2,7 @@
  * makes of them (stream/sift.c), and what they leave to it does not depend on the width.
  *
  * With DRYPOINT_BENCH in the environment, times are printed as well. */
-#include "kernel/kernels.h"
+#include "stream/kernels.h"
 #include "stream/chunk.h"
 
 #include <setjmp.h>
@@ -80,7 +80,7 @@ static void leave_all(dp_chunk *chunk, const dp_triangles *triangles, const dp_c
         chunk->unsure[chunk->unsure_count++] = (uint16_t)t;
 }
 
-static const dp_kernels general = {.name = "general", .sift = leave_all, .touch = leave_all};
+static const dp_stream_kernels general = {.sift = leave_all, .touch = leave_all};
 
 /* A picture whose surface is known in part, and of which a tenth is looked at. */
 typedef struct picture {
@@ -134,8 +134,8 @@ static double now_ns(void) {
 }
 
 /* Sifts records [first, first + count). */
-static dp_stats sift(dp_chunk *chunk, const dp_kernels *kernels, dp_chunk_view view, uint32_t first,
-                     uint32_t count) {
+static dp_stats sift(dp_chunk *chunk, const dp_stream_kernels *kernels, dp_chunk_view view,
+                     uint32_t first, uint32_t count) {
     const dp_triangles triangles = {records[first] + CORNERS_AT, RECORD, count, NULL};
     dp_stats stats = {0};
     view.kernels = kernels;
@@ -146,16 +146,16 @@ static dp_stats sift(dp_chunk *chunk, const dp_kernels *kernels, dp_chunk_view v
 enum { FOR_GOOD = 0xff & ~DP_TRIANGLE_WITHIN };
 
 /* Counts the triangles that the kernel has left alive itself, and those with any state. */
-static void expect_general(const dp_kernels *kernels, const dp_chunk_view *view, uint32_t first,
+static void expect_general(dp_width kernels, const dp_chunk_view *view, uint32_t first,
                            uint32_t count, uint32_t counts[2]) {
     const dp_stats truth = sift(&plain, &general, *view, first, count),
-                   stats = sift(&wide, kernels, *view, first, count);
+                   stats = sift(&wide, dp_stream_kernels_for(kernels.lanes), *view, first, count);
     assert_int_equal(truth.dropped_finite, stats.dropped_finite);
     assert_int_equal(truth.dropped_area, stats.dropped_area);
     for (uint32_t t = 0; t < count; t++) {
         if (plain.state[t] != (wide.state[t] & FOR_GOOD))
-            fail_msg("%s: triangle %u has state %x, not %x", kernels->name, first + t,
-                     wide.state[t], plain.state[t]);
+            fail_msg("%s: triangle %u has state %x, not %x", kernels.name, first + t, wide.state[t],
+                     plain.state[t]);
         if (plain.state[t] & DP_TRIANGLE_LIVE)
             assert_memory_equal(plain.normal[t], wide.normal[t], sizeof *plain.normal);
         counts[1] += plain.state[t] != 0;
@@ -163,7 +163,7 @@ static void expect_general(const dp_kernels *kernels, const dp_chunk_view *view,
     }
     for (uint32_t i = 0; i < wide.unsure_count; i++) counts[0] -= wide.state[wide.unsure[i]] != 0;
     const uint32_t unsure = wide.unsure_count;
-    sift(&plain, &dp_kernels_plain, *view, first, count);
+    sift(&plain, &dp_stream_kernels_plain, *view, first, count);
     assert_int_equal(plain.unsure_count, unsure);
     assert_memory_equal(plain.unsure, wide.unsure, unsure * sizeof *plain.unsure);
     assert_memory_equal(plain.state, wide.state, count);
@@ -173,8 +173,8 @@ static void expect_general(const dp_kernels *kernels, const dp_chunk_view *view,
 }
 
 static void check(const dp_chunk_view *view, const char *what) {
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t counts[2] = {0};
         for (uint32_t first = 0; first < TRIANGLES; first += DP_CHUNK)
@@ -185,9 +185,10 @@ static void check(const dp_chunk_view *view, const char *what) {
         assert_true(counts[1] > TRIANGLES / 40);
         assert_true(counts[0] > counts[1] / 3);
         const double start = now_ns();
-        for (int r = 0; r < REPEATS; r++) sift(&wide, list[i], *view, 0, DP_TUNED(4000, 3));
+        for (int r = 0; r < REPEATS; r++)
+            sift(&wide, dp_stream_kernels_for(list[i].lanes), *view, 0, DP_TUNED(4000, 3));
         if (getenv("DRYPOINT_BENCH"))
-            print_message("%-6s %-7s %6.2f ns each\n", what, list[i]->name,
+            print_message("%-6s %-7s %6.2f ns each\n", what, list[i].name,
                           (now_ns() - start) / 4000 / REPEATS);
     }
 }
@@ -219,8 +220,8 @@ static void equal_edges_have_equal_keys(void **state) {
     static const float same[2][9] = {{0.0f, 0.5f, -0.0f, 0.25f, 0.0f, 0.0f, 0, 0, 0.1f},
                                      {0.25f, -0.0f, 0.0f, -0.0f, 0.5f, 0.0f, 0, 0, -0.1f}};
     const dp_triangles triangles = {(const uint8_t *)same, sizeof *same, 2, NULL};
-    const dp_kernels *list[DP_KERNELS_MAX];
-    const uint32_t count = dp_kernels_list(list);
+    dp_width list[DP_WIDTHS_MOST];
+    const uint32_t count = dp_widths_list(list);
     (void)state;
     picture p;
     make_picture(&p, false, 4);
@@ -229,7 +230,7 @@ static void equal_edges_have_equal_keys(void **state) {
         p.farthest[i] = DP_DEPTH_EMPTY;
     for (uint32_t i = 0; i < count; i++) {
         dp_stats stats = {0};
-        p.chunk.kernels = list[i];
+        p.chunk.kernels = dp_stream_kernels_for(list[i].lanes);
         dp_chunk_sift(&wide, &triangles, &p.chunk, &stats);
         assert_true(wide.state[0] & DP_TRIANGLE_LIVE);
         assert_true(wide.state[1] & DP_TRIANGLE_LIVE);
