@@ -103,9 +103,23 @@ format() {
     fi
 }
 
+# Do includes between folders run one way?
+structure() {
+    printf "%-${width}s" "structure, as docs/architecture.md has it"
+    if scripts/structure.sh >"$logs/structure.log" 2>&1; then
+        passed=$((passed + 1))
+        printf '%5d passed\n' 1
+    else
+        failed=$((failed + 1))
+        printf '%5d failed\n' 1
+        sed 's/^/    /' "$logs/structure.log"
+    fi
+}
+
 run_phase() {
     case $1 in
     format) format ;;
+    structure) structure ;;
     gcc) phase check-gcc "gcc, release, -Werror: all tests" all ;;
     clang) phase check-clang "clang, release, -Werror" all -L 'unit|golden|header|fuzz' ;;
     asan) phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy' ;;
@@ -118,13 +132,13 @@ run_phase() {
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
     accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)
-        echo "check: unknown phase $1 (format, gcc, accuracy, clang, asan, tsan, hostile, fuzz)" >&2
+        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, tsan, hostile, fuzz)" >&2
         exit 2
         ;;
     esac
 }
 
-[ $# -gt 0 ] || set -- format gcc clang asan tsan hostile fuzz
+[ $# -gt 0 ] || set -- format structure gcc clang asan tsan hostile fuzz
 for name; do run_phase "$name"; done
 echo
 echo "$passed passed, $failed failed"

@@ -30,7 +30,7 @@ static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
 typedef struct dp_frame {
     const dp_allocator *memory;
     dp_threads *threads;
-    uint32_t lanes; /* of the vectors that kernels use (kernel/kernels.h) */
+    uint32_t lanes; /* of the vectors that kernels use (base/kernels.h) */
     dp_view view;
     float
         nearly_edge_on; /* px: a polygon this thin on the screen needs a second look (outline.h) */
@@ -86,6 +86,16 @@ static inline uint8_t *dp_ink_place(const dp_frame *f, uint32_t x, uint32_t y) {
 static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t polygon) {
     const uint32_t group = frame->polygons.groups ? frame->polygons.groups[polygon] : 0;
     return &frame->styles[group < frame->style_count ? group : 0];
+}
+
+/* Classes that have an outside. */
+enum { DP_OUTLINES = DP_SILHOUETTE | DP_BORDER };
+
+/* Is the picture drawn so? Else the same geometry lies beside visible pieces of lines
+ *. */
+static inline bool dp_is_fringed(const dp_frame *frame) {
+    const dp_style *const s = &frame->styles[0];
+    return frame->adjacency && s->ink == DP_INK_QUADS && s->method == DP_METHOD_PAPER;
 }
 
 #endif

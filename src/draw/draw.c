@@ -11,7 +11,7 @@
 
 #include "base/diag.h"
 #include "features/features.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "mesh/source.h"
 #include "core/facing.h"
 #include "printed/fringe.h"

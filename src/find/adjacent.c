@@ -10,7 +10,6 @@
 #include "mesh/adjacency.h"
 #include "core/fold.h"
 #include "find/finder.h"
-#include "printed/fringe.h"
 
 typedef struct shared_edge {
     uint32_t a, b;           /* owner; partner or UINT32_MAX */

@@ -2,7 +2,7 @@
 #include "find/kernels.h"
 
 #include "find/finder.h"
-#include "kernel/lanes.h"
+#include "base/lanes.h"
 #include "raster/kernels.h"
 
 #include "core/ld3.inc"

@@ -3,7 +3,7 @@
 #define DP_FIND_KERNELS_H
 
 #include "core/view.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 struct dp_crowd;
 struct dp_fold_batch;

@@ -7,7 +7,7 @@
 #ifndef DP_GBUFFER_DETECT_H
 #define DP_GBUFFER_DETECT_H
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "gbuffer/gbuffer.h"
 
 #include <stdbool.h>

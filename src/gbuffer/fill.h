@@ -4,7 +4,7 @@
 #ifndef DP_GBUFFER_FILL_H
 #define DP_GBUFFER_FILL_H
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "gbuffer/gbuffer.h"
 
 /* Pixel sizes between samples of one surface. */

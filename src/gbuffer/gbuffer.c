@@ -6,7 +6,7 @@
 
 #include "gbuffer/detect.h"
 #include "gbuffer/fill.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "gbuffer/fill.h"
 
 #include "base/vec.h"
-#include "kernel/lanes.h"
+#include "base/lanes.h"
 
 #include "gbuffer/diagonal.inc"
 

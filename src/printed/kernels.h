@@ -2,7 +2,7 @@
 #ifndef DP_PRINTED_KERNELS_H
 #define DP_PRINTED_KERNELS_H
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 struct dp_brush;
 struct dp_ink_shape;

@@ -2,7 +2,6 @@
  * faces are drawn on the way: front faces first, then of back faces those that the front faces do
  * not hide. Triangles go through the kernel; what is here takes any polygon. */
 #include "raster/kernels.h"
-#include "printed/fringe.h"
 #include "raster/tile.h"
 
 /* Plane through the points by Newell's method, which takes any number of them. */

@@ -3,7 +3,7 @@
 #define DP_RASTER_KERNELS_H
 
 #include "core/view.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 struct dp_frame;
 struct dp_tile_polygon;

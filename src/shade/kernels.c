@@ -3,7 +3,7 @@
 #include "shade/shade.h"
 
 #include "base/vec.h"
-#include "kernel/lanes.h"
+#include "base/lanes.h"
 
 /* x of the pixels' centres from column `first` on, px. */
 DP_LANES_INLINE dp_lf columns(uint32_t first) {

@@ -7,7 +7,7 @@
  * that hold a surface, so that background costs nothing. */
 #include "shade/passes.h"
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "shade/pencil.h"
 #include "texture/graphite.h"
 

@@ -19,7 +19,7 @@
 #include "shade/pencil.h"
 
 #include "base/hostile.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "shade/pencil_rows.h"
 
 enum { BLOCK = DP_TUNED(16384, 5) };

@@ -3,7 +3,7 @@
 #ifndef DP_SHADE_PENCIL_ROWS_H
 #define DP_SHADE_PENCIL_ROWS_H
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "shade/shade.h"
 
 enum { DP_STRANDS_PER_PIXEL = 6, DP_STRANDS_MOST = DP_STRANDS_PER_PIXEL * DP_TILE };

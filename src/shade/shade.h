@@ -3,7 +3,7 @@
 #ifndef DP_SHADE_SHADE_H
 #define DP_SHADE_SHADE_H
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "gbuffer/gbuffer.h"
 #include "mesh/curvature.h"
 

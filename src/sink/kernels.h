@@ -3,7 +3,7 @@
 #define DP_SINK_KERNELS_H
 
 #include "core/frame.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 struct dp_frame;
 struct dp_ink_patch;

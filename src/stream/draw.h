@@ -3,7 +3,6 @@
 #define DP_STREAM_DRAW_H
 
 #include "core/fold.h"
-#include "raster/tile.h"
 #include "stream/input.h"
 #include "stream/kept.h"
 #include "stream/stream.h"

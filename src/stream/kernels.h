@@ -2,7 +2,7 @@
 #ifndef DP_STREAM_KERNELS_H
 #define DP_STREAM_KERNELS_H
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 struct dp_chunk;
 struct dp_chunk_view;

@@ -11,7 +11,6 @@
  * picture. */
 #include "strokes/mark.h"
 
-#include "printed/fringe.h"
 #include "features/silhouette_edge.h"
 #include "core/outline.h"
 #include "texture/texture.h"

@@ -1,7 +1,7 @@
 /* This folder's kernels at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
 #include "strokes/kernels.h"
 
-#include "kernel/lanes.h"
+#include "base/lanes.h"
 
 #include "core/ld3.inc"
 #include "strokes/segments.inc"

@@ -3,7 +3,7 @@
 #define DP_STROKES_KERNELS_H
 
 #include "core/view.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 struct dp_segment_batch;
 

@@ -1,7 +1,7 @@
 /* Times the edge detectors over a picture full of surface, on one core, for every kind of processor
  * this one can be: nanoseconds per pixel, the least of many runs. One JSON object per line. */
 #include "gbuffer/detect.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* The same input gives the same bytes: for any number of threads, again, in another context, with
  * any kernels. */
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 #include <drypoint/drypoint.h>
 

@@ -2,7 +2,7 @@
  * pictures. */
 #include "gbuffer/detect.h"
 #include "gbuffer/gbuffer.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "scene.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * compares in common, are told apart, and edges around flat vertices are not listed at all, by
  * kernels of any width. */
 #include "base/hostile.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "find/edge_table.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* shade: the looks of surfaces and the cartoon map on runs of pixels, by hand; every width of
  * vectors gives the same. */
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "shade/shade.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Pencil rendering: Hermosilla and Vázquez 2010, 2.4. */
 #include <drypoint/drypoint.h>
 
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "shade/pencil.h"
 #include "shade/pencil_rows.h"
 #include "texture/graphite.h"

@@ -1,6 +1,6 @@
 /* shade: composition in the paper's order, shared pixels, the mirror, bad input. */
 #include "base/vec.h"
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 #include "scene.h"
 #include "shade/shade.h"
 

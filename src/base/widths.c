@@ -1,5 +1,5 @@
 /* Which kernels this processor can run. */
-#include "kernel/kernels.h"
+#include "base/kernels.h"
 
 #include <stdlib.h>
 #include <string.h>

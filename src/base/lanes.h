@@ -6,8 +6,8 @@
  * widths give equal bits (contraction is off, cmake/). A mask comes from a comparison and goes into
  * `l_select` and `lm_bits`; how it is kept is this file's business. `l_min`, `l_max` give their
  * second argument where either is NaN, as dp_minf and dp_maxf do. */
-#ifndef DP_KERNEL_LANES_H
-#define DP_KERNEL_LANES_H
+#ifndef DP_BASE_LANES_H
+#define DP_BASE_LANES_H
 
 #include <math.h>
 #include <stdbool.h>

@@ -5,8 +5,8 @@
  * compiles once for each width (CMakeLists.txt), and declared as a table of functions in its
  * kernels.h. Plain C, one lane, is the truth: the others do the same operations in the same order
  * and give the same bits (tests/unit/test_kernels*.c). */
-#ifndef DP_KERNEL_KERNELS_H
-#define DP_KERNEL_KERNELS_H
+#ifndef DP_BASE_KERNELS_H
+#define DP_BASE_KERNELS_H
 
 #include <stdint.h>
 
