@@ -47,7 +47,9 @@ typedef struct dp_diag {
 
 /* Memory comes from here; any member NULL means malloc, realloc and free for all three.
  * Blocks must be aligned as malloc's are. `user` is handed back. Calls may come from several
- * threads at once. */
+ * threads at once. Whoever is given an allocator takes all memory from it: the core library calls
+ * nothing that would use malloc past it. Threads' stacks come from the system; libpng, Assimp and
+ * the writers of drypoint/io.h use malloc. */
 typedef struct dp_allocator {
     void *(*alloc)(size_t size, void *user);
     void *(*realloc)(void *block, size_t size, void *user); /* block may be NULL */

@@ -13,6 +13,7 @@
 #include "mesh/adjacency.h"
 
 #include "base/hostile.h"
+#include "base/sort.h"
 #include "base/vec.h"
 #include "mesh/fingerprint.h"
 #include "mesh/places.h"
@@ -222,7 +223,7 @@ static void match_fan(const builder *b, const uint32_t *corners, uint32_t n) {
     const dp_vec3 axis = fabs(d.x) < 0.6 ? dp_v3(1, 0, 0) : dp_v3(0, 1, 0);
     const dp_vec3 x = dp_unit(dp_cross(axis, d)), y = dp_cross(d, x);
     for (uint32_t i = 0; i < n; i++) flaps[i] = make_flap(b, corners[i], from, x, y);
-    qsort(flaps, n, sizeof *flaps, by_angle);
+    dp_sort(flaps, n, sizeof *flaps, by_angle);
     const uint32_t left = pair_wedges(b, flaps, n);
     for (uint32_t i = 0; i + 1 < left; i += 2) pair(b, flaps[i].corner, flaps[i + 1].corner);
 }
@@ -259,7 +260,7 @@ static void sort_small(const builder *b, uint32_t *corners, uint32_t n) {
 static void sort_large(const builder *b, uint32_t *corners, uint32_t n, entry *entries) {
     for (uint32_t i = 0; i < n; i++)
         entries[i] = (entry){higher(edge_at(b, corners[i])), corners[i]};
-    qsort(entries, n, sizeof *entries, by_higher);
+    dp_sort(entries, n, sizeof *entries, by_higher);
     for (uint32_t i = 0; i < n; i++) corners[i] = entries[i].corner;
 }
 
@@ -346,7 +347,7 @@ static bool note_fans(const builder *b, const dp_allocator *memory) {
         }
     }
     if (b->out->fan_count)
-        qsort(b->out->fan_corners, b->out->fan_count, sizeof *b->out->fan_corners, by_corner);
+        dp_sort(b->out->fan_corners, b->out->fan_count, sizeof *b->out->fan_corners, by_corner);
     return true;
 }
 

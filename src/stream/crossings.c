@@ -11,7 +11,8 @@
  * In one pass nobody comes by again: the crowd are the pairs found within each list. */
 #include "stream/draw.h"
 
-#include <stdlib.h>
+#include "base/sort.h"
+
 #include <string.h>
 
 /* ------- first reading ------- */
@@ -102,7 +103,7 @@ static bool gather_pairs(dp_stream_draw *s) {
         if (w->crowd_count) memcpy(s->crowd + count, w->crowd, w->crowd_count * sizeof *w->crowd);
         count += w->crowd_count;
     }
-    qsort(s->crowd, count, sizeof *s->crowd, by_number);
+    dp_sort(s->crowd, count, sizeof *s->crowd, by_number);
     for (size_t i = 0; i < count; i++)
         if (!i || s->crowd[s->crowd_count - 1].number != s->crowd[i].number)
             s->crowd[s->crowd_count++] = s->crowd[i];

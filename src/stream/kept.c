@@ -20,7 +20,8 @@
  * pixel, then one to a square of pixels, as it takes; it is black there already. */
 #include "stream/kept.h"
 
-#include <stdlib.h>
+#include "base/sort.h"
+
 #include <string.h>
 
 static const uint32_t FREE = UINT32_MAX, TAKEN_OUT = UINT32_MAX - 1;
@@ -345,7 +346,7 @@ static int by_number(const void *left, const void *right) {
 static void merge_earlier(dp_kept *kept) {
     size_t left = 0;
     if (!kept->earlier_count) return;
-    qsort(kept->earlier, kept->earlier_count, sizeof *kept->earlier, by_number);
+    dp_sort(kept->earlier, kept->earlier_count, sizeof *kept->earlier, by_number);
     for (size_t i = 0; i < kept->earlier_count; i++) {
         const dp_kept_triangle t = kept->earlier[i];
         if (!left || kept->earlier[left - 1].number != t.number) {

@@ -7,7 +7,8 @@
  * everything comes from the segments' order, never from the hash. */
 #include "strokes/chain.h"
 
-#include <stdlib.h>
+#include "base/sort.h"
+
 #include <string.h>
 
 enum { NONE = UINT32_MAX, MOST_AT_NODE = 12, SHORT = 64 /* links */ };
@@ -178,7 +179,7 @@ static bool bridge_gaps(const chaining *c, const dp_allocator *memory, dp_chain_
     find_cells(c);
     for (uint32_t e = 0; e < 2 * c->count; e++)
         if (c->mate[e] == NONE && !offer_bridges(c, e, memory, store, &n)) return false;
-    if (n) qsort(store->bridges, n, sizeof *store->bridges, by_distance);
+    if (n) dp_sort(store->bridges, n, sizeof *store->bridges, by_distance);
     for (size_t i = 0; i < n; i++) {
         const uint32_t e = store->bridges[i].e, f = store->bridges[i].f;
         if (c->mate[e] == NONE && c->mate[f] == NONE && !closes_short(c, e, f))

@@ -14,8 +14,7 @@
 #include "features/crossing.h"
 #include "core/outline.h"
 #include "core/spine.h"
-
-#include <stdlib.h>
+#include "base/sort.h"
 
 enum { BLOCK = DP_TUNED(128, 7) };
 
@@ -63,7 +62,7 @@ static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_stroke_
         }
     }
     if (total > closed)
-        qsort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
+        dp_sort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
     size_t last = closed;
     for (size_t i = closed; i < total; i++) {
         if (i > closed && continues(&store->pieces[last - 1], &store->pieces[i]))
@@ -72,7 +71,7 @@ static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_stroke_
             store->pieces[last++] = store->pieces[i];
     }
     /* chains begin and run by the order of their segments, which must not depend on tiles */
-    if (dp_is_by_hand(frame) && last) qsort(store->pieces, last, sizeof *store->pieces, by_edge);
+    if (dp_is_by_hand(frame) && last) dp_sort(store->pieces, last, sizeof *store->pieces, by_edge);
     *count = last;
     return true;
 }
