@@ -35,7 +35,9 @@ typedef struct dp_context_desc {
     const dp_allocator *allocator; /* NULL: malloc; copied */
     uint32_t threads;              /* workers, the caller included; 0: one per processor */
     /* The application's own thread pool: must call task(arg, i) once for every i in [0, count),
-     * from any threads, and return when all are done. NULL: the context's own threads. */
+     * in any order and from any threads, one is enough, and return when all calls have. No call
+     * waits for another: of more than `threads` at once the extra ones leave their work to the
+     * others and return. NULL: the context's own threads. */
     void (*parallel_for)(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
                          void *arg);
     /* Called from the drawing thread now and then, fraction in [0, 1], or negative while a source

@@ -3,7 +3,12 @@
  * Invariant: between two loops every worker waits, at last asleep on `wake`; a loop is announced by
  * a new `round` and is over when `busy` is back at zero. Inside a loop workers share nothing but
  * the counters of the shares, of which they seldom ask for another's. The pool does not nest: a
- * task must not start another loop. */
+ * task must not start another loop.
+ *
+ * The application's loop may run on any threads, more of them than there are workers. A call of its
+ * task is no more than leave to do one item: whoever finds a worker number free does the next item,
+ * and whoever finds none leaves it to those who have one and returns. So no call ever waits for
+ * another, and as many items are done as calls were made. */
 #include "base/threads.h"
 
 #include <pthread.h>
@@ -33,6 +38,13 @@ struct dp_threads {
     uint32_t started; /* threads that run: count - 1, or 0 with the application's loop */
     dp_parallel_for *loop;
     void *user;
+    struct { /* of the application's loop */
+        pthread_mutex_t mutex;
+        uint32_t next;                 /* item */
+        uint32_t owed;                 /* items left to those who have a number */
+        uint32_t free;                 /* how many numbers are */
+        uint32_t numbers[MAX_THREADS]; /* [free]; the last is handed out first */
+    } calls;
 
     pthread_mutex_t mutex;
     pthread_cond_t wake, done;
@@ -42,8 +54,7 @@ struct dp_threads {
 
     dp_task *task;
     void *arg;
-    share shares[MAX_THREADS];        /* of a loop's indices, by worker */
-    atomic_uint claimed[MAX_THREADS]; /* worker numbers in use, for the application's loop */
+    share shares[MAX_THREADS]; /* of a loop's indices, by worker */
     worker workers[MAX_THREADS];
 };
 
@@ -153,6 +164,11 @@ dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
     threads->loop = loop;
     threads->lingers = count <= processors();
     threads->user = user;
+    pthread_mutex_init(&threads->calls.mutex, NULL);
+    while (threads->calls.free < count) {
+        threads->calls.numbers[threads->calls.free] = count - 1 - threads->calls.free;
+        threads->calls.free++;
+    }
     pthread_mutex_init(&threads->mutex, NULL);
     pthread_cond_init(&threads->wake, NULL);
     pthread_cond_init(&threads->done, NULL);
@@ -177,25 +193,31 @@ void dp_threads_destroy(dp_threads *threads) {
     pthread_cond_destroy(&threads->wake);
     pthread_cond_destroy(&threads->done);
     pthread_mutex_destroy(&threads->mutex);
+    pthread_mutex_destroy(&threads->calls.mutex);
     const dp_allocator memory = threads->allocator;
     dp_free(&memory, threads);
 }
 
 uint32_t dp_threads_count(const dp_threads *threads) { return threads->count; }
 
-/* Scratch memory is per worker, so the application's loop gets a free worker number per call;
- * should it run more calls at once than it said, the extra ones wait for a number. */
-static uint32_t claim(dp_threads *threads) {
-    for (;;)
-        for (uint32_t i = 0; i < threads->count; i++)
-            if (!atomic_exchange_explicit(&threads->claimed[i], 1, memory_order_acquire)) return i;
-}
-
+/* Does one item, and those that were left meanwhile; or leaves its own. */
 static void foreign_task(void *arg, uint32_t index) {
     dp_threads *const threads = arg;
-    const uint32_t self = claim(threads);
-    threads->task(threads->arg, index, self);
-    atomic_store_explicit(&threads->claimed[self], 0, memory_order_release);
+    (void)index; /* every item is as good */
+    pthread_mutex_lock(&threads->calls.mutex);
+    threads->calls.owed++;
+    if (threads->calls.free) {
+        const uint32_t self = threads->calls.numbers[--threads->calls.free];
+        while (threads->calls.owed) {
+            const uint32_t item = threads->calls.next++;
+            threads->calls.owed--;
+            pthread_mutex_unlock(&threads->calls.mutex);
+            threads->task(threads->arg, item, self);
+            pthread_mutex_lock(&threads->calls.mutex);
+        }
+        threads->calls.numbers[threads->calls.free++] = self;
+    }
+    pthread_mutex_unlock(&threads->calls.mutex);
 }
 
 void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg) {
@@ -203,6 +225,7 @@ void dp_parallel(dp_threads *threads, uint32_t count, dp_task *task, void *arg) 
     threads->task = task;
     threads->arg = arg;
     if (threads->loop) {
+        threads->calls.next = 0;
         threads->loop(threads->user, count, foreign_task, threads);
         return;
     }

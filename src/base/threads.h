@@ -13,8 +13,9 @@ typedef void dp_parallel_for(void *user, uint32_t count, void (*task)(void *arg,
 
 typedef struct dp_threads dp_threads;
 
-/* count 0: one per processor. With `loop`, no thread is started and `count` is how many workers the
- * application's loop may run at once. NULL when memory or threads are out. */
+/* count 0: one per processor. With `loop`, no thread is started and `count` is how many of the
+ * application's threads work at once, however many there are; further calls return at once. NULL
+ * when memory or threads are out. */
 dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
                               const dp_allocator *allocator);
 void dp_threads_destroy(dp_threads *threads);

@@ -85,6 +85,31 @@ static void backwards(void *user, uint32_t count, void (*task)(void *arg, uint32
     while (count) task(arg, --count);
 }
 
+/* More threads than the context has workers. */
+typedef struct crowd {
+    void (*task)(void *arg, uint32_t index);
+    void *arg;
+    uint32_t count;
+    atomic_uint next;
+} crowd;
+
+static void *crowd_main(void *arg) {
+    crowd *const c = arg;
+    for (uint32_t i; (i = atomic_fetch_add(&c->next, 1)) < c->count;) c->task(c->arg, i);
+    return NULL;
+}
+
+static void crowded(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
+                    void *arg) {
+    enum { THREADS = 6 };
+    pthread_t threads[THREADS];
+    crowd c = {.task = task, .arg = arg, .count = count};
+    (void)user;
+    for (int i = 0; i < THREADS; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, crowd_main, &c), 0);
+    for (int i = 0; i < THREADS; i++) pthread_join(threads[i], NULL);
+}
+
 static const char *const shapes[] = {"cube", "boxes", "bracket", "gear", "terrain"};
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 static picture reference, other;
@@ -94,9 +119,11 @@ static void check_threads(const dp_style *style) {
         assert_int_equal(draw(&(dp_context_desc){.threads = 1}, shapes[i], style, &reference, NULL),
                          DP_OK);
         assert_true(reference.count || (style && style->ink == DP_INK_QUADS));
-        const dp_context_desc descs[] = {
-            {.threads = 2}, {.threads = 7}, {.threads = 3, .parallel_for = backwards}};
-        for (int k = 0; k < 3; k++) {
+        const dp_context_desc descs[] = {{.threads = 2},
+                                         {.threads = 7},
+                                         {.threads = 3, .parallel_for = backwards},
+                                         {.threads = 2, .parallel_for = crowded}};
+        for (size_t k = 0; k < sizeof descs / sizeof *descs; k++) {
             assert_int_equal(draw(&descs[k], shapes[i], style, &other, NULL), DP_OK);
             assert_same(&reference, &other);
             free(other.segments);

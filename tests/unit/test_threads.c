@@ -7,6 +7,7 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -93,36 +94,116 @@ static void a_loop_sees_what_the_last_one_wrote(void **state) {
 }
 
 /* An application's loop: more threads than workers were promised. */
+enum { CROWD = 8 };
+
 typedef struct crowd {
     void (*task)(void *arg, uint32_t index);
     void *arg;
     uint32_t count;
-    atomic_uint next;
+    atomic_uint next, *returned;
 } crowd;
 
 static void *crowd_main(void *arg) {
     crowd *const c = arg;
-    for (uint32_t i; (i = atomic_fetch_add(&c->next, 1)) < c->count;) c->task(c->arg, i);
+    for (uint32_t i; (i = atomic_fetch_add(&c->next, 1)) < c->count;) {
+        c->task(c->arg, i);
+        if (c->returned) atomic_fetch_add(c->returned, 1);
+    }
     return NULL;
 }
 
 static void crowd_loop(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
                        void *arg) {
-    pthread_t threads[4];
-    crowd c = {.task = task, .arg = arg, .count = count};
-    (*(int *)user)++;
-    for (int i = 0; i < 4; i++)
+    pthread_t threads[CROWD];
+    crowd c = {.task = task, .arg = arg, .count = count, .returned = user};
+    for (int i = 0; i < CROWD; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, crowd_main, &c), 0);
-    for (int i = 0; i < 4; i++) pthread_join(threads[i], NULL);
+    for (int i = 0; i < CROWD; i++) pthread_join(threads[i], NULL);
 }
 
 static void the_application_can_bring_its_own_threads(void **state) {
     (void)state;
     const dp_allocator memory = dp_allocator_resolve(NULL);
-    int calls = 0;
-    dp_threads *const threads = dp_threads_create(2, crowd_loop, &calls, &memory);
-    check_loops(threads);
-    assert_int_equal(calls, LOOPS);
+    atomic_uint calls = 0;
+    for (uint32_t count = 1; count <= CROWD + 1; count++) {
+        atomic_store(&calls, 0);
+        dp_threads *const threads = dp_threads_create(count, crowd_loop, &calls, &memory);
+        check_loops(threads);
+        assert_int_equal(atomic_load(&calls), LOOPS * PIECES);
+        dp_threads_destroy(threads);
+    }
+}
+
+/* One call after the other, the last first, on the calling thread. */
+static void serial_loop(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
+                        void *arg) {
+    (void)user;
+    while (count) task(arg, --count);
+}
+
+static void or_none_at_all(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    for (uint32_t count = 1; count <= 9; count += 4) {
+        dp_threads *const threads = dp_threads_create(count, serial_loop, NULL, &memory);
+        check_loops(threads);
+        dp_threads_destroy(threads);
+    }
+}
+
+static double seconds(clockid_t clock) {
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static void sleep_a_moment(void) { nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL); }
+
+/* The first item is over when all other calls have returned: none may wait for it. */
+typedef struct patience {
+    atomic_uint returned, done;
+    bool in_vain;
+} patience;
+
+static void await_others(void *arg, uint32_t index, uint32_t worker) {
+    patience *const p = arg;
+    (void)index, (void)worker;
+    if (atomic_fetch_add(&p->done, 1)) return;
+    const double until = seconds(CLOCK_MONOTONIC) + 20;
+    while (atomic_load(&p->returned) < CROWD - 1 && !p->in_vain) {
+        sleep_a_moment();
+        p->in_vain = seconds(CLOCK_MONOTONIC) > until;
+    }
+}
+
+static void a_call_without_a_worker_returns_at_once(void **state) {
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    patience p = {0};
+    dp_threads *const threads = dp_threads_create(1, crowd_loop, &p.returned, &memory);
+    dp_parallel(threads, CROWD, await_others, &p);
+    assert_false(p.in_vain);
+    assert_int_equal(atomic_load(&p.done), CROWD);
+    dp_threads_destroy(threads);
+}
+
+/* Many calls, few workers, items that take their time without using it. */
+static void sleep_in_item(void *arg, uint32_t index, uint32_t worker) {
+    (void)arg, (void)index, (void)worker;
+    sleep_a_moment();
+}
+
+static void too_many_calls_burn_no_time(void **state) {
+    enum { ITEMS = 100 };
+    (void)state;
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    dp_threads *const threads = dp_threads_create(2, crowd_loop, NULL, &memory);
+    const double wall = seconds(CLOCK_MONOTONIC), used = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    dp_parallel(threads, ITEMS, sleep_in_item, NULL);
+    const double took = seconds(CLOCK_MONOTONIC) - wall;
+    const double burnt = seconds(CLOCK_PROCESS_CPUTIME_ID) - used;
+    assert_true(took > 0.001 * ITEMS);
+    if (burnt > took / 4) fail_msg("%.0f ms of %.0f ms burnt", burnt * 1e3, took * 1e3);
     dp_threads_destroy(threads);
 }
 
@@ -133,6 +214,9 @@ int main(void) {
         cmocka_unit_test(no_work_calls_nobody),
         cmocka_unit_test(a_loop_sees_what_the_last_one_wrote),
         cmocka_unit_test(the_application_can_bring_its_own_threads),
+        cmocka_unit_test(or_none_at_all),
+        cmocka_unit_test(a_call_without_a_worker_returns_at_once),
+        cmocka_unit_test(too_many_calls_burn_no_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
