@@ -80,7 +80,7 @@ static int measure(const tool_settings *s, bench *b) {
 static int run(const tool_settings *s, bench *b) {
     b->count = s->frames ? s->frames : 10;
     b->target = make_target(s);
-    b->target.rgba = malloc((size_t)4 * b->target.width * b->target.height);
+    b->target.rgba = calloc((size_t)b->target.width * b->target.height, 4);
     b->frames = calloc(b->count, sizeof *b->frames);
     double *const times = calloc(b->count, sizeof *times);
     int code = EXIT_FAILED;

@@ -48,7 +48,7 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     const char *const remark = style.shade.model_colors ? dp_source_remark(d->source) : NULL;
     if (remark && !s->quiet) warn("%s", remark);
     if (!s->quiet) warn_strokeless(s, &style);
-    d->target.rgba = malloc((size_t)4 * d->target.width * d->target.height);
+    d->target.rgba = calloc((size_t)d->target.width * d->target.height, 4);
     if (!d->target.rgba) {
         wrong_usage("out of memory for %u x %u pixels; give a smaller --size", d->target.width,
                     d->target.height);

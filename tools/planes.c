@@ -26,7 +26,7 @@ int planes_prepare(const tool_settings *s, dp_target *t) {
     for (int k = 0; k < PLANE_COUNT; k++) {
         if (!s->planes[k]) continue;
         if (!output_possible(s->planes[k])) return EXIT_FAILED;
-        void *const block = malloc(plane_size[k] * t->width * t->height);
+        void *const block = calloc((size_t)t->width * t->height, plane_size[k]);
         if (!block) {
             wrong_usage("out of memory for the %s; give a smaller --size", plane_names[k]);
             return EXIT_FAILED;
@@ -98,7 +98,7 @@ int planes_write(const tool_settings *s, const dp_target *t) {
     int code = 0;
     for (int k = 0; k < PLANE_COUNT && !code; k++) {
         if (!s->planes[k]) continue;
-        uint8_t *const rgba = malloc(4 * n);
+        uint8_t *const rgba = calloc(n, 4);
         if (!rgba) {
             wrong_usage("out of memory for the %s; give a smaller --size", plane_names[k]);
             return EXIT_FAILED;

@@ -86,8 +86,10 @@ typedef struct dp_target {
  * stable batch are drawn from where they lie, whatever their size.
  *
  * style NULL: all defaults. The picture is the same, bit for bit, for any number of threads.
- * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with; and
- * DP_ERR_FORMAT when the source held polygons but every one of them had to be dropped. */
+ * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with;
+ * DP_ERR_FORMAT when the source held polygons but every one of them had to be dropped; DP_ERR_LIMIT
+ * when a picture's samples do not fit into a size_t, which takes one of 32 bits and more than 130
+ * million pixels. */
 DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *style, const dp_target *target, dp_diag *diag);
 

@@ -25,6 +25,7 @@ dp_allocator dp_allocator_resolve(const dp_allocator *allocator) {
 }
 
 void *dp_alloc(const dp_allocator *allocator, size_t size) {
+    if (size > PTRDIFF_MAX) return NULL;
     return allocator->alloc(size ? size : 1, allocator->user);
 }
 
@@ -35,8 +36,7 @@ void *dp_alloc_zeroed(const dp_allocator *allocator, size_t size) {
 }
 
 void *dp_alloc_array(const dp_allocator *allocator, size_t count, size_t size) {
-    if (size && count > SIZE_MAX / size) return NULL;
-    return dp_alloc(allocator, count * size);
+    return dp_alloc(allocator, dp_times(count, size));
 }
 
 void dp_free(const dp_allocator *allocator, void *block) {
@@ -47,9 +47,9 @@ bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capa
                 size_t item_size) {
     if (need <= *capacity) return true;
     size_t grown = *capacity + *capacity / DP_TUNED(2, 8);
-    if (grown < need) grown = need;
     if (grown < DP_TUNED(64, 1)) grown = DP_TUNED(64, 1);
-    if (grown > SIZE_MAX / item_size) return false;
+    if (grown < need || dp_times(grown, item_size) > PTRDIFF_MAX) grown = need;
+    if (dp_times(grown, item_size) > PTRDIFF_MAX) return false;
     void *block;
     memcpy(&block, block_address, sizeof block);
     block = allocator->realloc(block, grown * item_size, allocator->user);

@@ -7,9 +7,16 @@
 /* A copy with the defaults filled in; `allocator` may be NULL. */
 dp_allocator dp_allocator_resolve(const dp_allocator *allocator);
 
+/* a * b; SIZE_MAX, which no allocation grants, where that overflows. Sizes that files, pictures or
+ * callers have a say in are multiplied by this: a size_t of 32 bits is soon full. */
+static inline size_t dp_times(size_t a, size_t b) {
+    return b && a > SIZE_MAX / b ? SIZE_MAX : a * b;
+}
+
+/* NULL where there is no memory, and for more than PTRDIFF_MAX bytes, which no object may have. */
 void *dp_alloc(const dp_allocator *allocator, size_t size);
 void *dp_alloc_zeroed(const dp_allocator *allocator, size_t size);
-/* count * size, NULL where that overflows. */
+/* count * size. */
 void *dp_alloc_array(const dp_allocator *allocator, size_t count, size_t size);
 void dp_free(const dp_allocator *allocator, void *block);
 

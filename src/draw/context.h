@@ -54,6 +54,9 @@ dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera
 
 enum { DP_PICTURE_MOST = 32768 /* px, either side */ };
 
+/* The target with its defaults filled in; DP_ERR_ARGUMENT, DP_ERR_LIMIT. */
+dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag);
+
 /* dp_draw with a mirror; the style is resolved (draw/mirror.c). */
 dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,
                            const dp_style *style, const dp_target *target, dp_diag *diag);

@@ -116,7 +116,17 @@ static dp_result out_of_memory(dp_diag *diag) {
     return dp_fail(diag, DP_ERR_MEMORY, "out of memory while drawing");
 }
 
-static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *diag) {
+/* Nothing that is made for a picture's pixels and samples takes more bytes than this at once. */
+static size_t largest_array(const dp_target *t) {
+    enum { BYTES_PER_PIXEL = 4 * sizeof(float) }; /* of planes; of depth, one float per sample */
+    const size_t tiles =
+        (size_t)((t->width + DP_TILE - 1) / DP_TILE) * ((t->height + DP_TILE - 1) / DP_TILE);
+    const size_t bytes = t->samples * sizeof(float);
+    return dp_times(tiles, (size_t)DP_TILE * DP_TILE *
+                               (bytes > BYTES_PER_PIXEL ? bytes : BYTES_PER_PIXEL));
+}
+
+dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag) {
     *out = *target;
     if (!out->samples) out->samples = 4;
     if (!out->rgba_stride) out->rgba_stride = 4 * (size_t)out->width;
@@ -130,6 +140,10 @@ static dp_result check_target(const dp_target *target, dp_target *out, dp_diag *
                        out->samples);
     if (out->rgba_stride < 4 * (size_t)out->width)
         return dp_fail(diag, DP_ERR_ARGUMENT, "rgba_stride is less than a row of pixels");
+    if (largest_array(out) > PTRDIFF_MAX)
+        return dp_fail(diag, DP_ERR_LIMIT,
+                       "%u x %u px of %u samples are more than %zu bits of address can hold",
+                       out->width, out->height, out->samples, 8 * sizeof(size_t));
     return DP_OK;
 }
 
@@ -160,7 +174,7 @@ static bool begin_frame(dp_context *c) {
     f->tiles_y = (f->target.height + DP_TILE - 1) / DP_TILE;
     f->tile_samples = (size_t)DP_TILE * DP_TILE * f->target.samples;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y;
-    return dp_reserve(&c->memory, &f->depth, &f->depth_cap, tiles * f->tile_samples,
+    return dp_reserve(&c->memory, &f->depth, &f->depth_cap, dp_times(tiles, f->tile_samples),
                       sizeof *f->depth) &&
            dp_reserve(&c->memory, &f->tile_pieces, &f->tile_pieces_cap, tiles,
                       sizeof *f->tile_pieces) &&
@@ -285,7 +299,7 @@ static bool begin_paint(dp_context *c) {
     f->painted_later = c->shade.colored;
     if (!f->painted_later || !inks_early) return true;
     if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap,
-                    4 * (size_t)f->target.width * f->target.height, 1))
+                    dp_times(4, (size_t)f->target.width * f->target.height), 1))
         return false;
     f->ink_layer = c->shade.inked;
     return true;
@@ -467,7 +481,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);
-    dp_result result = check_target(target, &f->target, diag);
+    dp_result result = dp_check_target(target, &f->target, diag);
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
     if (!result) begin_view(f);
     if (!result) result = draw(c, source, diag);

@@ -100,7 +100,7 @@ static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *c
                             const dp_plane_equation *plane, const dp_view *view, dp_diag *diag) {
     const size_t pixels = (size_t)target->width * target->height;
     const bool fades = style->mirror.fade > 0;
-    if (!dp_reserve(&c->memory, &c->mirror.rgba, &c->mirror.rgba_cap, 4 * pixels, 1) ||
+    if (!dp_reserve(&c->memory, &c->mirror.rgba, &c->mirror.rgba_cap, dp_times(4, pixels), 1) ||
         (fades && !dp_reserve(&c->memory, &c->mirror.distance, &c->mirror.distance_cap, pixels,
                               sizeof(float))))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
@@ -139,10 +139,10 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     dp_source *with_mirror = NULL;
     if (!dp_source_rewindable(source))
         return dp_fail(diag, DP_ERR_UNSUPPORTED, "a mirror needs a source that can be read twice");
-    if (target->width - 1 >= DP_PICTURE_MOST ||
-        target->height - 1 >= DP_PICTURE_MOST) /* which it tells */
-        return dp_draw_groups(c, source, camera, style, 1, target, diag);
-    dp_result result = dp_view_init(&view, camera, target->width, target->height, diag);
+    dp_target checked;
+    dp_result result = dp_check_target(target, &checked, diag);
+    if (result) return result;
+    result = dp_view_init(&view, camera, target->width, target->height, diag);
     if (result) return result;
     const dp_plane_equation plane = plane_of(&style->mirror, &view);
     make_square(&style->mirror, &plane, corners);

@@ -19,7 +19,7 @@ void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
 
 static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
     const size_t floats = g->textured ? 8 : 6,
-                 bytes = plane * (floats * sizeof(float) + sizeof(uint16_t) + 1);
+                 bytes = dp_times(plane, floats * sizeof(float) + sizeof(uint16_t) + 1);
     return dp_reserve(frame->memory, &g->block, &g->block_cap, bytes, 1) &&
            dp_reserve(frame->memory, &g->mask, &g->mask_cap, 2 * tiles * DP_TILE,
                       sizeof *g->mask) &&

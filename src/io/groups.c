@@ -22,7 +22,7 @@ static uint32_t *find_slot(const dp_groups *groups, const char *name) {
 
 static bool grow_slots(dp_groups *groups) {
     const size_t count = groups->slot_count ? 2 * groups->slot_count : 16;
-    uint32_t *const slots = dp_alloc_zeroed(&groups->allocator, count * sizeof *slots);
+    uint32_t *const slots = dp_alloc_zeroed(&groups->allocator, dp_times(count, sizeof *slots));
     if (!slots) return false;
     dp_free(&groups->allocator, groups->slots);
     groups->slots = slots;

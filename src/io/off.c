@@ -118,7 +118,7 @@ static dp_result read_header(off *self) {
     const size_t vertices = dp_stream_hint(self->stream, (uint64_t)self->vertices, 6);
     const size_t triangles = dp_stream_hint(self->stream, (uint64_t)self->faces, 8);
     if (dp_builder_expect_vertices(self->builder, vertices) &&
-        dp_builder_expect_corners(self->builder, 3 * triangles))
+        dp_builder_expect_corners(self->builder, dp_times(3, triangles)))
         return DP_OK;
     return dp_builder_fail(self->builder, self->diag);
 }

@@ -265,8 +265,8 @@ static bool expect_items(ply *self) {
         return dp_builder_expect_vertices(self->builder,
                                           dp_stream_hint(self->stream, count, bytes));
     if (self->element->roles & 1u << DP_PLY_POLYGON)
-        return dp_builder_expect_corners(self->builder,
-                                         3 * dp_stream_hint(self->stream, count, bytes + 3));
+        return dp_builder_expect_corners(
+            self->builder, dp_times(3, dp_stream_hint(self->stream, count, bytes + 3)));
     return true;
 }
 

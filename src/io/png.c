@@ -17,7 +17,7 @@ static const size_t MOST_PIXELS = (size_t)1 << 28;
 
 static dp_result read_pixels(png_image *image, const dp_allocator *memory, dp_io_pixels *out,
                              dp_diag *diag) {
-    if ((size_t)image->width * image->height > MOST_PIXELS)
+    if ((uint64_t)image->width * image->height > MOST_PIXELS)
         return dp_fail(diag, DP_ERR_LIMIT, "%u x %u pixels are too many", image->width,
                        image->height);
     uint8_t *const rgba = dp_alloc_array(memory, (size_t)image->width * image->height, 4);

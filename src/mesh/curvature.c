@@ -177,9 +177,9 @@ static bool begin(bending *b, const dp_allocator *memory, uint32_t **first) {
     const size_t n = (size_t)b->polygons->vertex_count + 1;
     *first = dp_alloc_array(memory, n, sizeof **first);
     b->first = *first;
-    b->normal = dp_alloc_zeroed(memory, n * sizeof *b->normal);
-    b->area = dp_alloc_zeroed(memory, n * sizeof *b->area);
-    b->form = dp_alloc_zeroed(memory, n * sizeof *b->form);
+    b->normal = dp_alloc_zeroed(memory, dp_times(n, sizeof *b->normal));
+    b->area = dp_alloc_zeroed(memory, dp_times(n, sizeof *b->area));
+    b->form = dp_alloc_zeroed(memory, dp_times(n, sizeof *b->form));
     return *first && b->normal && b->area && b->form && dp_find_places(b->polygons, *first, memory);
 }
 
@@ -430,7 +430,7 @@ static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *
     bending b = {.polygons = p};
     uint32_t *first;
     const size_t n = (size_t)p->vertex_count + 2;
-    if (6 * triangle_count(p) > UINT32_MAX)
+    if (6 * triangle_count(p) >= UINT32_MAX)
         return false; /* 700 million triangles: as good as no memory */
     spreading s = {.b = &b,
                    .start = dp_alloc_array(memory, n, sizeof *s.start),

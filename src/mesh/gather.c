@@ -195,8 +195,8 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
         g->handed_out + batch->polygon_count >= UINT32_MAX / 4)
         return dp_fail(g->diag, DP_ERR_LIMIT, "more than %u vertices, corners or polygons",
                        UINT32_MAX / 4);
-    if (!dp_reserve(g->memory, &s->positions, &s->positions_cap, 3 * (base + batch->vertex_count),
-                    sizeof *s->positions) ||
+    if (!dp_reserve(g->memory, &s->positions, &s->positions_cap,
+                    dp_times(3, base + batch->vertex_count), sizeof *s->positions) ||
         !dp_attribute_add_values(&s->normals, &batch->normals, 3, s->corner_count, g->memory) ||
         !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory))
         return out_of_memory(g);

@@ -21,7 +21,7 @@ bool dp_find_places(const dp_polygons *polygons, uint32_t *first, const dp_alloc
     const uint32_t n = polygons->vertex_count;
     size_t slots = 64;
     while (slots < 2 * (size_t)n) slots *= 2;
-    uint32_t *const table = dp_alloc_zeroed(memory, slots * sizeof *table);
+    uint32_t *const table = dp_alloc_zeroed(memory, dp_times(slots, sizeof *table));
     if (!table) return false;
     for (uint32_t v = 0; v < n; v++) {
         const float *const p = dp_vertex_position(polygons, v);

@@ -55,9 +55,9 @@ static void reflect_direction(const dp_plane_equation *plane, const float *v, fl
     dp_reserve(&(r)->memory, &(r)->array, &(r)->cap, (need), sizeof *(r)->array)
 
 static bool reserve_batch(reflection *r, const dp_batch *b) {
-    return dp_reserve(&r->memory, &r->positions, &r->positions_cap, 3 * (b->vertex_count + 8),
-                      sizeof(float)) &&
-           dp_reserve(&r->memory, &r->normals, &r->normals_cap, 3 * b->normals.count + 3,
+    return dp_reserve(&r->memory, &r->positions, &r->positions_cap,
+                      dp_times(3, b->vertex_count + 8), sizeof(float)) &&
+           dp_reserve(&r->memory, &r->normals, &r->normals_cap, dp_times(3, b->normals.count + 1),
                       sizeof(float)) &&
            RESERVE(r, firsts, firsts_cap, b->polygon_count + 1) &&
            RESERVE(r, groups, groups_cap, b->polygon_count + 1);
@@ -66,8 +66,8 @@ static bool reserve_batch(reflection *r, const dp_batch *b) {
 /* Room for one more polygon of up to n + 1 corners, two of them at new vertices. */
 static bool reserve_polygon(reflection *r, size_t n) {
     const size_t corners = r->corner_count + n + 2;
-    return dp_reserve(&r->memory, &r->positions, &r->positions_cap, 3 * (r->vertices + 2 * n + 2),
-                      sizeof(float)) &&
+    return dp_reserve(&r->memory, &r->positions, &r->positions_cap,
+                      dp_times(3, r->vertices + 2 * n + 2), sizeof(float)) &&
            RESERVE(r, indices, indices_cap, corners) && RESERVE(r, flags, flags_cap, corners) &&
            RESERVE(r, normal_indices, normal_cap, corners) &&
            RESERVE(r, texcoord_indices, texcoord_cap, corners) &&

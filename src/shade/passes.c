@@ -180,9 +180,10 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
     const dp_shade *const shade = &s->setup.shade;
     const bool smooth = shade->shading == DP_SHADING_TOON && !shade->nearest;
     if (!choose_strokes(s, frame->memory) ||
-        (s->colored && !dp_reserve(frame->memory, &s->color, &s->color_cap, 4 * pixels, 1)) ||
+        (s->colored &&
+         !dp_reserve(frame->memory, &s->color, &s->color_cap, dp_times(4, pixels), 1)) ||
         (s->colored && smooth &&
-         !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, 4 * pixels, 1)))
+         !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, dp_times(4, pixels), 1)))
         return false;
     s->shown = smooth ? s->smooth : s->color;
     return true;

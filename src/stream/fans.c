@@ -113,7 +113,7 @@ bool dp_stream_make_fans(dp_stream_draw *s) {
     if (!count || count > s->crowd_limit / 2) return true; /* too many to be looked after */
     s->fan_slot_count = 64;
     while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
-    s->fan_slots = dp_alloc_zeroed(s->memory, s->fan_slot_count * sizeof *s->fan_slots);
+    s->fan_slots = dp_alloc_zeroed(s->memory, dp_times(s->fan_slot_count, sizeof *s->fan_slots));
     s->fans = dp_alloc_array(s->memory, count, sizeof *s->fans);
     s->fan_filter_bits =
         s->fan_slot_count < 1u << 27 ? 16 * s->fan_slot_count : 1u << 31; /* few of them are set */

@@ -25,7 +25,9 @@ enum {
     PER_KEPT = 160,
     CHUNKS_LEAST = DP_TUNED(1, 2),
     CHUNKS_MOST = DP_TUNED(64, 2),
-    KEPT_LEAST = 65536
+    KEPT_LEAST = 65536,
+    KEPT_MOST =
+        1 << 28 /* of their edges twice as many slots, a power of two, are counted in 32 bits */
 };
 
 bool dp_stream_is_large(const dp_source *source, size_t memory) {
@@ -93,11 +95,11 @@ static bool make_picture(dp_stream_draw *s) {
     const dp_frame *const f = s->frame;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y, blocks = tiles * DP_BLOCKS * DP_BLOCKS;
     s->farthest = dp_alloc_array(s->memory, blocks, sizeof *s->farthest);
-    s->wanted = dp_alloc_zeroed(s->memory, tiles * DP_TILE * sizeof *s->wanted);
-    s->lines = dp_alloc_zeroed(s->memory, tiles * sizeof *s->lines);
+    s->wanted = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->wanted));
+    s->lines = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->lines));
     if (!s->farthest || !s->wanted || !s->lines) return false;
-    s->crowded = dp_alloc_zeroed(s->memory, tiles * DP_TILE * sizeof *s->crowded);
-    s->suspects = dp_alloc_zeroed(s->memory, tiles * sizeof *s->suspects);
+    s->crowded = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->crowded));
+    s->suspects = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->suspects));
     s->away = dp_alloc_zeroed(s->memory, tiles * f->tile_samples / 8);
     s->crowd_counts = dp_alloc_zeroed(s->memory, tiles * DP_TILE * DP_TILE);
     if (!s->crowded || !s->suspects || !s->away || !s->crowd_counts) return false;
@@ -127,6 +129,7 @@ static dp_result open_stream(dp_stream_draw *s, dp_source *source, dp_diag *diag
     const size_t parts = (size_t)s->chunks * PER_CHUNK;
     s->kept.limit = (limit > parts ? limit - parts : 0) / PER_KEPT;
     if (s->kept.limit < KEPT_LEAST) s->kept.limit = KEPT_LEAST;
+    if (s->kept.limit > KEPT_MOST) s->kept.limit = KEPT_MOST;
     s->crowd_limit = s->kept.limit / 2;
     if (!make_workers(s) || !make_rests(s) || !make_picture(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");

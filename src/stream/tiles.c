@@ -93,8 +93,9 @@ bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles
     const size_t first = s->mesh_count, all = first + count;
     dp_polygons *const polygons = &s->frame->polygons;
     if (all >= UINT32_MAX / 4 ||
-        !dp_reserve(s->memory, &s->positions, &s->positions_cap, 9 * all, sizeof *s->positions) ||
-        !dp_reserve(s->memory, &s->edge_flags, &s->flags_cap, 3 * all, 1) ||
+        !dp_reserve(s->memory, &s->positions, &s->positions_cap, dp_times(9, all),
+                    sizeof *s->positions) ||
+        !dp_reserve(s->memory, &s->edge_flags, &s->flags_cap, dp_times(3, all), 1) ||
         !dp_reserve(s->memory, &s->polygon_numbers, &s->numbers_cap, all,
                     sizeof *s->polygon_numbers) ||
         !dp_reserve(s->memory, &s->source_polygons, &s->source_cap, all,

@@ -92,7 +92,7 @@ static void halve(const dp_texture *t, uint32_t from) {
 static bool add_level(dp_texture *t, uint32_t width, uint32_t height) {
     const uint32_t i = t->levels;
     t->width[i] = width, t->height[i] = height;
-    t->pixels[i] = dp_alloc(&t->memory, (size_t)4 * width * height);
+    t->pixels[i] = dp_alloc(&t->memory, dp_times((size_t)4 * width, height));
     if (!t->pixels[i]) return false;
     t->levels++;
     return true;

@@ -9,6 +9,7 @@
 #include <drypoint/io.h>
 
 #include "base/diag.h"
+#include "base/memory.h"
 #include "write/file.h"
 
 #include <png.h>
@@ -132,7 +133,7 @@ static void encode(encoder *self) {
 
 static dp_result prepare(encoder *self, const char *path) {
     dp_diag *const diag = &self->diag;
-    self->row = malloc((size_t)4 * self->picture->width);
+    self->row = malloc(dp_times(4, self->picture->width));
     self->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, self, on_error, on_warning);
     if (self->png) self->info = png_create_info_struct(self->png);
     if (!self->row || !self->info) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a PNG");

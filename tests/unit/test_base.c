@@ -64,6 +64,47 @@ static void arrays_keep_their_items_when_they_grow(void **state) {
     dp_free(&memory, items);
 }
 
+static void products_do_not_wrap(void **state) {
+    const size_t half = SIZE_MAX / 2 + 1, root = (size_t)1 << 4 * sizeof(size_t);
+    (void)state;
+    assert_true(dp_times(0, SIZE_MAX) == 0 && dp_times(SIZE_MAX, 0) == 0);
+    assert_true(dp_times(SIZE_MAX, 1) == SIZE_MAX && dp_times(1, SIZE_MAX) == SIZE_MAX);
+    assert_true(dp_times(3, 5) == 15);
+    assert_true(dp_times(half - 1, 2) == SIZE_MAX - 1);
+    assert_true(dp_times(half, 2) == SIZE_MAX && dp_times(2, half) == SIZE_MAX);
+    assert_true(dp_times(root, root) == SIZE_MAX);
+    assert_true(dp_times(root, root - 1) == SIZE_MAX - root + 1);
+}
+
+/* An allocator that must not be asked for what no object can be. */
+static void *grant(size_t size, void *user) {
+    *(size_t *)user = size;
+    return NULL;
+}
+static void *regrant(void *block, size_t size, void *user) {
+    (void)block;
+    return grant(size, user);
+}
+static void ungrant(void *block, void *user) { (void)block, (void)user; }
+
+static void no_block_is_larger_than_distances(void **state) {
+    (void)state;
+    size_t asked = 0, capacity = 0;
+    const dp_allocator memory = {grant, regrant, ungrant, &asked};
+    char *block = NULL;
+    assert_null(dp_alloc(&memory, (size_t)PTRDIFF_MAX + 1));
+    assert_null(dp_alloc_zeroed(&memory, SIZE_MAX));
+    assert_null(dp_alloc_array(&memory, SIZE_MAX / 4, 3));
+    assert_false(dp_reserve(&memory, &block, &capacity, (size_t)PTRDIFF_MAX + 1, 1));
+    assert_false(dp_reserve(&memory, &block, &capacity, SIZE_MAX, 16));
+    assert_int_equal(asked, 0);
+    assert_null(dp_alloc(&memory, PTRDIFF_MAX));
+    assert_true(asked == PTRDIFF_MAX);
+    capacity = PTRDIFF_MAX - 7; /* there is no room to grow by half, but for what is needed */
+    assert_false(dp_reserve(&memory, &block, &capacity, PTRDIFF_MAX - 5, 1));
+    assert_true(asked == PTRDIFF_MAX - 5);
+}
+
 static void sizes_that_overflow_are_refused(void **state) {
     (void)state;
     const dp_allocator memory = dp_allocator_resolve(NULL);
@@ -82,6 +123,8 @@ int main(void) {
         cmocka_unit_test(failing_fills_the_diagnosis),
         cmocka_unit_test(a_long_message_is_cut_and_ended),
         cmocka_unit_test(arrays_keep_their_items_when_they_grow),
+        cmocka_unit_test(products_do_not_wrap),
+        cmocka_unit_test(no_block_is_larger_than_distances),
         cmocka_unit_test(sizes_that_overflow_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -175,11 +175,58 @@ static void later_frames_allocate_nothing(void **state) {
     }
 }
 
+/* Grants no block above 64 MB. */
+static void *small_alloc(size_t size, void *user) {
+    (void)user;
+    return size > (size_t)64 << 20 ? NULL : malloc(size);
+}
+static void *small_realloc(void *block, size_t size, void *user) {
+    (void)user;
+    return size > (size_t)64 << 20 ? NULL : realloc(block, size);
+}
+static void small_free(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+/* The largest picture in every way that makes something of its size: where a size were to wrap, a
+ * small block would be granted and written beyond. */
+static void the_largest_picture_is_refused_in_time(void **state) {
+    static const dp_style styles[] = {
+        {0},
+        {.ink = DP_INK_QUADS},
+        {.shade = {.shading = DP_SHADING_TOON}},
+        {.edge_map = {.detector = DP_EDGE_MAP_C1}},
+        {.mirror = {.normal = {0, 1, 0}, .offset = -1, .size = 4, .fade = 1}},
+    };
+    static uint8_t rgba[4]; /* nothing gets so far as to write it */
+    const dp_result expected = sizeof(size_t) > 4 ? DP_ERR_MEMORY : DP_ERR_LIMIT;
+    const dp_allocator allocator = {small_alloc, small_realloc, small_free, NULL};
+    const dp_context_desc desc = {.allocator = &allocator, .threads = 2};
+    const dp_camera camera = camera_of(2, 1.5, 2.5);
+    dp_context *context = NULL;
+    dp_source *source = new_shape("cube", NULL);
+    (void)state;
+    assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+    for (size_t i = 0; i < sizeof styles / sizeof *styles; i++)
+        for (uint32_t samples = 1; samples <= 16; samples += samples == 1 ? 3 : samples) {
+            dp_diag diag = {0};
+            const dp_target target = {
+                .width = 32768, .height = 32768, .samples = samples, .rgba = rgba};
+            assert_int_equal(dp_draw(context, source, &camera, &styles[i], &target, &diag),
+                             expected);
+            assert_int_equal(diag.result, expected);
+        }
+    dp_context_destroy(context);
+    dp_source_destroy(source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(recording_may_run_out_of_memory),
         cmocka_unit_test(later_frames_allocate_nothing),
+        cmocka_unit_test(the_largest_picture_is_refused_in_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
