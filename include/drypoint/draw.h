@@ -41,7 +41,9 @@ typedef struct dp_context_desc {
     void (*parallel_for)(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
                          void *arg);
     /* Called from the drawing thread now and then, fraction in [0, 1], or negative while a source
-     * of unknown length is streamed; a non-zero return stops the drawing with DP_ERR_CANCELLED. */
+     * of unknown length is streamed. It never falls and is 1 when a picture is done, whatever that
+     * takes: several readings, shading, a mirror. A non-zero return stops the drawing with
+     * DP_ERR_CANCELLED. */
     int (*progress)(void *user, double fraction);
     void *user;
     /* Memory beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. A source that

@@ -53,6 +53,7 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     c->memory = memory;
     c->limit = d.memory ? d.memory : DP_MEMORY_DEFAULT;
     c->progress = d.progress;
+    c->share_to = 1;
     c->user = d.user;
     c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
     if (c->threads) {
@@ -212,6 +213,9 @@ static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
                                                              index);
 }
 
+/* Progress when a stage is over; what is read in parts ends at DP_STREAMED instead. */
+static const double BINNED = 0.1, FOUND = 0.8, SHADED = 0.85;
+
 /* A part of a long loop, so that progress can be told between the parts. */
 typedef struct part {
     dp_context *context;
@@ -224,15 +228,26 @@ static void part_task(void *arg, uint32_t index, uint32_t worker) {
     p->task(p->context, p->first + index, worker);
 }
 
+dp_result dp_tell_progress(const dp_context *c, double fraction, dp_diag *diag) {
+    if (!c->progress) return DP_OK;
+    /* min: the sum may be rounded up, and the end is to be met exactly */
+    const double done = c->share_from + (c->share_to - c->share_from) * fraction;
+    const double told = fraction < 0 ? -1 : fraction >= 1 ? c->share_to : dp_min(done, c->share_to);
+    if (c->progress(c->user, told)) return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
+    return DP_OK;
+}
+
+/* Progress runs from `from` to `to`. */
 static dp_result for_tiles(dp_context *c, dp_task *task, double from, double to, dp_diag *diag) {
     const uint32_t tiles = c->frame.tiles_x * c->frame.tiles_y;
     const uint32_t step = c->progress && tiles > 64 ? (tiles + 15) / 16 : tiles;
     for (uint32_t first = 0; first < tiles; first += step) {
         part p = {c, task, first};
         dp_parallel(c->threads, tiles - first < step ? tiles - first : step, part_task, &p);
-        const double done = from + (to - from) * (first + step) / tiles;
-        if (c->progress && c->progress(c->user, done > 1 ? 1 : done))
-            return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
+        const double done = tiles - first > step ? (double)(first + step) / tiles : 1;
+        const dp_result result =
+            dp_tell_progress(c, done < 1 ? dp_min(from + (to - from) * done, to) : to, diag);
+        if (result) return result;
     }
     return DP_OK;
 }
@@ -353,10 +368,7 @@ static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag
 }
 
 static dp_result report(void *arg, double done, dp_diag *diag) {
-    const dp_context *const c = arg;
-    if (c->progress && c->progress(c->user, done))
-        return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
-    return DP_OK;
+    return dp_tell_progress(arg, done, diag);
 }
 
 static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
@@ -404,7 +416,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
     if (!begin_paint(c)) return out_of_memory(diag);
-    if ((result = for_tiles(c, find_tile, 0.1, 0.8, diag))) return result;
+    if ((result = for_tiles(c, find_tile, BINNED, FOUND, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->finders[i].tile.failed) return out_of_memory(diag);
         add_counts(&c->stats, &c->finders[i].tile.stats);
@@ -418,9 +430,10 @@ static dp_result shade(dp_context *c, dp_diag *diag) {
     if (!c->shade.active) return DP_OK;
     dp_shade_prepare(&c->shade);
     for (int pass = 0; pass < DP_SHADE_PASSES; pass++) {
+        const double share = (SHADED - FOUND) / DP_SHADE_PASSES, from = FOUND + pass * share;
         if (!dp_shade_pass_runs(&c->shade, pass)) continue;
         c->shade_pass = pass;
-        const dp_result result = for_tiles(c, shade_tile, 0.8, 0.85, diag);
+        const dp_result result = for_tiles(c, shade_tile, from, from + share, diag);
         if (result) return result;
         dp_shade_pass_ends(&c->shade, pass);
     }
@@ -448,7 +461,7 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
     if ((result = shade(c, diag))) return result;
     lap(&c->stats, DP_STAGE_SHADE, &since);
-    if ((result = for_tiles(c, ink_tile, 0.85, 1, diag))) return result;
+    if ((result = for_tiles(c, ink_tile, *stream ? DP_STREAMED : SHADED, 1, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++)
         if (c->ink_workers[i].failed) return out_of_memory(diag);
     lap(&c->stats, DP_STAGE_INK, &since);

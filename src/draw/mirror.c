@@ -146,13 +146,18 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     if (result) return result;
     const dp_plane_equation plane = plane_of(&style->mirror, &view);
     make_square(&style->mirror, &plane, corners);
-    if ((result = draw_image(c, source, camera, style, target, &plane, &view, diag))) return result;
+    c->share_to = 0.5; /* two pictures, of much the same work */
+    result = draw_image(c, source, camera, style, target, &plane, &view, diag);
+    c->share_to = 1;
+    if (result) return result;
     result = dp_add_quad_source(source, (const float(*)[3])corners, DP_MIRROR_GROUP, &c->memory,
                                 &with_mirror, diag);
     if (result) return result;
+    c->share_from = 0.5;
     c->shade.mirrored = c->mirror.rgba;
     result = dp_draw_groups(c, with_mirror, camera, style, 1, target, diag);
     c->shade.mirrored = NULL;
+    c->share_from = 0;
     dp_source_destroy(with_mirror);
     return result;
 }

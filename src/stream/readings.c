@@ -240,7 +240,8 @@ static dp_result report(const dp_stream_draw *s, double from, double to, dp_diag
     double done = dp_input_fraction(&s->input);
     if (done < 0 && s->triangles)
         done = (double)(s->input.first + s->input.count) / (double)s->triangles;
-    return s->setup.report(s->setup.arg, done < 0 ? done : from + (to - from) * done, diag);
+    return s->setup.report(
+        s->setup.arg, done < 0 ? done : dp_min(from + (to - from) * dp_min(done, 1), to), diag);
 }
 
 static dp_result read_all(dp_stream_draw *s, dp_reading reading, double from, double to,

@@ -154,7 +154,7 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
             s->kept.lost += s->kept.later_count + 1; /* not known how many */
             return DP_OK;
         }
-        const double to = *done + (0.95 - *done) / (s->kept.later_count + 2);
+        const double to = *done + (DP_STREAMED - *done) / (s->kept.later_count + 2);
         const dp_result result = dp_stream_read(s, DP_READ_EDGES, *done, to, diag);
         if (result) return result;
         *done = to;
@@ -166,7 +166,7 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
 static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
     const dp_frame *const f = s->frame;
     s->read_again = f->lines && f->styles[0].passes != 1 && dp_source_rewindable(source);
-    s->done = s->read_again ? 0.6 : 0.95;
+    s->done = s->read_again ? 0.6 : DP_STREAMED;
     dp_result result = open_stream(s, source, diag);
     if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);
     if (!result) add_stats(s);
@@ -211,7 +211,7 @@ dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {
     if (s->read_again && !want_pixels(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the second reading");
     const dp_result result =
-        s->read_again ? dp_stream_read(s, DP_READ_HIDERS, s->done, 0.95, diag) : DP_OK;
+        s->read_again ? dp_stream_read(s, DP_READ_HIDERS, s->done, DP_STREAMED, diag) : DP_OK;
     if (result) return result;
     if (lines && (!dp_stream_find_crossings(s) || !dp_stream_collect(s)))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");

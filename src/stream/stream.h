@@ -10,6 +10,9 @@
 #define DP_MEMORY_DEFAULT ((size_t)256 << 20)
 #define DP_MEMORY_LEAST   ((size_t)48 << 20)
 
+/* Progress of a drawing when all of the source is read. */
+#define DP_STREAMED 0.95
+
 /* Is a source of records, whose size is known, too large to be gathered within `memory` bytes? */
 bool dp_stream_is_large(const dp_source *source, size_t memory);
 

@@ -1,0 +1,222 @@
+/* Progress: in every mode it runs forward and ends at exactly 1; who says stop is not asked
+ * again, and the next drawing is as if nothing had been. */
+#include "base/hostile.h"
+#include "pipe/context.h"
+
+#include <drypoint/drypoint.h>
+#include <drypoint/io.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+/* Tiles in an odd number above 64, so that parts of loops do not come out even. */
+enum { WIDTH = DP_TUNED(700, 175), HEIGHT = DP_TUNED(560, 140), PIXELS = WIDTH * HEIGHT };
+
+static uint8_t rgba[4 * PIXELS], expected[4 * PIXELS], edge_map[4 * PIXELS];
+static float eye_normal[3 * PIXELS];
+
+typedef struct told {
+    double last;     /* -1: not known yet */
+    int calls, rest; /* rest: calls where it stood still */
+    int stop_at;     /* 0: never */
+    bool fell, outside;
+} told;
+
+static int listen(void *user, double fraction) {
+    told *const t = user;
+    t->fell |= t->last >= 0 && fraction < t->last;
+    t->outside |= fraction > 1 || fraction != fraction;
+    t->rest += fraction >= 0 && fraction == t->last;
+    t->last = fraction < 0 ? -1 : fraction;
+    return ++t->calls == t->stop_at;
+}
+
+/* How a test draws. */
+typedef struct mode {
+    const char *name, *shape;
+    dp_style style;
+    uint32_t triangles;
+    size_t limit; /* bytes before it is streamed; 0: many */
+    bool planes;  /* asks for edge map and normals as well */
+    bool file;    /* a binary STL, whose length is known and which is read by several threads */
+} mode;
+
+static char path[] = "/tmp/drypoint-progress-XXXXXX";
+
+static dp_source *as_file(dp_source *shape) {
+    dp_source *source = NULL;
+    assert_int_equal(dp_io_write_mesh(path, DP_MESH_FILE_STL, shape, NULL, NULL, NULL), DP_OK);
+    dp_source_destroy(shape);
+    assert_int_equal(dp_source_open(path, NULL, &source, NULL), DP_OK);
+    return source;
+}
+
+/* A source that does not say how long it is. */
+static dp_result next_of(void *user, dp_batch *batch, dp_diag *diag) {
+    return dp_source_next(user, batch, diag);
+}
+static dp_result rewind_of(void *user, dp_diag *diag) { return dp_source_rewind(user, diag); }
+static void destroy_of(void *user) { dp_source_destroy(user); }
+
+static dp_source *new_source(const mode *m, dp_camera *camera) {
+    dp_source *shape = NULL, *source = NULL;
+    dp_extent extent;
+    const dp_shape desc = {.name = m->shape ? m->shape : "gear",
+                           .triangles = m->triangles ? m->triangles : 2000};
+    assert_int_equal(dp_source_from_shape(&desc, &shape, NULL), DP_OK);
+    assert_int_equal(dp_source_extent(shape, &extent, NULL), DP_OK);
+    dp_fit fit = {.aspect = (double)WIDTH / HEIGHT};
+    memcpy(fit.min, extent.min, sizeof fit.min), memcpy(fit.max, extent.max, sizeof fit.max);
+    assert_int_equal(dp_camera_fit(camera, &fit), DP_OK);
+    if (m->file) return as_file(shape);
+    const dp_source_callbacks callbacks = {
+        .user = shape, .next = next_of, .rewind = rewind_of, .destroy = destroy_of};
+    assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, NULL), DP_OK);
+    return source;
+}
+
+static dp_result draw(dp_context *context, dp_source *source, const dp_camera *camera,
+                      const mode *m) {
+    const dp_target target = {.width = WIDTH,
+                              .height = HEIGHT,
+                              .samples = 1,
+                              .rgba = rgba,
+                              .edge_map = m->planes ? edge_map : NULL,
+                              .eye_normal = m->planes ? eye_normal : NULL};
+    memset(rgba, 0, sizeof rgba);
+    return dp_draw(context, source, camera, &m->style, &target, NULL);
+}
+
+static void expect_forward(const mode *m, const told *t) {
+    if (t->fell) fail_msg("%s: progress falls", m->name);
+    if (t->outside) fail_msg("%s: progress is outside of 0 to 1", m->name);
+    if (t->last != 1) fail_msg("%s: progress ends at %.17g", m->name, t->last);
+    if (t->rest) fail_msg("%s: progress stands still %d times", m->name, t->rest);
+    if (t->calls < 5) fail_msg("%s: progress is told %d times only", m->name, t->calls);
+}
+
+/* Draws through, then stops at some of the calls, and draws through again. */
+static void check(const mode *m) {
+    told t = {.last = -1};
+    const dp_context_desc desc = {.threads = 2, .progress = listen, .user = &t};
+    dp_context *context = NULL;
+    dp_camera camera;
+    dp_source *const source = new_source(m, &camera);
+    assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+    if (m->limit) context->limit = m->limit;
+    assert_int_equal(draw(context, source, &camera, m), DP_OK);
+    expect_forward(m, &t);
+    memcpy(expected, rgba, sizeof rgba);
+    const int calls = t.calls;
+    for (int stop = 1; stop <= calls; stop += 1 + calls / 5) {
+        t = (told){.last = -1, .stop_at = stop};
+        if (draw(context, source, &camera, m) != DP_ERR_CANCELLED)
+            fail_msg("%s: was not stopped at call %d", m->name, stop);
+        assert_int_equal(t.calls, stop);
+        assert_false(t.fell);
+    }
+    t = (told){.last = -1};
+    assert_int_equal(draw(context, source, &camera, m), DP_OK);
+    expect_forward(m, &t);
+    assert_int_equal(t.calls, calls);
+    assert_memory_equal(rgba, expected, sizeof rgba);
+    dp_context_destroy(context);
+    dp_source_destroy(source);
+}
+
+static const dp_mirror floor_mirror = {.normal = {0, 1, 0}, .offset = -1, .size = 4, .fade = 2};
+
+static void lines_and_quads(void **state) {
+    (void)state;
+    check(&(mode){.name = "strokes", .style = {0}});
+    check(&(mode){.name = "quads", .style = {.ink = DP_INK_QUADS}});
+    check(
+        &(mode){.name = "stencil", .style = {.ink = DP_INK_QUADS, .between = DP_BETWEEN_STENCIL}});
+    check(&(mode){.name = "adjacency", .style = {.edges = DP_EDGES_ADJACENCY}});
+    check(&(mode){.name = "adjacency, quads",
+                  .style = {.edges = DP_EDGES_ADJACENCY, .ink = DP_INK_QUADS}});
+    check(
+        &(mode){.name = "by hand", .style = {.stroke = {.jitter = 1, .taper = 20, .repeats = 3}}});
+    check(&(mode){.name = "no lines", .style = {.lines = DP_NO_LINES}});
+}
+
+static void every_shading(void **state) {
+    (void)state;
+    for (int k = 0; k < DP_SHADING_COUNT; k++) {
+        const char *const name = dp_shading_name((dp_shading)k);
+        check(&(mode){.name = name, .style = {.shade = {.shading = (dp_shading)k}}});
+        check(&(mode){.name = name,
+                      .style = {.shade = {.shading = (dp_shading)k, .object_space = true}}});
+        check(&(mode){.name = name,
+                      .style = {.shade = {.shading = (dp_shading)k},
+                                .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL, .eight_bits = true}},
+                      .planes = true});
+    }
+}
+
+static void edge_maps(void **state) {
+    (void)state;
+    check(&(mode){.name = "diagonal", .style = {.edge_map = {.detector = DP_EDGE_MAP_DIAGONAL}}});
+    check(
+        &(mode){.name = "C1", .style = {.edge_map = {.detector = DP_EDGE_MAP_C1}}, .planes = true});
+    check(&(mode){.name = "hidden",
+                  .style = {.edge_map = {.detector = DP_EDGE_MAP_C1, .hidden = true}},
+                  .planes = true});
+    check(&(mode){.name = "8 bits",
+                  .style = {.edge_map = {.detector = DP_EDGE_MAP_DIAGONAL,
+                                         .eight_bits = true,
+                                         .as_printed = true}}});
+    check(&(mode){.name = "planes", .style = {0}, .planes = true});
+}
+
+static void mirrors(void **state) {
+    (void)state;
+    check(&(mode){.name = "mirror", .style = {.mirror = floor_mirror}});
+    check(&(mode){.name = "mirror, quads", .style = {.mirror = floor_mirror, .ink = DP_INK_QUADS}});
+    check(&(mode){.name = "mirror, toon",
+                  .style = {.mirror = floor_mirror, .shade = {.shading = DP_SHADING_TOON}}});
+    check(&(mode){.name = "mirror, edge map",
+                  .style = {.mirror = floor_mirror, .edge_map = {.detector = DP_EDGE_MAP_C1}},
+                  .planes = true});
+}
+
+static void streamed(void **state) {
+    (void)state;
+    const uint32_t many = DP_TUNED(60000, 3000);
+    for (int k = 0; k < 4; k++) {
+        const int passes = k % 2;
+        const bool file = k / 2;
+        check(&(mode){.name = "streamed",
+                      .shape = "torus",
+                      .style = {.passes = passes},
+                      .triangles = many,
+                      .limit = 1,
+                      .file = file});
+        check(&(mode){.name = "streamed, no lines",
+                      .shape = "terrain",
+                      .style = {.passes = passes, .lines = DP_NO_LINES},
+                      .triangles = many,
+                      .limit = 1,
+                      .file = file});
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_and_quads), cmocka_unit_test(every_shading),
+        cmocka_unit_test(edge_maps),       cmocka_unit_test(mirrors),
+        cmocka_unit_test(streamed),
+    };
+    const int file = mkstemp(path);
+    if (file < 0 || close(file)) return 1;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unlink(path);
+    return failed;
+}
