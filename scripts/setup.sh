@@ -36,6 +36,7 @@ find_missing() {
     [ "${1:-build}" = check ] || return 0
     module cmocka || missing="$missing libcmocka-dev"
     have clang || missing="$missing clang"
+    [ -e /usr/share/i18n/locales/de_DE ] || missing="$missing locales" # a test makes one with a decimal comma
     fuzzer_runtime || missing="$missing $(compiler_rt)"
 }
 

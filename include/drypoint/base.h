@@ -36,7 +36,8 @@ typedef enum dp_result {
     DP_ERR_CANCELLED    /* the progress callback asked to stop */
 } dp_result;
 
-/* Where and why. Filled by value; messages are English, one line, without a final newline. */
+/* Where and why. Filled by value; messages are English, one line, without a final newline;
+ * numbers in them have a decimal point. */
 typedef struct dp_diag {
     dp_result result;
     uint64_t line;   /* 1-based line of a text file, 0 where there is none */

@@ -58,8 +58,9 @@ typedef enum dp_mesh_file {
     DP_MESH_FILE_OBJ
 } dp_mesh_file;
 
-/* Writes a source as a model file, streaming; the same care as for pictures. PLY and OBJ weld
- * vertices only within what the source itself indexes. The source must be rewindable for PLY. */
+/* Writes a source as a model file, streaming; the same care as for pictures. Numbers have a decimal
+ * point, whatever locale the application has set. PLY and OBJ weld vertices only within what the
+ * source itself indexes. The source must be rewindable for PLY. */
 DP_API dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *source,
                                   int (*progress)(void *user, double fraction), void *user,
                                   dp_diag *diag);

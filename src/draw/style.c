@@ -2,6 +2,7 @@
 #include <drypoint/style.h>
 
 #include "base/diag.h"
+#include "base/print.h"
 
 #include <math.h>
 
@@ -12,13 +13,16 @@ const char *dp_line_name(dp_line line) {
     return (unsigned)line < DP_LINE_COUNT ? line_names[line] : "unknown";
 }
 
+/* A number in a message. */
+#define NUMBER(value) dp_print_number((char[DP_NUMBER_TEXT]){0}, (double)(value), 6)
+
 static dp_color color_or(dp_color color, dp_color other) { return color ? color : other; }
 
 static dp_result resolve_line(dp_line_style *line, dp_line which, dp_diag *diag) {
     if (line->width == 0) line->width = 2;
     if (!(line->width >= 0.5f && line->width <= 64))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the %s width is %g px; it must be 0.5 to 64",
-                       dp_line_name(which), (double)line->width);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the %s width is %s px; it must be 0.5 to 64",
+                       dp_line_name(which), NUMBER(line->width));
     line->color = color_or(line->color, DP_RGB(0, 0, 0));
     return DP_OK;
 }
@@ -27,8 +31,8 @@ static dp_result resolve_angle(float *angle, float other, const char *name, dp_d
     if (*angle == 0) *angle = other;
     if (!(*angle > 0 && *angle < 360))
         return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "the %s angle is %g degrees; it must be between 0 and 360", name,
-                       (double)*angle);
+                       "the %s angle is %s degrees; it must be between 0 and 360", name,
+                       NUMBER(*angle));
     return DP_OK;
 }
 
@@ -77,8 +81,8 @@ static dp_result resolve_number(float *value, float other, float least, float mo
                                 const char *name, dp_diag *diag) {
     if (*value == 0) *value = other;
     if (*value >= least && *value <= most) return DP_OK;
-    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s is %g; it must be %g to %g", name, (double)*value,
-                   (double)least, (double)most);
+    return dp_fail(diag, DP_ERR_ARGUMENT, "the %s is %s; it must be %s to %s", name, NUMBER(*value),
+                   NUMBER(least), NUMBER(most));
 }
 
 static dp_result resolve_light(float light[3], dp_diag *diag) {
@@ -108,8 +112,8 @@ static dp_result resolve_pencil(float *value, float other, const char *name, dp_
     else if (*value < 0 && *value >= -100)
         *value = -1e-9f; /* stays when resolved twice */
     if (!(*value >= -1 && *value <= 100))
-        return dp_fail(diag, DP_ERR_ARGUMENT, "the pencil's %s is %g; it must be 0 to 100", name,
-                       (double)*value);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the pencil's %s is %s; it must be 0 to 100", name,
+                       NUMBER(*value));
     return DP_OK;
 }
 

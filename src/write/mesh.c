@@ -14,6 +14,7 @@
 #include <drypoint/io.h>
 
 #include "base/diag.h"
+#include "base/print.h"
 #include "write/file.h"
 
 #include <math.h>
@@ -140,9 +141,11 @@ static dp_result ply_header(writer *w) {
 }
 
 static dp_result text_vertex(writer *w, const char *prefix, const float p[3]) {
-    char text[80];
-    return put_text(w, text,
-                    snprintf(text, sizeof text, "%s%.9g %.9g %.9g\n", prefix, p[0], p[1], p[2]));
+    char text[16 + 3 * DP_NUMBER_TEXT], number[3][DP_NUMBER_TEXT];
+    for (int k = 0; k < 3; k++) dp_print_number(number[k], p[k], 9);
+    return put_text(
+        w, text,
+        snprintf(text, sizeof text, "%s%s %s %s\n", prefix, number[0], number[1], number[2]));
 }
 
 static const float *shown(const dp_batch *batch, size_t v) {
