@@ -8,6 +8,7 @@
  * Does not handle: textures (map_Kd), Kd as a spectrum or as CIE XYZ, transparency. */
 #include "io/mtl.h"
 
+#include "base/print.h"
 #include "io/text.h"
 
 #include <errno.h>
@@ -116,7 +117,7 @@ static opened read_library(const char *path, const char *name, size_t length,
 static void note_missing(const char *name, size_t length, char *remark, size_t size) {
     if (*remark) return;
     snprintf(remark, size, "no colours from %.*s: %s", length < 120 ? (int)length : 120, name,
-             errno == EINVAL ? "not a file" : strerror(errno));
+             errno == EINVAL ? "not a file" : dp_print_error((char[DP_ERROR_TEXT]){0}, errno));
     for (char *p = remark; *p; p++)
         if ((uint8_t)*p < ' ' || *p == 0x7f) *p = '?';
 }

@@ -6,6 +6,7 @@
 
 #include "base/diag.h"
 #include "base/memory.h"
+#include "base/print.h"
 
 #include <errno.h>
 #include <png.h>
@@ -37,7 +38,9 @@ static dp_result read_pixels(png_image *image, const dp_allocator *memory, dp_io
 static dp_result read_file(const char *path, uint32_t most, const dp_allocator *memory,
                            dp_io_pixels *out, dp_diag *diag) {
     FILE *const file = fopen(path, "rb");
-    if (!file) return dp_fail(diag, DP_ERR_IO, "cannot be opened: %s", strerror(errno));
+    if (!file)
+        return dp_fail(diag, DP_ERR_IO, "cannot be opened: %s",
+                       dp_print_error((char[DP_ERROR_TEXT]){0}, errno));
     png_image image = {.version = PNG_IMAGE_VERSION};
     dp_result result;
     if (!png_image_begin_read_from_stdio(&image, file))

@@ -11,6 +11,7 @@
  * Does not handle: colours in the attribute bytes. */
 #include "io/readers.h"
 
+#include "base/print.h"
 #include "io/text.h"
 #include "mesh/source.h"
 
@@ -246,7 +247,8 @@ static dp_result stl_records(void *user, uint64_t first, uint32_t count, uint8_t
         diag->item = first + got / RECORD;
         return DP_ERR_FORMAT;
     }
-    return dp_fail_offset(diag, DP_ERR_IO, at + got, "reading failed: %s", strerror(error));
+    return dp_fail_offset(diag, DP_ERR_IO, at + got, "reading failed: %s",
+                          dp_print_error((char[DP_ERROR_TEXT]){0}, error));
 }
 
 static bool is_little_endian(void) {

@@ -11,6 +11,7 @@
 #include "io/stream.h"
 
 #include "base/diag.h"
+#include "base/print.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -56,7 +57,8 @@ static dp_result open_descriptor(const char *path, int *descriptor, struct stat 
     }
     const int error = errno;
     if (!standard && *descriptor >= 0) close(*descriptor);
-    return dp_fail(diag, DP_ERR_IO, "cannot be read: %s", strerror(error));
+    return dp_fail(diag, DP_ERR_IO, "cannot be read: %s",
+                   dp_print_error((char[DP_ERROR_TEXT]){0}, error));
 }
 
 dp_result dp_stream_open(const char *path, const dp_file_options *options, dp_stream **out,
@@ -205,7 +207,8 @@ bool dp_stream_rewindable(const dp_stream *stream) { return stream->start >= 0; 
 dp_result dp_stream_rewind(dp_stream *stream, dp_diag *diag) {
     if (stream->descriptor >= 0 &&
         lseek(stream->descriptor, (off_t)stream->start, SEEK_SET) != (off_t)stream->start)
-        return dp_fail(diag, DP_ERR_IO, "cannot be read from the start again: %s", strerror(errno));
+        return dp_fail(diag, DP_ERR_IO, "cannot be read from the start again: %s",
+                       dp_print_error((char[DP_ERROR_TEXT]){0}, errno));
     reset(stream);
     return DP_OK;
 }
@@ -214,5 +217,5 @@ dp_result dp_stream_fail(const dp_stream *stream, dp_diag *diag) {
     if (stream->result == DP_ERR_CANCELLED)
         return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
     return dp_fail_offset(diag, stream->result, stream->loaded, "reading failed: %s",
-                          strerror(stream->error));
+                          dp_print_error((char[DP_ERROR_TEXT]){0}, stream->error));
 }

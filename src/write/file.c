@@ -10,6 +10,7 @@
 #include "write/file.h"
 
 #include "base/diag.h"
+#include "base/print.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -31,7 +32,8 @@ static dp_result refuse(dp_diag *diag, const char *target, int code) {
         advice = "; choose a place you may write to";
     else if (code == EISDIR)
         advice = "; name a file in it";
-    return dp_fail(diag, DP_ERR_IO, "cannot write %.120s: %s%s", name, strerror(code), advice);
+    return dp_fail(diag, DP_ERR_IO, "cannot write %.120s: %s%s", name,
+                   dp_print_error((char[DP_ERROR_TEXT]){0}, code), advice);
 }
 
 static dp_result out_of_memory(dp_diag *diag) {

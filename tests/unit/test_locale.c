@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -153,6 +154,32 @@ static void errors_have_their_words(void **state) {
     assert_true(*dp_print_error(text, 123456));
 }
 
+/* Each thread has its own number for an error, which nobody else's words may replace. */
+static void *print_errors(void *arg) {
+    const int code = *(const int *)arg;
+    char number[16];
+    snprintf(number, sizeof number, "%d", code);
+    for (int i = 0; i < 20000; i++)
+        if (!strstr(dp_print_error((char[DP_ERROR_TEXT]){0}, code), number)) return arg;
+    return NULL;
+}
+
+static void errors_are_each_threads_own(void **state) {
+    enum { THREADS = 4 };
+    int codes[THREADS];
+    pthread_t threads[THREADS];
+    (void)state;
+    for (int i = 0; i < THREADS; i++) {
+        codes[i] = 100001 + 11111 * i;
+        assert_int_equal(pthread_create(&threads[i], NULL, print_errors, &codes[i]), 0);
+    }
+    for (int i = 0; i < THREADS; i++) {
+        void *wrong;
+        assert_int_equal(pthread_join(threads[i], &wrong), 0);
+        assert_null(wrong);
+    }
+}
+
 static int leave_locale(void **state) {
     (void)state;
     return setlocale(LC_ALL, "C") ? 0 : -1;
@@ -166,6 +193,7 @@ int main(void) {
         TEST(models_are_written_and_read_alike),
         TEST(messages_have_points),
         TEST(errors_have_their_words),
+        TEST(errors_are_each_threads_own),
     };
     return cmocka_run_group_tests(tests, enter_directory, leave_directory);
 }
