@@ -105,6 +105,34 @@ typedef struct dp_file_options {
 DP_API dp_result dp_source_open(const char *path, const dp_file_options *options, dp_source **out,
                                 dp_diag *diag);
 
+/* A model file that lies in memory, and the files beside it. */
+typedef struct dp_memory_file {
+    const void *data; /* the file's bytes; borrowed and to stay as they are until
+                         dp_source_destroy: STL is read from them batch by batch */
+    size_t size;      /* bytes */
+    /* "bolt.obj", say: its ending tells the format where the content does not. NULL allowed. */
+    const char *name;
+    /* Finds a file that this one names (an OBJ's `mtllib`): `name` as it stands there, but with `/`
+     * between folders. False: it is not there (a remark, no failure). Called only while the source
+     * is being opened, perhaps more than once for a name. NULL: nothing lies beside the file, and
+     * its materials have no colours. No folder of the system is ever looked into. */
+    bool (*open_beside)(void *user, const char *name, const void **data, size_t *size);
+    /* Called once for each that was found, as soon as it is read. NULL allowed. */
+    void (*close_beside)(void *user, const void *data, size_t size);
+    void *user;
+} dp_memory_file;
+
+/* The same for a file in memory, *file itself needed during the call only:
+ *
+ *     const dp_memory_file file = {.data = bytes, .size = count, .name = "bolt.stl"};
+ *     dp_source_open_memory(&file, NULL, &source, &diag);
+ *
+ * The source can always be rewound; all else, errors too, is as if the bytes lay in a file (whose
+ * name no message repeats either: who opens it knows it).
+ * DP_ERR_ARGUMENT where data is NULL and size is not 0. */
+DP_API dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_options *options,
+                                       dp_source **out, dp_diag *diag);
+
 /* Next batch (zero polygons at the end), back to the start, whether that is possible. */
 DP_API dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag);
 DP_API dp_result dp_source_rewind(dp_source *source, dp_diag *diag);

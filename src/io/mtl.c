@@ -2,22 +2,19 @@
  * it.
  *
  * Nothing here stops a model from being read: what is missing or broken has no colour. Kd with one
- * number is grey; numbers beyond [0, 1] are held to it. Only regular files are opened, so that no
- * pipe and no device is waited for.
+ * number is grey; numbers beyond [0, 1] are held to it.
  *
  * Does not handle: textures (map_Kd), Kd as a spectrum or as CIE XYZ, transparency. */
 #include "io/mtl.h"
 
-#include "base/print.h"
+#include "io/beside.h"
 #include "io/text.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
-enum { PATH = 4096, NO_MATERIAL = -1 };
+enum { NO_MATERIAL = -1 };
 
 void dp_materials_init(dp_materials *m, const dp_allocator *allocator) {
     *m = (dp_materials){.names = {.allocator = *allocator}};
@@ -80,58 +77,36 @@ bool dp_read_mtl(dp_stream *stream, dp_materials *materials) {
 
 /* ------- finding libraries ------- */
 
-/* The library's place: beside the model, unless its name begins with a slash. Backslashes are
- * another system's slashes. False where it is too long. */
-static bool find_place(const char *path, const char *name, size_t length, char place[PATH]) {
-    const char *const slash = strrchr(path, '/');
-    const size_t folder = *name == '/' || *name == '\\' || !slash ? 0 : (size_t)(slash + 1 - path);
-    if (folder + length + 3 > PATH) return false;
-    memcpy(place, path, folder);
-    size_t at = folder;
-    if (!folder && *name != '/' && *name != '\\')
-        place[at++] = '.', place[at++] = '/'; /* "-" is a file, too */
-    for (size_t i = 0; i < length; i++) place[at++] = name[i] == '\\' ? '/' : name[i];
-    place[at] = 0;
-    return true;
-}
-
-typedef enum opened { READ, NOT_THERE, NO_MEMORY } opened;
-
-static opened read_library(const char *path, const char *name, size_t length,
-                           dp_materials *materials) {
-    char place[PATH];
-    struct stat status;
+static dp_result read_library(const dp_stream *model, const char *name, size_t length,
+                              dp_materials *materials, dp_diag *diag) {
     dp_stream *stream = NULL;
-    errno = ENAMETOOLONG;
-    if (!find_place(path, name, length, place) || stat(place, &status)) return NOT_THERE;
-    errno = EINVAL;
-    const dp_file_options options = {.allocator = &materials->names.allocator};
-    if (!S_ISREG(status.st_mode)) return NOT_THERE;
-    const dp_result result = dp_stream_open(place, &options, &stream, NULL);
-    if (result) return result == DP_ERR_MEMORY ? NO_MEMORY : NOT_THERE;
+    const dp_result result = dp_open_beside(model, name, length, &stream, diag);
+    if (result) return result;
     const bool enough = dp_read_mtl(stream, materials);
     dp_stream_close(stream);
-    return enough ? READ : NO_MEMORY;
+    return enough ? DP_OK : DP_ERR_MEMORY;
 }
 
-static void note_missing(const char *name, size_t length, char *remark, size_t size) {
+static void note_missing(const char *name, size_t length, const char *why, char *remark,
+                         size_t size) {
     if (*remark) return;
-    snprintf(remark, size, "no colours from %.*s: %s", length < 120 ? (int)length : 120, name,
-             errno == EINVAL ? "not a file" : dp_print_error((char[DP_ERROR_TEXT]){0}, errno));
+    snprintf(remark, size, "no colours from %.*s: %s", length < 120 ? (int)length : 120, name, why);
     for (char *p = remark; *p; p++)
         if ((uint8_t)*p < ' ' || *p == 0x7f) *p = '?';
 }
 
-bool dp_open_mtl(const char *path, const char *names, dp_materials *materials, char *remark,
+bool dp_open_mtl(const dp_stream *model, const char *names, dp_materials *materials, char *remark,
                  size_t size) {
-    const opened whole = *names ? read_library(path, names, strlen(names), materials) : READ;
-    if (whole != NOT_THERE) return whole == READ;
+    const size_t all = strlen(names);
+    dp_diag diag = {0};
+    const dp_result whole = all ? read_library(model, names, all, materials, &diag) : DP_OK;
+    if (whole != DP_ERR_IO) return whole != DP_ERR_MEMORY;
     for (const char *word = names; *word; word += strspn(word, " \t")) {
         const size_t length = strcspn(word, " \t");
-        const opened o =
-            length == strlen(names) ? NOT_THERE : read_library(path, word, length, materials);
-        if (o == NO_MEMORY) return false;
-        if (o == NOT_THERE) note_missing(word, length, remark, size);
+        const dp_result result =
+            length == all ? whole : read_library(model, word, length, materials, &diag);
+        if (result == DP_ERR_MEMORY) return false;
+        if (result) note_missing(word, length, diag.message, remark, size);
         word += length;
     }
     return true;

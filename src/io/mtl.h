@@ -23,10 +23,10 @@ uint32_t dp_materials_color(const dp_materials *materials, uint16_t number);
 /* Reads a library to its end; what it holds of no use is passed over. False when memory is out. */
 bool dp_read_mtl(dp_stream *stream, dp_materials *materials);
 
-/* The libraries that a `mtllib` line names, beside the model at `path`: one name with spaces, or
- * several. Those that cannot be read leave a sentence in `remark`, where there is none yet. False
- * when memory is out. */
-bool dp_open_mtl(const char *path, const char *names, dp_materials *materials, char *remark,
+/* The libraries that a `mtllib` line of `model` names (beside.h): one name with spaces, or several.
+ * Those that cannot be read leave a sentence in `remark`, where there is none yet; where nothing
+ * can lie beside the model, there is none to leave. False when memory is out. */
+bool dp_open_mtl(const dp_stream *model, const char *names, dp_materials *materials, char *remark,
                  size_t size);
 
 #endif

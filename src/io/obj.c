@@ -160,13 +160,12 @@ static dp_result read_name(obj *self, int kind) {
     return DP_OK;
 }
 
-/* What comes from no file has no folder to look into. */
 static dp_result read_libraries(obj *self) {
     char names[LIBRARIES];
     dp_text_blank(self->stream);
     dp_text_rest(self->stream, names, sizeof names);
-    if (!self->stream->path || dp_open_mtl(self->stream->path, names, &self->materials,
-                                           self->builder->remark, sizeof self->builder->remark))
+    if (dp_open_mtl(self->stream, names, &self->materials, self->builder->remark,
+                    sizeof self->builder->remark))
         return DP_OK;
     return dp_builder_fail(self->builder, self->diag);
 }

@@ -1,4 +1,5 @@
-/* dp_source_open: opens, finds the format, and lets its reader make the source. */
+/* dp_source_open and dp_source_open_memory: open a stream, find the format, and let its reader make
+ * the source. Behind the stream nothing tells a file from memory. */
 #include "io/readers.h"
 
 #include "base/diag.h"
@@ -59,4 +60,19 @@ dp_result dp_source_open(const char *path, const dp_file_options *options, dp_so
     if (result) return result;
     stream->path = stream->owns_descriptor ? path : NULL;
     return dp_read_stream(stream, path, options ? options->format : DP_FORMAT_AUTO, out, diag);
+}
+
+dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_options *options,
+                                dp_source **out, dp_diag *diag) {
+    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_open_memory: out is NULL");
+    *out = NULL;
+    if (!file || (file->size && !file->data))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_open_memory: file or its data is NULL");
+    dp_stream *stream = NULL;
+    const dp_result result =
+        dp_stream_open_memory(file->data, file->size, DP_STREAM_WINDOW, options, &stream, diag);
+    if (result) return result;
+    stream->file = file;
+    return dp_read_stream(stream, file->name, options ? options->format : DP_FORMAT_AUTO, out,
+                          diag);
 }

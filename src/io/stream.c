@@ -98,6 +98,7 @@ void dp_stream_close(dp_stream *stream) {
     if (!stream) return;
     const dp_allocator memory = stream->allocator;
     if (stream->owns_descriptor) close(stream->descriptor);
+    if (stream->closed) stream->closed(stream->closed_user, stream->memory, (size_t)stream->size);
     dp_free(&memory, stream);
 }
 

@@ -27,7 +27,12 @@ typedef struct dp_stream {
     bool owns_descriptor;
     int64_t start;         /* where in the file the stream begins; -1: cannot go back */
     const uint8_t *memory; /* borrowed */
-    const char *path;      /* borrowed, while the file is being opened; NULL: it has none */
+    /* What lies beside the model (beside.h), borrowed while it is being opened: */
+    const char *path;           /* a file's; or NULL */
+    const dp_memory_file *file; /* a model's in memory; or NULL */
+    /* Called with the memory when the stream is closed; NULL: it is not ours to give back. */
+    void (*closed)(void *closed_user, const void *data, size_t size);
+    void *closed_user;
     int (*progress)(void *user, double fraction);
     void *user;
 } dp_stream;

@@ -2,6 +2,7 @@
 #include "base/hostile.h"
 #include "io/readers.h"
 #include "draw/context.h"
+#include "mesh/source.h"
 #include "stream/kept.h"
 #include "stream/stream.h"
 
@@ -403,6 +404,22 @@ static void write_stl(const soup *s, uint32_t announced) {
     assert_int_equal(fclose(file), 0);
 }
 
+/* The same bytes in memory: records again, read in any order and from any thread. */
+static void expect_same_from_memory(const soup *s) {
+    const size_t size = 84 + 50 * s->count;
+    uint8_t *const bytes = malloc(size);
+    FILE *const file = fopen(stl_path, "rb");
+    dp_source *source = NULL;
+    assert_true(bytes && file && fread(bytes, 1, size, file) == size);
+    fclose(file);
+    const dp_memory_file in_memory = {.data = bytes, .size = size};
+    assert_int_equal(dp_source_open_memory(&in_memory, NULL, &source, NULL), DP_OK);
+    assert_true(source->records.read && source->records.count == s->count);
+    expect_same_as_memory(source, (how){.style.lines = NO_CROSSINGS}, "torus.stl in memory");
+    dp_source_destroy(source);
+    free(bytes);
+}
+
 static void records(void **state) {
     (void)state;
     soup s;
@@ -424,6 +441,7 @@ static void records(void **state) {
     assert_memory_equal(records_extent.max, batches_extent.max, sizeof batches_extent.max);
     assert_int_equal(records_extent.corners, batches_extent.corners);
     dp_source_destroy(batches);
+    expect_same_from_memory(&s);
 
     /* a file that becomes shorter while it is open */
     dp_context *context;
