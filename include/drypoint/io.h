@@ -16,6 +16,12 @@ extern "C" {
 DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                             dp_diag *diag);
 
+/* The same of dp_source_open_memory. A scene's files (a glTF's buffers) come from open_beside,
+ * which is also asked for some that need not be there (textures, say). Where the content does not
+ * tell the format, as in most texts, file->name must have its ending. */
+DP_API dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_options *options,
+                                   dp_source **out, dp_diag *diag);
+
 /* Writes [height][width][4] RGBA, not premultiplied, rows `stride` bytes apart (0: 4 * width). A
  * regular file is written beside its target and renamed when whole, so that the old one stays until
  * then; a device or pipe is written in place; "-" is standard output. DP_ERR_IO (a full disk too),

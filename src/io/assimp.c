@@ -1,4 +1,5 @@
-/* dp_io_open: the library's own formats first, and what they do not know through Assimp.
+/* dp_io_open and dp_io_open_memory: the library's own formats first, and what they do not know
+ * through Assimp.
  *
  * The scene's nodes are walked with their transforms, so that every instance of a mesh becomes
  * vertices and polygons of its own in world space; where a transform mirrors, corners are turned
@@ -12,6 +13,7 @@
 #include <drypoint/io.h>
 
 #include "base/diag.h"
+#include "io/assimp_files.h"
 #include "io/builder.h"
 
 #include <assimp/cimport.h>
@@ -177,8 +179,8 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
 }
 
 /* Positions, normals, texture coordinates and faces only; FBX without the helper nodes that its
- * pivots would become. */
-static const struct aiScene *import(const char *path) {
+ * pivots would become. `files` NULL: the system's. */
+static const struct aiScene *import(const char *path, struct aiFileIO *files) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     if (!properties) return NULL;
     const int dropped = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
@@ -187,7 +189,7 @@ static const struct aiScene *import(const char *path) {
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, dropped);
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
     const struct aiScene *const scene =
-        aiImportFileExWithProperties(path, aiProcess_RemoveComponent, NULL, properties);
+        aiImportFileExWithProperties(path, aiProcess_RemoveComponent, files, properties);
     aiReleasePropertyStore(properties);
     return scene;
 }
@@ -233,17 +235,39 @@ static dp_result build(const struct aiScene *scene, const dp_file_options *optio
     return result;
 }
 
+/* What the own readers did not know, `first` saying so. */
+static dp_result open_by_assimp(const char *path, struct aiFileIO *files, const dp_diag *first,
+                                const dp_file_options *options, dp_source **out, dp_diag *diag) {
+    if (stopped(options, -1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
+    const struct aiScene *const scene = import(path, files);
+    if (!scene) return import_failed(path, first, diag);
+    const dp_result built = build(scene, options, out, diag);
+    aiReleaseImport(scene);
+    return built;
+}
+
+/* A format that the caller names is final. */
+static bool is_for_assimp(dp_result result, const dp_file_options *options) {
+    return result == DP_ERR_UNSUPPORTED && (!options || options->format == DP_FORMAT_AUTO);
+}
+
 dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                      dp_diag *diag) {
     dp_diag first = {0};
     const dp_result result = dp_source_open(path, options, out, &first);
     if (diag && result) *diag = first;
-    const bool named = options && options->format != DP_FORMAT_AUTO;
-    if (result != DP_ERR_UNSUPPORTED || named || strcmp(path, "-") == 0) return result;
-    if (stopped(options, -1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
-    const struct aiScene *const scene = import(path);
-    if (!scene) return import_failed(path, &first, diag);
-    const dp_result built = build(scene, options, out, diag);
-    aiReleaseImport(scene);
-    return built;
+    if (!is_for_assimp(result, options) || strcmp(path, "-") == 0) return result;
+    return open_by_assimp(path, NULL, &first, options, out, diag);
+}
+
+dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_options *options,
+                            dp_source **out, dp_diag *diag) {
+    dp_diag first = {0};
+    const dp_result result = dp_source_open_memory(file, options, out, &first);
+    if (diag && result) *diag = first;
+    if (!is_for_assimp(result, options)) return result;
+    const dp_allocator memory = dp_allocator_resolve(options ? options->allocator : NULL);
+    dp_assimp_files files;
+    dp_assimp_files_init(&files, file, &memory);
+    return open_by_assimp(files.name, &files.io, &first, options, out, diag);
 }

@@ -1,4 +1,5 @@
-/* dp_io_open: own formats by own readers, others through Assimp with their transforms and names. */
+/* dp_io_open and dp_io_open_memory: own formats by own readers, others through Assimp with their
+ * transforms and names. */
 #include "reading.h"
 
 #include <drypoint/io.h>
@@ -74,6 +75,78 @@ static void what_assimp_refuses_is_said_in_one_line(void **state) {
     assert_contains(trace_file(".gz", "\x1f\x8b\x08 x", NULL), "unpack it first");
 }
 
+/* ------- in memory ------- */
+
+static const char *trace_memory(const dp_memory_file *file, const dp_file_options *options) {
+    dp_source *source = NULL;
+    dp_diag diag;
+    const dp_result result = dp_io_open_memory(file, options, &source, &diag);
+    return trace_opened(result, source, &diag);
+}
+
+static void scenes_in_memory_are_those_in_files(void **state) {
+    char expected[20000];
+    const dp_memory_file file = {
+        .data = AC3D, .size = sizeof AC3D - 1, .name = "/no/such\\folder/scene.ac"};
+    (void)state;
+    snprintf(expected, sizeof expected, "%s", trace_file(".ac", AC3D, NULL));
+    assert_string_equal(trace_memory(&file, NULL), expected);
+    const dp_memory_file nameless = {.data = AC3D, .size = sizeof AC3D - 1};
+    assert_string_equal(trace_memory(&nameless, NULL), expected); /* by its content */
+    const dp_memory_file cut = {.data = "AC3Db rubbish\n", .size = 14, .name = "cut.ac"};
+    assert_string_equal(trace_memory(&cut, NULL), trace_file(".ac", "AC3Db rubbish\n", NULL));
+    const dp_memory_file strange = {.data = "hello\n", .size = 6, .name = "x.xyzzy"};
+    assert_contains(trace_memory(&strange, NULL), "not in a known format");
+    const dp_memory_file own = {.data = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", .size = 39};
+    assert_string_equal(trace_memory(&own, NULL), "(0 0 0)(1 0 0)(0 1 0)\n");
+}
+
+/* A triangle whose coordinates are in another file. */
+#define GLTF                                                                                       \
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"                   \
+    "\"nodes\":[{\"mesh\":0,\"name\":\"t\"}],"                                                     \
+    "\"meshes\":[{\"name\":\"t\",\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"            \
+    "\"buffers\":[{\"uri\":\"parts/t.bin\",\"byteLength\":36}],"                                   \
+    "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36}],"                         \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","       \
+    "\"min\":[0,0,0],\"max\":[1,1,0]}]}"
+
+typedef struct parts {
+    float position[9];
+    int open, asked;
+} parts;
+
+static bool open_part(void *user, const char *name, const void **data, size_t *size) {
+    parts *const self = user;
+    if (strcmp(name, "parts/t.bin") != 0) return false;
+    *data = self->position;
+    *size = sizeof self->position;
+    self->open++;
+    self->asked++;
+    return true;
+}
+
+static void close_part(void *user, const void *data, size_t size) {
+    parts *const self = user;
+    assert_true(data == self->position && size == sizeof self->position);
+    self->open--;
+}
+
+static void what_a_scene_names_is_the_application_s(void **state) {
+    parts p = {.position = {0, 0, 0, 1, 0, 0, 0, 1, 0}};
+    dp_memory_file file = {.data = GLTF,
+                           .size = sizeof GLTF - 1,
+                           .name = "scenes/t.gltf",
+                           .open_beside = open_part,
+                           .close_beside = close_part,
+                           .user = &p};
+    (void)state;
+    assert_string_equal(trace_memory(&file, NULL), "(0 0 0)(1 0 0)(0 1 0)@t\n");
+    assert_true(p.asked > 0 && p.open == 0);
+    file.open_beside = NULL;
+    assert_contains(trace_memory(&file, NULL), "Assimp cannot read it: ");
+}
+
 static void wrong_calls_are_refused(void **state) {
     dp_source *source = NULL;
     dp_diag diag;
@@ -81,6 +154,9 @@ static void wrong_calls_are_refused(void **state) {
     assert_int_equal(dp_io_open("/nonexistent.fbx", NULL, &source, &diag), DP_ERR_IO);
     assert_int_equal(dp_io_open(NULL, NULL, &source, &diag), DP_ERR_ARGUMENT);
     assert_int_equal(dp_io_open("x", NULL, NULL, NULL), DP_ERR_ARGUMENT);
+    assert_int_equal(dp_io_open_memory(NULL, NULL, &source, &diag), DP_ERR_ARGUMENT);
+    assert_int_equal(dp_io_open_memory(&(dp_memory_file){0}, NULL, NULL, NULL), DP_ERR_ARGUMENT);
+    assert_int_equal(dp_io_open_memory(&(dp_memory_file){0}, NULL, &source, &diag), DP_ERR_FORMAT);
     const dp_file_options options = {.format = DP_FORMAT_OBJ};
     assert_contains(trace_file(".ac", AC3D, &options), "no polygons"); /* a named format is final */
 }
@@ -136,6 +212,8 @@ int main(void) {
         cmocka_unit_test(scenes_are_transformed_and_named),
         cmocka_unit_test(materials_are_colours),
         cmocka_unit_test(what_assimp_refuses_is_said_in_one_line),
+        cmocka_unit_test(scenes_in_memory_are_those_in_files),
+        cmocka_unit_test(what_a_scene_names_is_the_application_s),
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(reading_is_stopped),
         cmocka_unit_test(failing_allocations_are_reported),
