@@ -20,6 +20,8 @@ int main(int argc, char **argv) {
         [COMMAND_BENCH] = command_bench,
     };
     tool_settings settings;
+    dp_diag diag;
+    if (dp_version_check(&diag)) return report_failure(NULL, &diag);
     if (!options_parse(argc, argv, &settings)) return EXIT_USAGE;
     interrupt_install();
     int code = 0;

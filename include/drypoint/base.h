@@ -61,8 +61,20 @@ typedef struct dp_allocator {
 /* A short name of the result class, "out of memory" say. Never NULL. */
 DP_API const char *dp_result_name(dp_result result);
 
-/* "0.1.0" */
+/* Of the library that runs: "0.1.0". */
 DP_API const char *dp_version(void);
+
+/* Whether the library that runs goes with the headers of version major.minor.patch: DP_OK when
+ * major and minor are its own, as a patch changes no interface; otherwise DP_ERR_UNSUPPORTED, as
+ * structs may have other members in other places, with both versions in diag's message. */
+DP_API dp_result dp_version_check_header(uint32_t major, uint32_t minor, uint32_t patch,
+                                         dp_diag *diag);
+
+/* The same for the headers that the caller is compiled with: to be called first, by applications
+ * that do not bring the library with them. */
+static inline dp_result dp_version_check(dp_diag *diag) {
+    return dp_version_check_header(DP_VERSION_MAJOR, DP_VERSION_MINOR, DP_VERSION_PATCH, diag);
+}
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,7 @@
  *     dp_camera camera;
  *     dp_extent extent;
  *     dp_diag diag;
+ *     if (dp_version_check(&diag)) return fputs(diag.message, stderr), 1;
  *     dp_context_create(NULL, &context, &diag);
  *     dp_source_open("fandisk.obj", NULL, &source, &diag);
  *     dp_source_extent(source, &extent, &diag);

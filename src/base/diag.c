@@ -1,6 +1,7 @@
-/* Results as words, and diagnostics filled by value. */
+/* Results as words, diagnostics filled by value, the version. */
 #include "base/diag.h"
 
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -55,4 +56,14 @@ const char *dp_result_name(dp_result result) {
 
 const char *dp_version(void) {
     return VERSION(DP_VERSION_MAJOR, DP_VERSION_MINOR, DP_VERSION_PATCH);
+}
+
+/* The same rule as the shared library's name (SOVERSION) and the CMake package's follow. */
+dp_result dp_version_check_header(uint32_t major, uint32_t minor, uint32_t patch, dp_diag *diag) {
+    if (major == DP_VERSION_MAJOR && minor == DP_VERSION_MINOR) return DP_OK;
+    return dp_fail(diag, DP_ERR_UNSUPPORTED,
+                   "compiled with the headers of drypoint %" PRIu32 ".%" PRIu32 ".%" PRIu32
+                   ", but the library that runs is %s: build both from one version, or let the "
+                   "program find the library that it was built with",
+                   major, minor, patch, dp_version());
 }

@@ -11,8 +11,8 @@ int main(void) {
     dp_context *context = NULL;
     dp_source *source = NULL;
     dp_camera camera;
-    if (dp_context_create(NULL, &context, NULL) || dp_camera_fit(&camera, &fit) ||
-        dp_source_from_arrays(&triangle, NULL, &source, NULL) ||
+    if (dp_version_check(NULL) || dp_context_create(NULL, &context, NULL) ||
+        dp_camera_fit(&camera, &fit) || dp_source_from_arrays(&triangle, NULL, &source, NULL) ||
         dp_draw(context, source, &camera, NULL, &target, NULL))
         return 2;
     dp_source_destroy(source);

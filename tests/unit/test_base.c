@@ -27,6 +27,23 @@ static void version_is_what_the_macros_say(void **state) {
     assert_string_equal(dp_version(), expected);
 }
 
+static void headers_of_another_version_are_told(void **state) {
+    (void)state;
+    enum { MAJOR = DP_VERSION_MAJOR, MINOR = DP_VERSION_MINOR, PATCH = DP_VERSION_PATCH };
+    dp_diag diag = {0};
+    assert_int_equal(dp_version_check(&diag), DP_OK);
+    assert_int_equal(dp_version_check(NULL), DP_OK);
+    assert_string_equal(diag.message, "");
+    assert_int_equal(dp_version_check_header(MAJOR, MINOR, PATCH + 1, &diag), DP_OK);
+    assert_int_equal(dp_version_check_header(MAJOR + 1, MINOR, PATCH, NULL), DP_ERR_UNSUPPORTED);
+    assert_int_equal(dp_version_check_header(MAJOR, MINOR + 90, 7, &diag), DP_ERR_UNSUPPORTED);
+    assert_int_equal(diag.result, DP_ERR_UNSUPPORTED);
+    char headers[32];
+    snprintf(headers, sizeof headers, "drypoint %d.%d.7,", MAJOR, MINOR + 90);
+    assert_non_null(strstr(diag.message, headers));
+    assert_non_null(strstr(diag.message, dp_version()));
+}
+
 static void failing_fills_the_diagnosis(void **state) {
     (void)state;
     dp_diag diag = {.line = 99, .offset = 99, .item = 99};
@@ -120,6 +137,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_result_has_its_own_name),
         cmocka_unit_test(version_is_what_the_macros_say),
+        cmocka_unit_test(headers_of_another_version_are_told),
         cmocka_unit_test(failing_fills_the_diagnosis),
         cmocka_unit_test(a_long_message_is_cut_and_ended),
         cmocka_unit_test(arrays_keep_their_items_when_they_grow),
