@@ -1,4 +1,4 @@
-/* Three-vectors in double precision, for geometry that decides what a line is. */
+/* Three-vectors in double precision, for geometry that decides what a line is; small arithmetic. */
 #ifndef DP_BASE_VEC_H
 #define DP_BASE_VEC_H
 
@@ -9,6 +9,14 @@ static inline float dp_minf(float a, float b) { return a < b ? a : b; }
 static inline float dp_maxf(float a, float b) { return a > b ? a : b; }
 static inline double dp_min(double a, double b) { return a < b ? a : b; }
 static inline double dp_max(double a, double b) { return a > b ? a : b; }
+
+/* Lengths of (x, y) by operations whose every bit is specified: the last bits of the C library's
+ * hypot are its own. A float's square is exact in a double; doubles here are far from 1e154, where
+ * theirs would overflow. */
+static inline float dp_hypotf(float x, float y) {
+    return (float)sqrt((double)x * (double)x + (double)y * (double)y);
+}
+static inline double dp_hypot(double x, double y) { return sqrt(x * x + y * y); }
 
 typedef struct dp_vec3 {
     double x, y, z;

@@ -14,12 +14,12 @@ void dp_project_direction(const dp_view *view, dp_vec3 p, dp_vec3 normal, double
     const dp_clip_point c = dp_to_clip(view, p), n = dp_to_clip(view, dp_add(p, normal));
     const double dx = n.x - c.x, dy = n.y - c.y, dw = n.w - c.w;
     const double x = (dx * c.w - c.x * dw) * view->width, y = (c.y * dw - dy * c.w) * view->height;
-    const double length = hypot(x, y);
+    const double length = dp_hypot(x, y);
     out[0] = out[1] = 0;
     if (length > 0 && isfinite(length)) out[0] = x / length, out[1] = y / length;
 }
 
-static double distance(dp_pointd p, dp_pointd q) { return hypot(q.x - p.x, q.y - p.y); }
+static double distance(dp_pointd p, dp_pointd q) { return dp_hypot(q.x - p.x, q.y - p.y); }
 
 /* The corner beyond an end of the edge. */
 static dp_pointd beyond(dp_pointd end, const double normal[2], double ox, double oy, double width) {

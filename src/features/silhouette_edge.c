@@ -70,7 +70,7 @@ dp_vec3 dp_vertex_normal(const dp_frame *frame, uint32_t corner) {
  * down. */
 void dp_find_outside(const dp_frame *frame, uint32_t polygon, dp_pointd a, dp_pointd b,
                      double out[2]) {
-    const double x = b.x - a.x, y = b.y - a.y, length = hypot(x, y);
+    const double x = b.x - a.x, y = b.y - a.y, length = dp_hypot(x, y);
     const bool front =
         frame->adjacency ? dp_faces_front(frame, polygon) : dp_polygon_faces_eye(frame, polygon);
     const double sign = length > 0 ? (front ? 1 : -1) / length : 0;
@@ -149,7 +149,7 @@ void dp_find_centre(dp_frame *frame) {
         const dp_clip_point p = dp_to_clip(&frame->view, corner);
         if (!(p.w > 0)) continue;
         const dp_pointd s = dp_to_screen(&frame->view, p);
-        reach = dp_max(reach, hypot(s.x - centre.x, s.y - centre.y));
+        reach = dp_max(reach, dp_hypot(s.x - centre.x, s.y - centre.y));
     }
     if (reach > 0) frame->radius = reach;
 }

@@ -148,7 +148,7 @@ typedef struct flap {
 static flap make_flap(const dp_finder *w, const dp_spine *s, uint32_t polygon, uint32_t edge) {
     const dp_tile_polygon *const p = &w->tile.polygons[polygon];
     flap f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
-    const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = hypot(ex, ey);
+    const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
     if (!(length > 0)) return f;
     const dp_vertex *const points = w->tile.points + p->point;
     for (uint32_t i = 0; i < p->points; i++) {

@@ -80,7 +80,7 @@ static bool find_range(const dp_finder *w, emerging *e) {
  * seen from its front, and the screen's y runs down. */
 static void outward(const dp_finder *w, const emerging *e, float out[2]) {
     const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
-                 length = hypot(ex, ey);
+                 length = dp_hypot(ex, ey);
     const double sign = w->tile.polygons[e->loose.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
     out[0] = length > 0 ? (float)(-ey / length * sign) : 1;
     out[1] = length > 0 ? (float)(ex / length * sign) : 0;

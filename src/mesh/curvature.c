@@ -206,7 +206,7 @@ static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
     const double inverse = 1 / (double)b->area[vertex];
     const double a = (double)b->form[vertex][0] * inverse, m = (double)b->form[vertex][1] * inverse,
                  c = (double)b->form[vertex][2] * inverse;
-    const double mean = (a + c) / 2, half = hypot((a - c) / 2, m);
+    const double mean = (a + c) / 2, half = dp_hypot((a - c) / 2, m);
     const double angle = 0.5 * atan2(2 * m, a - c); /* of the algebraically greatest */
     const bool greatest = fabs(mean + half) <= fabs(mean - half);
     const double turned = greatest ? angle : angle + 1.5707963267948966;

@@ -43,7 +43,7 @@ static bool make_flap(const dp_stream_draw *s, const float *a, const float *b, c
     if (!(clip.w > 0) || !dp_spine_make(view, dp_v3f(a), dp_v3f(b), dp_v3(0, 0, 0), &spine))
         return false;
     const dp_pointd p = dp_to_screen(view, clip);
-    const double ex = spine.b.x - spine.a.x, ey = spine.b.y - spine.a.y, length = hypot(ex, ey);
+    const double ex = spine.b.x - spine.a.x, ey = spine.b.y - spine.a.y, length = dp_hypot(ex, ey);
     const double x = p.x - spine.a.x, y = p.y - spine.a.y, across = (ex * y - ey * x) / length;
     if (!(length > 0) || !(fabs(across) > 0)) return false;
     const double on_edge =

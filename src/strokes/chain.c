@@ -138,7 +138,7 @@ static void find_cells(const chaining *c) {
 static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distance) {
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
     const dp_point p = end_point(c, e), q = end_point(c, f);
-    *distance = hypotf(q.x - p.x, q.y - p.y);
+    *distance = dp_hypotf(q.x - p.x, q.y - p.y);
     return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) &&
            fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
            may_join(c, e, f);

@@ -119,8 +119,8 @@ static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
     for (uint32_t i = 0; i < chain->count; i++) {
         const dp_link *const link = link_at(chain, i);
         const dp_point p = link_start(f, link), q = link_end(f, link);
-        const float dx = q.x - p.x, dy = q.y - p.y, step = hypotf(dx, dy),
-                    from_last = hypotf(p.x - last.x, p.y - last.y);
+        const float dx = q.x - p.x, dy = q.y - p.y, step = dp_hypotf(dx, dy),
+                    from_last = dp_hypotf(p.x - last.x, p.y - last.y);
         if (i == 0 || from_last >= (step > 2 * spacing ? spacing / 4 : spacing)) {
             if (!add_point(h, n, p, link->segment)) return false;
             last = p;
@@ -135,7 +135,7 @@ static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
     const dp_link *const end = link_at(chain, chain->count - 1);
     const dp_point q = link_end(f, end);
     /* the end itself: moves what is too close to it onto it */
-    if (*n > 1 && hypotf(q.x - last.x, q.y - last.y) < spacing / 2) --*n;
+    if (*n > 1 && dp_hypotf(q.x - last.x, q.y - last.y) < spacing / 2) --*n;
     return add_point(h, n, q, end->segment);
 }
 
@@ -143,7 +143,7 @@ static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
 static float measure(hand_point *p, size_t n) {
     float arc = 0;
     for (size_t i = 0; i < n; i++) {
-        if (i) arc += hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
+        if (i) arc += dp_hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
         p[i].arc = arc;
     }
     return arc;
@@ -173,7 +173,7 @@ static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) 
     const float length = p[n - 1].arc;
     for (size_t i = 0; i < n; i++) {
         const hand_point *const next = &p[i + 1 < n ? i + 1 : i];
-        const float dx = next->x - x, dy = next->y - y, step = hypotf(dx, dy);
+        const float dx = next->x - x, dy = next->y - y, step = dp_hypotf(dx, dy);
         const float hold = closed ? dp_minf(1, dp_minf(p[i].arc, length - p[i].arc) / 20) : 1;
         const float off =
             by * hold * (0.8f * noise(p[i].arc / 45, seed) + 0.3f * noise(p[i].arc / 11, seed + 1));
@@ -185,8 +185,8 @@ static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) 
 /* Runs the ends on along their directions. */
 static void overshoot(hand_point *p, size_t n, float by) {
     const float most = p[n - 1].arc / 4, reach = by < most ? by : most;
-    const float ax = p[0].x - p[1].x, ay = p[0].y - p[1].y, a = hypotf(ax, ay);
-    const float bx = p[n - 1].x - p[n - 2].x, by_ = p[n - 1].y - p[n - 2].y, b = hypotf(bx, by_);
+    const float ax = p[0].x - p[1].x, ay = p[0].y - p[1].y, a = dp_hypotf(ax, ay);
+    const float bx = p[n - 1].x - p[n - 2].x, by_ = p[n - 1].y - p[n - 2].y, b = dp_hypotf(bx, by_);
     if (a > 0) p[0].x += ax / a * reach, p[0].y += ay / a * reach;
     if (b > 0) p[n - 1].x += bx / b * reach, p[n - 1].y += by_ / b * reach;
 }
@@ -256,11 +256,12 @@ static float repeats_per_px(const hand *h, float width, float length, bool close
 
 static void set_directions(dp_mark *m, const hand_point *before, bool outside, float side) {
     const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y,
-                e = hypotf(ex, ey);
+                e = dp_hypotf(ex, ey);
     m->length = e;
     if (outside && e > 0) m->outward[0] = -ey / e * side, m->outward[1] = ex / e * side;
     if (!before) return;
-    const float bx = m->stroke.a.x - before->x, by = m->stroke.a.y - before->y, b = hypotf(bx, by);
+    const float bx = m->stroke.a.x - before->x, by = m->stroke.a.y - before->y,
+                b = dp_hypotf(bx, by);
     if (b > 0) m->before[0] = bx / b, m->before[1] = by / b;
     m->middle[0] = m->outward[0] - m->before[1] * side,
     m->middle[1] = m->outward[1] + m->before[0] * side;
@@ -326,7 +327,7 @@ static float raw_length(const hand *h, const run *r) {
     float sum = 0;
     for (uint32_t i = 0; i < r->count; i++) {
         const dp_stroke *const k = &h->frame->strokes[link_at(r, i)->segment];
-        sum += hypotf(k->b.x - k->a.x, k->b.y - k->a.y);
+        sum += dp_hypotf(k->b.x - k->a.x, k->b.y - k->a.y);
     }
     return sum;
 }
@@ -354,7 +355,7 @@ static bool add_core(hand *h, const run *r, size_t first_mark, uint32_t id) {
                        .half = {CORE, CORE}};
         m->stroke.a = link_start(h->frame, l), m->stroke.b = link_end(h->frame, l);
         m->stroke.half_width = CORE;
-        m->length = hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
+        m->length = dp_hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
         m->arc[0] = from + (to - from) * (arc / total);
         arc += m->length;
         m->arc[1] = from + (to - from) * (arc / total);
@@ -397,7 +398,8 @@ static bool is_cut(const hand *h, const run *r, uint32_t i) {
     const dp_point a = link_start(h->frame, l), b = link_end(h->frame, l),
                    c = link_start(h->frame, m), d = link_end(h->frame, m);
     const float least = 4 + 2 * h->frame->strokes[m->segment].half_width;
-    if (hypotf(b.x - a.x, b.y - a.y) < least || hypotf(d.x - c.x, d.y - c.y) < least) return false;
+    if (dp_hypotf(b.x - a.x, b.y - a.y) < least || dp_hypotf(d.x - c.x, d.y - c.y) < least)
+        return false;
     return cosine(b.x - a.x, b.y - a.y, d.x - c.x, d.y - c.y) < BREAK;
 }
 

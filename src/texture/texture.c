@@ -6,6 +6,7 @@
 
 #include "base/diag.h"
 #include "base/memory.h"
+#include "base/vec.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -187,5 +188,5 @@ dp_texel dp_texture_sample(const dp_texture *t, uint32_t level, float u, float v
 
 double dp_stroke_polar(double x, double y, double k) {
     const double turns = atan2(y, x) / 6.283185307179586;
-    return (turns < 0 ? turns + 1 : turns) + k * hypot(x, y);
+    return (turns < 0 ? turns + 1 : turns) + k * dp_hypot(x, y);
 }
