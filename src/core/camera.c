@@ -1,6 +1,7 @@
 /* Cameras: look-at, projections, and fitting a box into the picture (OpenGL's conventions). */
 #include <drypoint/camera.h>
 
+#include "base/elementary.h"
 #include "base/vec.h"
 
 #include <string.h>
@@ -54,7 +55,7 @@ dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect, 
     if (!camera || !(fov_y > 0 && fov_y < 180) || !(aspect > 0) || !(near_z > 0) ||
         !(far_z > near_z) || !isfinite(far_z) || !isfinite(aspect))
         return DP_ERR_ARGUMENT;
-    const double f = 1 / tan(fov_y * PI / 360);
+    const double f = 1 / dp_tan(fov_y * PI / 360);
     const double m[16] = {f / aspect,
                           0,
                           0,
@@ -195,14 +196,14 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     const double zoom = fit->zoom != 0 ? fit->zoom : 1;
     if (!(fov > 0 && fov < 180) || !(aspect > 0) || !(zoom > 0)) return DP_ERR_ARGUMENT;
 
-    const double half_y = fov * PI / 360, half = dp_min(half_y, atan(tan(half_y) * aspect));
+    const double half_y = fov * PI / 360, half = dp_min(half_y, dp_atan(dp_tan(half_y) * aspect));
     fitted f = {.centre = dp_scale(dp_add(min, max), 0.5),
                 .forward = dp_scale(dp_unit(or_default(fit->direction, dp_v3(1, 0.6, 1))), -1),
                 .up = or_default(fit->up, dp_v3(0, 1, 0)),
-                .distance = radius / sin(half),
+                .distance = radius / dp_sin(half),
                 .height = 2 * radius / dp_min(1, aspect)};
     framing frame = framing_of(min, max, f.forward, f.up);
-    frame.tan_x = tan(half_y) * aspect, frame.tan_y = tan(half_y);
+    frame.tan_x = dp_tan(half_y) * aspect, frame.tan_y = dp_tan(half_y);
     const bool flat =
         !(dp_length(dp_sub(max, min)) > 0); /* a point has nothing to fill the picture with */
     if (!fit->steady && !flat && fit->orthographic)
@@ -217,6 +218,6 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     if (fit->orthographic)
         return dp_camera_orthographic(camera, f.height / zoom, aspect, near_z, far_z);
     /* Zoom narrows the field of view rather than moving the eye: the perspective stays. */
-    const double zoomed = 2 * atan(tan(half_y) / zoom) * 180 / PI;
+    const double zoomed = 2 * dp_atan(dp_tan(half_y) / zoom) * 180 / PI;
     return dp_camera_perspective(camera, zoomed, aspect, dp_max(near_z, 1e-4 * f.distance), far_z);
 }

@@ -1,6 +1,8 @@
 /* Edge classification: see classify.h. */
 #include "core/fold.h"
 
+#include "base/elementary.h"
+
 static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
     return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
 }
@@ -65,7 +67,7 @@ dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t 
 double dp_fold_dihedral(const dp_fold *fold) {
     const double sine = dp_length(dp_cross(fold->normal_a, fold->normal_b));
     const double degrees =
-        atan2(sine, dp_dot(fold->normal_a, fold->normal_b)) * 180 / 3.14159265358979323846;
+        dp_atan2(sine, dp_dot(fold->normal_a, fold->normal_b)) * 180 / 3.14159265358979323846;
     return fold->concave ? 180 + degrees : 180 - degrees;
 }
 

@@ -10,6 +10,7 @@
 #include "draw/tile.h"
 
 #include "base/diag.h"
+#include "base/elementary.h"
 #include "features/features.h"
 #include "base/kernels.h"
 #include "mesh/source.h"
@@ -188,8 +189,9 @@ static float flat_cosine(const dp_style *styles, uint32_t count) {
     float least = 180;
     for (uint32_t i = 0; i < count; i++)
         least = dp_minf(least, dp_minf(180 - styles[i].ridge_angle, styles[i].valley_angle - 180));
-    return least > 1 ? (float)cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180)
-                     : 2;
+    return least > 1
+               ? (float)dp_cos(((double)dp_minf(least, 90) - 0.5) * 3.14159265358979323846 / 180)
+               : 2;
 }
 
 static void find_tile(void *arg, uint32_t index, uint32_t worker) {

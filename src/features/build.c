@@ -2,11 +2,13 @@
  * screen. */
 #include "features/features.h"
 
+#include "base/elementary.h"
+
 #define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
 
 dp_pen dp_pen_make(dp_method method, double reach, double angle) {
-    return (dp_pen){method, reach, angle, cos(angle * RADIANS_PER_DEGREE),
-                    sin(angle * RADIANS_PER_DEGREE)};
+    return (dp_pen){method, reach, angle, dp_cos(angle * RADIANS_PER_DEGREE),
+                    dp_sin(angle * RADIANS_PER_DEGREE)};
 }
 
 dp_vec3 dp_quad_direction(dp_vec3 e, dp_vec3 n, const dp_pen *pen) {
@@ -250,8 +252,8 @@ static turn share_of(turn angle, uint32_t spans) {
         const double c = sqrt(0.5 * (1 + angle.c));
         return (turn){c, angle.s / (2 * c)};
     }
-    const double share = atan2(angle.s, angle.c) / spans;
-    return (turn){cos(share), sin(share)};
+    const double share = dp_atan2(angle.s, angle.c) / spans;
+    return (turn){dp_cos(share), dp_sin(share)};
 }
 
 /* How much the quad at an edge rises over the polygon's own plane, depth per px. NaN: it faces

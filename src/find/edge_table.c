@@ -20,6 +20,7 @@
  * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
 #include "find/edge_table.h"
 
+#include "base/elementary.h"
 #include "base/hostile.h"
 #include "find/kernels.h"
 
@@ -335,8 +336,8 @@ void dp_umbrellas_init(dp_umbrellas *umbrellas, float flat_cosine) {
     umbrellas->spread = 0;
     if (flat_cosine > 1) return;
     const double angle =
-        acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
-    const double chord = angle > 0 ? 2 * sin(angle / 2) * DP_UMBRELLA_ONE : 0;
+        dp_acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
+    const double chord = angle > 0 ? 2 * dp_sin(angle / 2) * DP_UMBRELLA_ONE : 0;
     umbrellas->spread = (float)(chord * chord);
 }
 

@@ -4,6 +4,8 @@
  * it is 1 - I itself, clamped. Pixels of groups that are not enhanced have none. */
 #include "gbuffer/edge_map.h"
 
+#include "base/elementary.h"
+
 #include <string.h>
 
 static dp_rows rows_of(const float *plane, size_t at, size_t stride, int radius) {
@@ -103,8 +105,9 @@ void dp_edge_map_row(const dp_gbuffer *g, const dp_edge_map *map, uint32_t y, ui
     if (map->detector == DP_EDGE_MAP_C1) detect_c1(g, map, z, x0, y, n, out->profile);
     const float angle = map->inner_angle * (float)(3.14159265358979323846 / 180);
     const dp_pixel_run run = {g->id + at, g->distance + at, g->stride, n};
-    g->detectors->strengths(&run, threshold_of(map, 1 - cosf(angle), map->inner_softness),
-                            threshold_of(map, 0.15f, map->profile_softness), radius, out);
+    g->detectors->strengths(
+        &run, threshold_of(map, 1 - (float)dp_cos((double)angle), map->inner_softness),
+        threshold_of(map, 0.15f, map->profile_softness), radius, out);
     if (!map->no_groups) add_groups(g, map, at, out);
     if (map->enhanced) drop_others(g, map, at, out);
 }

@@ -12,6 +12,7 @@
  * their edges are open. */
 #include "mesh/adjacency.h"
 
+#include "base/elementary.h"
 #include "base/hostile.h"
 #include "base/sort.h"
 #include "base/vec.h"
@@ -193,7 +194,7 @@ static flap make_flap(const builder *b, uint32_t corner, dp_vec3 from, dp_vec3 x
     const uint32_t far = first + (corner - first + 1 + n / 2) % n;
     const dp_vec3 w = dp_sub(position(b, vertex_at(b, far)), from);
     const edge e = edge_at(b, corner);
-    return (flap){atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
+    return (flap){dp_atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
 }
 
 /* Takes pairs of neighbours in the circle that look at each other out of it, until there are

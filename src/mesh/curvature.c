@@ -17,6 +17,7 @@
  * as the camera moves, nothing flickers. */
 #include "mesh/curvature.h"
 
+#include "base/elementary.h"
 #include "base/hostile.h"
 #include "base/vec.h"
 #include "mesh/fingerprint.h"
@@ -207,12 +208,12 @@ static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
     const double a = (double)b->form[vertex][0] * inverse, m = (double)b->form[vertex][1] * inverse,
                  c = (double)b->form[vertex][2] * inverse;
     const double mean = (a + c) / 2, half = dp_hypot((a - c) / 2, m);
-    const double angle = 0.5 * atan2(2 * m, a - c); /* of the algebraically greatest */
+    const double angle = 0.5 * dp_atan2(2 * m, a - c); /* of the algebraically greatest */
     const bool greatest = fabs(mean + half) <= fabs(mean - half);
     const double turned = greatest ? angle : angle + 1.5707963267948966;
     dp_vec3 u, v;
     frame_of(normal_at(b, vertex), &u, &v);
-    const dp_vec3 d = dp_add(dp_scale(u, cos(turned)), dp_scale(v, sin(turned)));
+    const dp_vec3 d = dp_add(dp_scale(u, dp_cos(turned)), dp_scale(v, dp_sin(turned)));
     out.least = (float)(greatest ? mean + half : mean - half),
     out.most = (float)(greatest ? mean - half : mean + half);
     out.along[0] = (float)d.x, out.along[1] = (float)d.y, out.along[2] = (float)d.z;
@@ -376,7 +377,8 @@ static void end_vertex(const spreading *s, uint32_t v) {
     float second[3], c, d;
     second_axis(s, w, second);
     in_plane(s->from[w], s->across[w], second, &c, &d);
-    const float angle = 0.5f * atan2f(d, c), cosine = cosf(angle), sine = sinf(angle);
+    const float angle = 0.5f * (float)dp_atan2((double)d, (double)c),
+                cosine = (float)dp_cos((double)angle), sine = (float)dp_sin((double)angle);
     for (int k = 0; k < 3; k++) s->out[v][k] = cosine * s->across[w][k] + sine * second[k];
 }
 

@@ -10,6 +10,7 @@
  * that a still model pays for them once. */
 #include "mesh/normals.h"
 
+#include "base/elementary.h"
 #include "base/hostile.h"
 #include "base/vec.h"
 
@@ -140,7 +141,7 @@ static dp_vec3 facet_normal(const dp_polygons *p, uint32_t first, uint32_t n) {
 
 static double corner_angle(dp_vec3 before, dp_vec3 at, dp_vec3 after) {
     const dp_vec3 a = dp_sub(before, at), b = dp_sub(after, at);
-    return atan2(dp_length(dp_cross(a, b)), dp_dot(a, b));
+    return dp_atan2(dp_length(dp_cross(a, b)), dp_dot(a, b));
 }
 
 static void measure_polygons(void *arg, uint32_t index, uint32_t worker) {
@@ -338,7 +339,7 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
              .polygons = polygons,
              .corners =
                  polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count,
-             .crease_cosine = (float)cos((double)crease * (3.14159265358979323846 / 180))};
+             .crease_cosine = (float)dp_cos((double)crease * (3.14159265358979323846 / 180))};
     uint64_t unknown = 0, *const shape = known ? known : &unknown; /* key without the angle */
     if (!*shape) {
         const size_t most = j.corners > polygons->vertex_count ? j.corners : polygons->vertex_count;

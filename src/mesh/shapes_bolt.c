@@ -10,6 +10,8 @@
  * Lengths are in units of the shank's radius; proportions follow ISO 4014 with a coarser thread. */
 #include "mesh/models.h"
 
+#include "base/elementary.h"
+
 #include <math.h>
 
 static const double FLATS = 1.6;                        /* half the width across flats */
@@ -42,7 +44,7 @@ enum ring {
 static double hexagon(uint32_t k, uint32_t n) {
     const uint32_t side = n / 6;
     const double from_middle = (double)(k % side) / side - 0.5;
-    return FLATS / cos(from_middle * 1.0471975511965976);
+    return FLATS / dp_cos(from_middle * 1.0471975511965976);
 }
 
 static double thread_y(uint64_t along, uint64_t whole) {

@@ -8,6 +8,8 @@
  * degrees, addendum one module, dedendum 1.25 modules. */
 #include "mesh/models.h"
 
+#include "base/elementary.h"
+
 #include <math.h>
 
 enum { TEETH = 24, SECTORS = 6 };
@@ -22,13 +24,13 @@ enum { FLANK, TIP, ROOT, PER_TOOTH, AROUND, RADIAL };
 /* ---- the outline ---- */
 
 static double involute(double r, double base) {
-    return sqrt(r * r / (base * base) - 1) - acos(base / r);
+    return sqrt(r * r / (base * base) - 1) - dp_acos(base / r);
 }
 
 /* Half the angle of a tooth at radius r. Below the base circle the flank widens into a fillet; the
  * slight slope all along keeps angles growing where the involute is radial. */
 static double half_tooth(double r) {
-    const double pitch = MODULE * TEETH / 2, base = pitch * cos(TURN / 18),
+    const double pitch = MODULE * TEETH / 2, base = pitch * dp_cos(TURN / 18),
                  root = pitch - 1.25 * MODULE;
     const double at_base = TURN / (4 * TEETH) + involute(pitch, base);
     const double slope = 0.06 * (1 - r);
@@ -74,8 +76,8 @@ static void ring_point(const dp_model *model, int ring, uint32_t k, double p[3])
     double angle, radius;
     outline(model, k, &angle, &radius);
     if (rings[ring].radius > 0) radius = rings[ring].radius;
-    p[0] = radius * cos(angle);
-    p[1] = radius * sin(angle);
+    p[0] = radius * dp_cos(angle);
+    p[1] = radius * dp_sin(angle);
     p[2] = rings[ring].z;
 }
 
@@ -114,7 +116,7 @@ static void sector_curve(const dp_model *model, int code, uint32_t i, double p[3
     double start, unused;
     outline(model, 0, &start, &unused);
     const double angle = start + TURN * (code / 4 + 0.5) / SECTORS;
-    const double x = HOLE_AT * cos(angle), y = HOLE_AT * sin(angle);
+    const double x = HOLE_AT * dp_cos(angle), y = HOLE_AT * dp_sin(angle);
     const double away = sqrt((p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y));
     p[0] = x + HOLE_RADIUS * (p[0] - x) / away;
     p[1] = y + HOLE_RADIUS * (p[1] - y) / away;

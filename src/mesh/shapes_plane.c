@@ -3,6 +3,8 @@
  * point. */
 #include "mesh/models.h"
 
+#include "base/elementary.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -47,7 +49,7 @@ void dp_build_cube(dp_model *model) {
 /* A bar through a block, both turned so that no two faces are parallel. */
 void dp_build_boxes(dp_model *model) {
     const double block[3] = {0.5, 0.62, 0.55}, bar[3] = {1, 0.27, 0.3};
-    const double c = cos(0.35), s = sin(0.35), d = cos(0.25), t = sin(0.25);
+    const double c = dp_cos(0.35), s = dp_sin(0.35), d = dp_cos(0.25), t = dp_sin(0.25);
     const double turn[3][3] = {{c * d, s, -c * t}, {-s * d, c, s * t}, {t, 0, d}};
     const uint32_t n = model->fine;
     add_box(model, block, upright, (uint32_t[3]){n, n, n});

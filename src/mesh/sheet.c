@@ -11,6 +11,7 @@
 #include "mesh/sheet.h"
 
 #include "base/diag.h"
+#include "base/elementary.h"
 #include "mesh/source.h"
 
 #include <math.h>
@@ -63,7 +64,7 @@ void dp_turn(uint32_t k, uint32_t n, double *c, double *s) {
     const uint64_t eighths = 8 * (uint64_t)k / n;
     const uint64_t quarter = (eighths + 1) / 2;                      /* the nearest axis, 0 … 4 */
     const double rest = (4.0 * k - (double)quarter * n) / (4.0 * n); /* of a turn */
-    const double x = cos(full * rest), y = sin(full * rest);
+    const double x = dp_cos(full * rest), y = dp_sin(full * rest);
     const double table[4][2] = {{x, y}, {-y, x}, {-x, -y}, {y, -x}};
     *c = table[quarter % 4][0];
     *s = table[quarter % 4][1];

@@ -4,6 +4,7 @@
  * corners that are left, in order; each cut removes one corner. A polygon that crosses itself runs
  * out of ears: then the corner that is next is cut anyway, so that n - 2 cuts always end it.
  * The cost is quadratic in the corners, so beyond MANY_CORNERS no ear is looked for. */
+#include "base/elementary.h"
 #include "base/vec.h"
 #include "mesh/polygons.h"
 
@@ -35,7 +36,7 @@ bool dp_is_convex_planar(const float *const *at, uint32_t n) {
         const double turn = dp_dot(dp_cross(in, out), normal);
         if (turn < -PLANAR * dp_length(in) * dp_length(out)) return false;
         if (fabs(dp_dot(dp_sub(b, dp_v3f(at[0])), normal)) > PLANAR * size) return false;
-        turned += atan2(turn, dp_dot(in, out));
+        turned += dp_atan2(turn, dp_dot(in, out));
     }
     return turned <
            7; /* once around is 2 pi: a pentagram turns left everywhere, but twice around */

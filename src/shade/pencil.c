@@ -18,6 +18,7 @@
  * mixed. */
 #include "shade/pencil.h"
 
+#include "base/elementary.h"
 #include "base/hostile.h"
 #include "base/kernels.h"
 #include "shade/pencil_rows.h"
@@ -92,9 +93,13 @@ static void find_corners(const dp_shading_setup *setup, const dp_shade_run *run,
         for (uint32_t k = 0; k < 3; k++) c->turn[i][k] = setup->turns[c->vertex[i][k]];
 }
 
+static void turn_of(float angle, float *cosine, float *sine) {
+    *cosine = (float)dp_cos((double)angle);
+    *sine = (float)dp_sin((double)angle);
+}
+
 void dp_make_pencil_table(dp_pencil_table *p) {
-    for (uint32_t i = 0; i < DP_TURNS; i++)
-        p->c[i] = cosf((float)i * PI / DP_TURNS), p->s[i] = sinf((float)i * PI / DP_TURNS);
+    for (uint32_t i = 0; i < DP_TURNS; i++) turn_of((float)i * PI / DP_TURNS, &p->c[i], &p->s[i]);
     for (uint32_t i = 0; i < 256; i++) p->weight[i] = (float)i / 765;
 }
 
@@ -161,16 +166,24 @@ static void find_strands_printed(const corners *c, dp_strands *s) {
             const uint32_t at = 3 * i + k;
             const float angle = (float)c->turn[i][k] * (PI / 65536);
             const bool same = i && c->turn[i - 1][k] == c->turn[i][k];
-            put_strand(s, at, c->pixel[i], same ? s->c[at - 3] : cosf(angle),
-                       same ? s->s[at - 3] : sinf(angle), 1.0f / 3);
+            float cosine, sine;
+            if (same)
+                cosine = s->c[at - 3], sine = s->s[at - 3];
+            else
+                turn_of(angle, &cosine, &sine);
+            put_strand(s, at, c->pixel[i], cosine, sine, 1.0f / 3);
         }
 }
 
 void dp_make_powers(uint8_t *powers, float s, float o) {
-    for (uint32_t dark = 0; dark < 256; dark++)
-        for (uint32_t v = 0; v < 256; v++)
-            powers[256 * dark + v] =
-                (uint8_t)(255 * powf((float)v / 255, (float)dark / 255 * s + dp_maxf(o, 0)) + 0.5f);
+    for (uint32_t v = 0; v < 256; v++) {
+        const double logarithm = dp_log((double)((float)v / 255));
+        for (uint32_t dark = 0; dark < 256; dark++) {
+            const float exponent = (float)dark / 255 * s + dp_maxf(o, 0);
+            const float power = exponent == 0 ? 1 : (float)dp_exp((double)exponent * logarithm);
+            powers[256 * dark + v] = (uint8_t)(255 * power + 0.5f);
+        }
+    }
 }
 
 void dp_shade_pencil(const dp_shading_setup *setup, dp_shade_run *run) {

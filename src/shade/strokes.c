@@ -10,6 +10,8 @@
  * inked. */
 #include "shade/shade.h"
 
+#include "base/elementary.h"
+
 #include <string.h>
 
 enum { SIZE = DP_STROKES_SIZE, LINES = 32 };
@@ -90,7 +92,7 @@ void dp_make_halftone(uint8_t *values) {
         for (int x = 0; x < SIZE; x++) {
             const double step = 2 * 3.14159265358979323846 / SIZE;
             const double height =
-                0.5 + 0.25 * (cos(step * (A * x + B * y)) + cos(step * (A * y - B * x)));
+                0.5 + 0.25 * (dp_cos(step * (A * x + B * y)) + dp_cos(step * (A * y - B * x)));
             values[y * SIZE + x] = (uint8_t)(4 + 247 * height + 0.5);
         }
 }

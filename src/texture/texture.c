@@ -5,6 +5,7 @@
 #include "texture/texture.h"
 
 #include "base/diag.h"
+#include "base/elementary.h"
 #include "base/memory.h"
 #include "base/vec.h"
 
@@ -187,6 +188,6 @@ dp_texel dp_texture_sample(const dp_texture *t, uint32_t level, float u, float v
 }
 
 double dp_stroke_polar(double x, double y, double k) {
-    const double turns = atan2(y, x) / 6.283185307179586;
+    const double turns = dp_atan2(y, x) / 6.283185307179586;
     return (turns < 0 ? turns + 1 : turns) + k * dp_hypot(x, y);
 }
