@@ -56,6 +56,29 @@ static void test_a_soup_has_the_same_neighbours_as_an_indexed_mesh(void **state)
     expect_six(a, (const uint32_t[6]){0, 3, 2, 3, 1, 3});
 }
 
+/* What lies across the edge from vertex 0 to vertex 1, of up to four triangles at it. */
+static void expect_across(const float p[][3], size_t vertices, const uint32_t *t, size_t n,
+                          const uint32_t *expected) {
+    uint32_t six[24];
+    const dp_batch batch = batch_of(p[0], vertices, t, n);
+    assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_OK);
+    for (size_t i = 0; i < n; i++)
+        if (six[6 * i + 1] != expected[i])
+            fail_msg("triangle %zu: %u, not %u", i, six[6 * i + 1], expected[i]);
+}
+
+/* Two sheets, each of two sides in one place, meet at an edge: what looks at each other are sides
+ * of different sheets, not the two of one. And of two pages in one place the later is next to what
+ * comes at a greater angle, the earlier stays alone. */
+static void test_sides_of_one_sheet_do_not_look_at_each_other(void **state) {
+    (void)state;
+    static const float p[5][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+    static const uint32_t sheets[12] = {0, 1, 2, 1, 0, 2, 0, 1, 3, 1, 0, 3};
+    expect_across(p, 4, sheets, 4, (const uint32_t[4]){3, 3, 2, 2});
+    static const uint32_t pages[9] = {0, 1, 2, 0, 1, 4, 1, 0, 3};
+    expect_across(p, 5, pages, 3, (const uint32_t[3]){2, 3, 4});
+}
+
 static void test_wrong_calls_and_bad_indices(void **state) {
     (void)state;
     static const float p[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -309,6 +332,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_six_indices_are_sorted_as_in_figure_2_2),
         cmocka_unit_test(test_a_soup_has_the_same_neighbours_as_an_indexed_mesh),
+        cmocka_unit_test(test_sides_of_one_sheet_do_not_look_at_each_other),
         cmocka_unit_test(test_wrong_calls_and_bad_indices),
         cmocka_unit_test(test_four_pages_are_paired_by_the_wedges_between_them),
         cmocka_unit_test(test_pages_wound_alike_are_neighbours_but_flipped),

@@ -2,6 +2,7 @@
  * told. */
 #include "scene.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -336,6 +337,47 @@ static int destroy_context(void **state) {
     return 0;
 }
 
+/* An allocator that counts what it has handed out. */
+static void *counted_alloc(size_t size, void *user) {
+    void *const block = malloc(size);
+    if (block) ++*(long *)user;
+    return block;
+}
+static void *counted_realloc(void *block, size_t size, void *user) {
+    void *const moved = realloc(block, size);
+    if (moved && !block) ++*(long *)user;
+    return moved;
+}
+static void counted_free(void *block, void *user) {
+    if (block) --*(long *)user;
+    free(block);
+}
+
+/* Polygons of any number of corners are given back with the context, all of them. */
+static void nothing_is_left_behind(void **state) {
+    long blocks = 0;
+    const dp_allocator counting = {counted_alloc, counted_realloc, counted_free, &blocks};
+    const dp_context_desc desc = {.allocator = &counting, .threads = 1};
+    const dp_camera camera = scene_flat_camera();
+    dp_context *own = NULL;
+    (void)state;
+    assert_int_equal(dp_context_create(&desc, &own, NULL), DP_OK);
+    dp_set_camera(own, &camera);
+    dp_enable(own, DP_ALL_LINES);
+    for (int corners = 3; corners < 40; corners += 4) { /* a star: every other one further in */
+        dp_begin(own, DP_POLYGON);
+        for (int i = 0; i < corners; i++) {
+            const double turn = 2 * 3.14159265358979 * i / corners, reach = i % 2 ? 20 : 50;
+            dp_vertex3f(own, (float)(reach * cos(turn)), (float)(reach * sin(turn)),
+                        (float)-corners);
+        }
+        dp_end(own);
+    }
+    assert_int_equal(dp_finish(own, &target, NULL), DP_OK);
+    dp_context_destroy(own);
+    assert_int_equal(blocks, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figure_3_draws_what_the_batch_draws),
@@ -349,6 +391,7 @@ int main(void) {
         cmocka_unit_test(wrong_calls_are_told),
         cmocka_unit_test(nothing_recorded_is_paper),
         cmocka_unit_test(many_polygons),
+        cmocka_unit_test(nothing_is_left_behind),
     };
     return cmocka_run_group_tests(tests, make_context, destroy_context);
 }

@@ -171,6 +171,27 @@ static void binary_lists_in_vertices_and_strips(void **state) {
                         "(30 31 32)(20 21 22)(10 11 12)\n");
 }
 
+/* Restarts of strips whose numbers have no sign: the largest number stands for -1, in either
+ * order. */
+static void strips_of_unsigned_numbers_begin_anew(void **state) {
+    static const uint32_t strip[] = {0, 1, 2, UINT32_MAX, 3, 2, 1, 0};
+    (void)state;
+    for (int big = 0; big < 2; big++) {
+        bytes file = {.big = big};
+        put_text(&file,
+                 big ? HEADER("binary_big_endian", "4") : HEADER("binary_little_endian", "4"));
+        put_text(&file,
+                 "element tristrips 1\nproperty list uint uint vertex_indices\nend_header\n");
+        for (int v = 0; v < 4; v++)
+            for (int k = 0; k < 3; k++) put_float(&file, (float)(v * 10 + k));
+        put(&file, 8, 4);
+        for (size_t i = 0; i < 8; i++) put(&file, strip[i], 4);
+        assert_string_equal(trace_bytes(file.data, file.size, NULL, DP_FORMAT_AUTO),
+                            "(0 1 2)(10 11 12)(20 21 22)\n(30 31 32)(20 21 22)(10 11 12)\n"
+                            "(10 11 12)(20 21 22)(0 1 2)\n");
+    }
+}
+
 static void broken_headers_are_told(void **state) {
     (void)state;
     assert_contains(trace_text("ply\nformat binary_middle_endian 1.0\nend_header\n"),
@@ -252,6 +273,7 @@ int main(void) {
         cmocka_unit_test(binary_is_read_in_both_orders),
         cmocka_unit_test(binary_content_begins_right_behind_the_header),
         cmocka_unit_test(binary_lists_in_vertices_and_strips),
+        cmocka_unit_test(strips_of_unsigned_numbers_begin_anew),
         cmocka_unit_test(broken_headers_are_told),
         cmocka_unit_test(broken_ascii_is_told_with_its_line),
         cmocka_unit_test(huge_counts_end_with_the_file),

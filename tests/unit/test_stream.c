@@ -240,6 +240,49 @@ static void shuffled_soups(void **state) {
     }
 }
 
+/* A model that is there twice: of an edge's four triangles two and two run the same way, and any
+ * two of them may meet first, in different chunks. */
+static void doubled_soups(void **state) {
+    (void)state;
+    soup s;
+    make_soup(&s, "gear", DP_TUNED(5000, 800));
+    s.corners = realloc(s.corners, 2 * s.count * sizeof *s.corners);
+    assert_non_null(s.corners);
+    memcpy(s.corners + s.count, s.corners, s.count * sizeof *s.corners);
+    s.count *= 2;
+    shuffle(&s);
+    dp_source *const source = soup_source(&s);
+    expect_same_as_memory(source, (how){.style.lines = NO_CROSSINGS}, "a doubled gear");
+    dp_source_destroy(source);
+    free(s.corners);
+}
+
+/* More triangles that may cross others than are looked after: that some were given up is told. */
+static void too_many_crossings(void **state) {
+    (void)state;
+    if (DP_TUNED(false, true)) skip(); /* as many in small steps take too long */
+    uint64_t random = 12345;
+    soup s = {.count = 60000};
+    s.corners = malloc(s.count * sizeof *s.corners);
+    assert_non_null(s.corners);
+    for (size_t i = 0; i < s.count; i++) { /* small, all over a plane, each tilted its own way */
+        float at[2];
+        for (int k = 0; k < 11; k++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            const float r = (float)(random >> 40) / (float)(1 << 24) - 0.5f;
+            if (k < 2)
+                at[k] = 2 * r;
+            else
+                s.corners[i][k - 2] = (k - 2) % 3 == 2 ? 0.02f * r : at[(k - 2) % 3] + 0.05f * r;
+        }
+    }
+    dp_source *const source = soup_source(&s);
+    draw(source, &(how){.limit = 1, .samples = 1, .direction = {0, 0, 1}}, &stream_picture);
+    assert_true(stream_picture.stats.edges_lost > 100);
+    dp_source_destroy(source);
+    free(s.corners);
+}
+
 /* Two triangles in one plane, and far behind in the file a third at their edge: behind them, or
  * standing up. */
 static void fans_far_apart(void **state) {
@@ -547,6 +590,7 @@ int main(void) {
         cmocka_unit_test(all_shapes),        cmocka_unit_test(any_samples_and_cameras),
         cmocka_unit_test(any_threads),       cmocka_unit_test(crossing_faces),
         cmocka_unit_test(shuffled_soups),    cmocka_unit_test(bad_triangles),
+        cmocka_unit_test(doubled_soups),     cmocka_unit_test(too_many_crossings),
         cmocka_unit_test(fans_far_apart),    cmocka_unit_test(kept_in_shares),
         cmocka_unit_test(one_pass),          cmocka_unit_test(read_once),
         cmocka_unit_test(records),           cmocka_unit_test(can_be_stopped),
