@@ -49,6 +49,7 @@ void make_fans(model *m) {
         for (int wound = 0; wound < 8; wound++) {
             const double x = -100 + 28.5 * wound + (set == 0 ? -6 : 0), y = 60 - 60 * set;
             for (int page = 0; page < 3; page++) {
+                m->group = (uint16_t)page;
                 const double turn = rise[page] * PI / 180, reach = set == 0 ? 20 : 12;
                 const double dx = sides[set][page] * reach * cos(turn), dz = reach * sin(turn);
                 add_quad(m, (point){x, y - 22, 0}, (point){x + dx, y - 20 - 2 * page, dz},
@@ -57,6 +58,28 @@ void make_fans(model *m) {
             }
         }
     }
+    m->group = 0;
+}
+
+void make_crossing(model *m) {
+    uint32_t random = 3;
+    for (int i = 0; i < 16; i++) { /* three triangles to a place, two of them at one corner */
+        const double x = -88 + 58 * (i % 4), y = 66 - 44 * (i / 4);
+        point at[3][3];
+        for (int t = 0; t < 3; t++)
+            for (int c = 0; c < 3; c++) {
+                const double turn = 2 * PI * (c + random_number(&random)) / 3,
+                             reach = 16 + 10 * random_number(&random);
+                at[t][c] = (point){x + reach * cos(turn), y + 0.8 * reach * sin(turn),
+                                   60 * (random_number(&random) - 0.5)};
+            }
+        at[1][0] = at[0][0];
+        for (int t = 0; t < 3; t++) {
+            m->group = (uint16_t)((t + i) % 3);
+            add(m, 3, at[t], (i + t) % 4 == 3);
+        }
+    }
+    m->group = 0;
 }
 
 /* A rectangle in a tilted plane through `middle`: from (u0, v0) to (u1, v1) along its axes. */

@@ -23,6 +23,8 @@ typedef void model_maker(model *m);
 /* Three pages at an edge, wound in all eight ways: all to one side on the screen, two and one, one
  * and two. */
 void make_fans(model *m);
+/* Triangles that cross each other, some of which share a corner, some with the back to the eye. */
+void make_crossing(model *m);
 /* Tilted rectangles that lie in one plane, one upon the other, each of a group of its own; some of
  * them twice, some of those with the back to the eye. */
 void make_sheets(model *m);

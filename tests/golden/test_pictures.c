@@ -46,6 +46,7 @@ static const golden quads[] = {
      .style = {QUADS, COLORS(6), .between = DP_BETWEEN_INTERVAL, .between_offset = 3}},
     {"quads-crossing-stencil", "boxes",
      .style = {QUADS, COLORS(6), .between = DP_BETWEEN_STENCIL, .between_offset = 3}, ORTHO},
+    {"quads-crossing-many", .make = make_crossing, .style = {QUADS, COLORS(5)}, FLAT},
     /* What is trapped more than four widths behind the surface is not inked. */
     {"quads-steep", .make = make_steep, .style = {QUADS, COLORS(24)}, FLAT},
     {"quads-valleys", .make = make_valleys, .style = {QUADS, COLORS(16)}, FLAT},
@@ -129,6 +130,11 @@ static const golden odd[] = {
     {"concave", .make = make_concave, .style = {COLORS(2), .surface = TAN}, FLAT},
     {"bars", .make = make_bars, .style = {COLORS(5)}, FLAT},
     {"crossing", "boxes", .style = {COLORS(3)}},
+    {"crossing-many", .make = make_crossing, .style = {COLORS(3)}, FLAT},
+    {"crossing-many-streamed", .make = make_crossing, .style = {COLORS(3)}, FLAT,
+     .reading = GOLDEN_TWICE, .like = "crossing-many"},
+    {"crossing-many-once", .make = make_crossing, .style = {COLORS(3), .passes = 1}, FLAT,
+     .reading = GOLDEN_ONCE},
 };
 
 static const golden groups[] = {
@@ -143,6 +149,8 @@ static const golden groups[] = {
                .shade = {.shading = DP_SHADING_TOON, .model_colors = true},
                .edge_map = {.detector = DP_EDGE_MAP_C1, .radius = 2}},
      FLAT},
+    {"groups-fans", .make = make_fans, .reading = GOLDEN_IMMEDIATE, FLAT},
+    {"groups-crossing", .make = make_crossing, .reading = GOLDEN_IMMEDIATE, FLAT},
     {"groups-immediate", .make = make_sheets, .reading = GOLDEN_IMMEDIATE, FLAT},
     {"groups-immediate-quads", .make = make_touching, .style = {QUADS}, .reading = GOLDEN_IMMEDIATE,
      STEEP},
