@@ -22,6 +22,7 @@ help:
 	@echo 'make test       build and run the tests once, without sanitizers and fuzzers'
 	@echo 'make sanitize   run the tests under the sanitizers and in the hostile build'
 	@echo 'make fuzz       run every fuzzer for long: MINUTES=10 each'
+	@echo 'make mutants    plant faults, list those no quick test notices: SEED=1 FAULTS=100 ONLY=N'
 	@echo 'make accuracy   score pictures against exact lines'
 	@echo 'make bench      time frames, ten minutes long, beside Mesa; BENCH_QUICK=1: two'
 	@echo 'make bench-big  draw a 5 GB file; TRIANGLES=2000000 makes it smaller'
@@ -53,6 +54,9 @@ sanitize: setup-check
 fuzz: setup-check
 	@scripts/fuzz.sh
 
+mutants: setup-check
+	@scripts/mutants.py $(SEED:%=--seed %) $(FAULTS:%=--faults %) $(ONLY:%=--only %) $(WIDE:%=--wide)
+
 accuracy: setup-check
 	@scripts/accuracy.sh
 
@@ -80,5 +84,5 @@ format-check:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all help setup setup-check demo check check-all test sanitize fuzz accuracy bench bench-big gallery \
+.PHONY: all help setup setup-check demo check check-all test sanitize fuzz mutants accuracy bench bench-big gallery \
         install format format-check clean
