@@ -2,6 +2,8 @@
 #ifndef DP_TESTS_READING_H
 #define DP_TESTS_READING_H
 
+#include "temporary.h"
+
 #include "io/readers.h"
 
 #include <setjmp.h>
@@ -107,8 +109,7 @@ static inline const char *trace_text(const char *content) {
 /* A new file with that content; the name is to be unlinked and is good until the next call. */
 static inline const char *write_file(const char *ending, const void *bytes, size_t size) {
     static char path[300], named[300];
-    const char *const folder = getenv("TMPDIR");
-    snprintf(path, sizeof path, "%s/drypoint-test-XXXXXX", folder ? folder : "/tmp");
+    temporary_name(path, sizeof path, "test");
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     assert_int_equal(write(descriptor, bytes, size), size);

@@ -80,9 +80,8 @@ static void put_file(const char *name, const char *content) {
 }
 
 static int make_folder(void **state) {
-    const char *const base = getenv("TMPDIR");
     (void)state;
-    snprintf(folder, sizeof folder, "%s/drypoint-mtl-XXXXXX", base ? base : "/tmp");
+    temporary_name(folder, sizeof folder, "mtl");
     return mkdtemp(folder) ? 0 : -1;
 }
 

@@ -1,6 +1,8 @@
 /* Pictures written as PNG: pixels come back, in the fewest channels, and files are whole or
  * untouched. */
 #define _XOPEN_SOURCE 700 /* symlink, mkdtemp */
+#include "temporary.h"
+
 #include <drypoint/io.h>
 
 #include <png.h>
@@ -16,12 +18,12 @@
 
 enum { WIDTH = 7, HEIGHT = 5, BYTES = 4 * WIDTH * HEIGHT };
 
-static char directory[64];
-static char path[96];
+static char directory[300];
+static char path[340];
 
 static int enter_directory(void **state) {
     (void)state;
-    strcpy(directory, "/tmp/drypoint-png-XXXXXX");
+    temporary_name(directory, sizeof directory, "png");
     if (!mkdtemp(directory)) return -1;
     snprintf(path, sizeof path, "%s/picture.png", directory);
     return 0;
@@ -134,7 +136,7 @@ static void permissions_stay(void **state) {
 static void links_stay_links(void **state) {
     (void)state;
     uint8_t painted[BYTES], read[BYTES];
-    char link[96];
+    char link[340];
     struct stat status;
     paint(painted, true, false);
     write_text(path, "old");
@@ -174,7 +176,7 @@ static void devices_are_written_in_place(void **state) {
 static void bad_places_are_errors(void **state) {
     (void)state;
     uint8_t painted[BYTES];
-    char missing[128];
+    char missing[340];
     dp_diag diag = {0};
     paint(painted, true, true);
     snprintf(missing, sizeof missing, "%s/none/picture.png", directory);

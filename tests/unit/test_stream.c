@@ -1,4 +1,6 @@
 /* Streaming: a drawing in parts is the drawing from memory, in bounded memory, for any source. */
+#include "temporary.h"
+
 #include "base/hostile.h"
 #include "io/readers.h"
 #include "draw/context.h"
@@ -431,7 +433,7 @@ static void read_once(void **state) {
 
 /* ------- binary STL: records ------- */
 
-static char stl_path[] = "/tmp/drypoint-stream-XXXXXX";
+static char stl_path[300];
 
 static void write_stl(const soup *s, uint32_t announced) {
     FILE *const file = fopen(stl_path, "wb");
@@ -470,6 +472,7 @@ static void records(void **state) {
     dp_diag diag = {0};
     dp_extent records_extent, batches_extent;
     make_soup(&s, "torus", DP_TUNED(20000, 1000));
+    temporary_name(stl_path, sizeof stl_path, "stream");
     const int descriptor = mkstemp(stl_path);
     assert_true(descriptor >= 0);
     close(descriptor);

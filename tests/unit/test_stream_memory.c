@@ -2,6 +2,8 @@
  * of its own whose peak is looked at. Skipped where sanitizers or the hostile build make memory say
  * nothing. */
 #define _DEFAULT_SOURCE /* wait4 */
+#include "temporary.h"
+
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
 
@@ -18,7 +20,7 @@
 
 enum { WIDTH = 1680, HEIGHT = 1050, TRIANGLES = 2000000, MB = 1 << 20 };
 
-static char path[] = "/tmp/drypoint-memory-XXXXXX";
+static char path[300];
 
 static int write_model(void) {
     dp_source *source;
@@ -73,6 +75,7 @@ static void two_million_triangles(void **state) {
     skip();
 #endif
     double peak;
+    temporary_name(path, sizeof path, "memory");
     const int file = mkstemp(path);
     assert_true(file >= 0);
     close(file);

@@ -1,4 +1,6 @@
 /* Chains, stroke textures and the hand. */
+#include "temporary.h"
+
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
 
@@ -188,11 +190,12 @@ static void test_every_named_texture_has_ink_and_none_is_solid(void **state) {
 
 static void test_png_files_become_textures(void **state) {
     (void)state;
-    char path[] = "/tmp/drypoint-texture-XXXXXX";
+    char path[300];
     static const uint8_t rgba[2][2][4] = {{{0, 0, 0, 255}, {255, 255, 255, 255}},
                                           {{128, 128, 128, 255}, {0, 0, 0, 255}}};
     dp_texture *t = NULL;
     dp_diag diag;
+    temporary_name(path, sizeof path, "texture");
     const int file = mkstemp(path);
     assert_true(file >= 0 && write(file, "no picture", 10) == 10);
     close(file);

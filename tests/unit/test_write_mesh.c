@@ -1,6 +1,8 @@
 /* Models written as PLY, STL and OBJ, read back with the library's own readers: same polygons, same
  * bits; what cannot be written is left out or refused, and files are whole or untouched. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "temporary.h"
+
 #include <drypoint/io.h>
 #include <drypoint/shapes.h>
 
@@ -14,12 +16,12 @@
 
 #include <cmocka.h>
 
-static char directory[64];
-static char path[96];
+static char directory[300];
+static char path[340];
 
 static int enter_directory(void **state) {
     (void)state;
-    strcpy(directory, "/tmp/drypoint-mesh-XXXXXX");
+    temporary_name(directory, sizeof directory, "mesh");
     return mkdtemp(directory) ? 0 : -1;
 }
 
