@@ -214,6 +214,10 @@ class Running:
         return f"crashes ({signal.Signals(-code).name})" if code < 0 else "fails"
 
 
+def words_of(name):
+    return {word.rstrip("s") for word in re.split(r"\W|_", name)}
+
+
 class Subset:
     """Tests, how long each takes without a fault, and how many faults each has noticed."""
 
@@ -257,10 +261,10 @@ class Subset:
 
     def order(self, path):
         """First the tests that share a word with the file's name, then those that notice most in least time."""
-        words = set(re.split(r"\W|_", path)) - {"src", "c", "h", "inc", "test"}
+        words = words_of(path) - {"src", "c", "h", "inc", "test"}
 
         def worth(test):
-            near = len(words & set(re.split(r"\W|_", test.name)))
+            near = len(words & words_of(test.name))
             return -near, -(self.hits[test.name] + 1) / (self.seconds.get(test.name, 1) + 0.5), test.name
         return sorted(self.tests, key=worth)
 
