@@ -223,7 +223,7 @@ dp_lean dp_quad_lean(const dp_screen_edge *edge, const dp_pen *pen) {
                                      -pen->sine * n.rise - pen->cosine * o.rise});
 }
 
-/* Joints are made of triangles whose rims miss the circle by no more than this (px), or as many as
+/* Joints are made of triangles whose contours miss the circle by no more than this (px), or as many as
  * there is room for. */
 static const double SAGITTA = 0.3;
 enum { SPANS = DP_ADDED_MOST - 1 };
@@ -263,7 +263,7 @@ static double rise_of(const dp_screen_edge *e, const dp_pen *pen) {
     return lean.outward ? lean.slope - e->own : NAN;
 }
 
-/* On the rim, in direction (x, y). */
+/* On the contour, in direction (x, y). */
 static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, double y, double rise) {
     const double t = x * e->tx + y * e->ty, n = x * e->nx + y * e->ny;
     const double d = e->b.d + reach * (e->along * t + e->own * n + rise);
@@ -271,7 +271,7 @@ static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, doub
                        dp_min(d, e->b.d + reach * e->steep)};
 }
 
-/* The thin triangle from the corner where `e` ends to two points of the rim. False: it covers
+/* The thin triangle from the corner where `e` ends to two points of the contour. False: it covers
  * nothing. */
 static bool set_thin(const dp_screen_edge *e, dp_pointd from, dp_pointd to, dp_added *out) {
     const dp_pointd o = e->b;

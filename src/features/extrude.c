@@ -1,10 +1,10 @@
 /* Extruding a silhouette edge: see extrude.h. All in screen space, so that widths are exact in
  * pixels; depth is that of the edge's ends (Listing 2.2 leaves z as it is).
  *
- * Equation (2.1) gives the texture coordinates of e1 and e2: the outer rim n1, e1, e2, n2 is laid
+ * Equation (2.1) gives the texture coordinates of e1 and e2: the outer contour n1, e1, e2, n2 is laid
  * onto the edge a, b in proportion to its lengths d_a = |n1 e1|, d_b = |e1 e2| and d_c = |e2 n2|.
  * As printed both lines have d_a in the numerator, and v = 0; by symmetry the second must be d_c,
- * or the rim of an edge and of the same edge turned round would differ, and Figure 2.4 says that v
+ * or the contour of an edge and of the same edge turned round would differ, and Figure 2.4 says that v
  * is 1 outside. |ab| is read as the unit vector, d as the length. */
 #include "features/extrude.h"
 

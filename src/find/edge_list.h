@@ -35,36 +35,36 @@ typedef struct dp_meeting {
     uint32_t next; /* 1 + meeting, 0: none */
 } dp_meeting;
 
-/* The triangles around a vertex (find/umbrellas.inc): of their normals' components, times
- * DP_UMBRELLA_ONE, and of what these are less, the least; and a sum that tells whether they
+/* The triangles around a vertex (find/one-rings.inc): of their normals' components, times
+ * DP_RING_ONE, and of what these are less, the least; and a sum that tells whether they
  * surround it. */
-typedef struct dp_umbrella {
+typedef struct dp_one_ring {
     int16_t least[6]; /* x, -x, y, -y, z, -z */
     uint32_t open;
-} dp_umbrella;
+} dp_one_ring;
 
-_Static_assert(sizeof(dp_umbrella) == 16, "find/umbrellas.inc takes it for a vector");
+_Static_assert(sizeof(dp_one_ring) == 16, "find/one_rings.inc takes it for a vector");
 
 /* So many bytes of them, or more, are too much for the second-level cache. */
-enum { DP_UMBRELLAS_FAR = DP_TUNED(1 << 19, 1 << 10) };
+enum { DP_RINGS_FAR = DP_TUNED(1 << 19, 1 << 10) };
 
-#define DP_UMBRELLA_BYTE   0x7f       /* all bytes of an empty one */
-#define DP_UMBRELLA_CLOSED 0x7f7f7f7f /* its `open` */
-#define DP_UMBRELLA_ONE    8192
-enum { DP_UMBRELLA_NONE = INT16_MAX };
-enum { DP_UMBRELLA_BACKS = 15 /* so many back faces, or fewer, are counted */ };
-#define DP_UMBRELLA_BACK         0x9e3779b1u /* each adds this to `open` */
-#define DP_UMBRELLA_BACK_INVERSE 0xe8b2f51u  /* times that: 1 */
+#define DP_RING_BYTE   0x7f       /* all bytes of an empty one */
+#define DP_RING_CLOSED 0x7f7f7f7f /* its `open` */
+#define DP_RING_ONE    8192
+enum { DP_RING_NONE = INT16_MAX };
+enum { DP_RING_BACKS = 15 /* so many back faces, or fewer, are counted */ };
+#define DP_RING_BACK         0x9e3779b1u /* each adds this to `open` */
+#define DP_RING_BACK_INVERSE 0xe8b2f51u  /* times that: 1 */
 
-/* Umbrellas by the keys of vertices, shifted right. */
-typedef struct dp_umbrellas {
-    dp_umbrella *of;
+/* One-rings by the keys of vertices, shifted right. */
+typedef struct dp_one_rings {
+    dp_one_ring *of;
     size_t cap;
     uint32_t shift;
-    float spread; /* squared, times DP_UMBRELLA_ONE squared: normals that lie together in a box with
+    float spread; /* squared, times DP_RING_ONE squared: normals that lie together in a box with
                      a diagonal less than this make no fold, although they are rough; 0: none is so
                      small */
-} dp_umbrellas;
+} dp_one_rings;
 
 /* A tile's listed edges and the table in which they meet (edge_table.c). */
 typedef struct dp_edge_store {
@@ -77,12 +77,12 @@ typedef struct dp_edge_store {
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
     size_t slots_cap, marks_cap, pair_first_cap, pair_second_cap, meetings_cap, slot_meetings_cap;
     uint32_t slot_count, pairs, meeting_count;
-    uint32_t calm_edges; /* not listed, as both polygons have them */
+    uint32_t flat_edges; /* not listed, as both polygons have them */
 } dp_edge_store;
 
-void dp_umbrellas_init(dp_umbrellas *umbrellas, float flat_cosine);
-void dp_umbrellas_free(dp_umbrellas *umbrellas, const dp_allocator *memory);
-uint64_t dp_umbrellas_bytes(const dp_umbrellas *umbrellas);
+void dp_one_rings_init(dp_one_rings *rings, float flat_cosine);
+void dp_one_rings_free(dp_one_rings *rings, const dp_allocator *memory);
+uint64_t dp_one_rings_bytes(const dp_one_rings *rings);
 void dp_edge_store_free(dp_edge_store *store, const dp_allocator *memory);
 uint64_t dp_edge_store_bytes(const dp_edge_store *store);
 

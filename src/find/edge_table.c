@@ -8,7 +8,7 @@
  * which one mesh of a million triangles in a thousand has.
  *
  * Most edges of a fine mesh end at a vertex around which all is flat, and are never entered
- * (find/umbrellas.inc).
+ * (find/one-rings.inc).
  *
  * Data structure: a list of edges (find/edges.inc), and open addressing of 8 bytes a slot, of
  * which 4 are what two keys have in common; where the slot lies stands for the rest. So two edges
@@ -102,15 +102,15 @@ static bool reserve_list(dp_finder *w, size_t edges) {
                            (size_t)w->tile.seen_count + DP_EDGES_ROOM);
 }
 
-/* Of umbrellas there are so many times as many as seen triangles, which have half as many vertices,
+/* Of one-rings there are so many times as many as seen triangles, which have half as many vertices,
  * or more; half as many where they are far. */
-static const uint32_t UMBRELLAS = DP_TUNED(2, 1);
+static const uint32_t RINGS = DP_TUNED(2, 1);
 
-static bool reserve_umbrellas(dp_finder *w) {
-    const uint64_t least = (uint64_t)UMBRELLAS * w->tile.seen_count;
+static bool reserve_rings(dp_finder *w) {
+    const uint64_t least = (uint64_t)RINGS * w->tile.seen_count;
     uint32_t bits = 4;
     while (bits < 31 && (uint64_t)1 << bits < least) bits++;
-    if ((uint64_t)sizeof(dp_umbrella) << bits > DP_UMBRELLAS_FAR) bits--;
+    if ((uint64_t)sizeof(dp_one_ring) << bits > DP_RINGS_FAR) bits--;
     w->rings.shift = 32 - bits;
     return DP_TILE_RESERVE(&w->tile, w, rings.of, rings.cap, (size_t)1 << bits);
 }
@@ -124,10 +124,10 @@ static bool make_list(dp_finder *w) {
         for (uint32_t i = 0; i < w->tile.seen_count; i++)
             corners += dp_corner_count(polygons, w->tile.polygons[w->tile.seen[i]].id);
     }
-    list->count = w->tile.unsure_count = w->table.calm_edges = 0;
+    list->count = w->tile.unsure_count = w->table.flat_edges = 0;
     if (!reserve_list(w, corners + DP_EDGES_ROOM)) return false;
     if (!polygons->firsts && !polygons->edge_flags) {
-        if (!reserve_umbrellas(w)) return false;
+        if (!reserve_rings(w)) return false;
         dp_find_kernels_for(w->tile.frame->lanes)->list_edges(w);
     } else {
         for (uint32_t i = 0; i < w->tile.seen_count; i++) dp_edge_list_polygon(w, w->tile.seen[i]);
@@ -287,7 +287,7 @@ bool dp_edge_table_fill(dp_finder *w) {
         if (!fill(w, true)) return false;
         dp_find_kernels_for(w->tile.frame->lanes)->flatten(w);
     }
-    w->tile.stats.edges_resolved += w->table.pairs + w->table.calm_edges / 2;
+    w->tile.stats.edges_resolved += w->table.pairs + w->table.flat_edges / 2;
     for (uint32_t i = 0; i < w->table.meeting_count; i++)
         w->table.marks[w->table.meetings[i].first] = DP_MARK_PAIR,
         w->table.marks[w->table.meetings[i].number] = 0;
@@ -332,23 +332,23 @@ dp_edge_entry dp_edge_table_entry(const dp_finder *w, uint32_t number) {
 /* ------- memory ------- */
 
 /* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
-void dp_umbrellas_init(dp_umbrellas *umbrellas, float flat_cosine) {
-    umbrellas->spread = 0;
+void dp_one_rings_init(dp_one_rings *rings, float flat_cosine) {
+    rings->spread = 0;
     if (flat_cosine > 1) return;
     const double angle =
         dp_acos((double)flat_cosine) - (2 * DP_ROUGH_ANGLE + 0.5) * 3.14159265358979323846 / 180;
-    const double chord = angle > 0 ? 2 * dp_sin(angle / 2) * DP_UMBRELLA_ONE : 0;
-    umbrellas->spread = (float)(chord * chord);
+    const double chord = angle > 0 ? 2 * dp_sin(angle / 2) * DP_RING_ONE : 0;
+    rings->spread = (float)(chord * chord);
 }
 
-static const dp_array umbrella_arrays[] = {DP_ARRAY(dp_umbrellas, of, cap)};
+static const dp_array ring_arrays[] = {DP_ARRAY(dp_one_rings, of, cap)};
 
-void dp_umbrellas_free(dp_umbrellas *umbrellas, const dp_allocator *memory) {
-    dp_arrays_free(memory, umbrellas, DP_ARRAYS(umbrella_arrays));
+void dp_one_rings_free(dp_one_rings *rings, const dp_allocator *memory) {
+    dp_arrays_free(memory, rings, DP_ARRAYS(ring_arrays));
 }
 
-uint64_t dp_umbrellas_bytes(const dp_umbrellas *umbrellas) {
-    return dp_arrays_bytes(umbrellas, DP_ARRAYS(umbrella_arrays));
+uint64_t dp_one_rings_bytes(const dp_one_rings *rings) {
+    return dp_arrays_bytes(rings, DP_ARRAYS(ring_arrays));
 }
 
 static const dp_array store_arrays[] = {DP_ARRAY(dp_edge_store, edges.polygon, edges.polygon_cap),

@@ -5,14 +5,14 @@ bool dp_finder_init(dp_finder *finder, const dp_frame *frame, dp_found *found) {
     finder->found = found;
     found->piece_count = found->bone_count = 0;
     finder->lines.owners = NULL;
-    dp_umbrellas_init(&finder->rings, frame->flat_cosine);
+    dp_one_rings_init(&finder->rings, frame->flat_cosine);
     return dp_tile_init(&finder->tile, frame);
 }
 
 void dp_finder_free(dp_finder *finder) {
     const dp_allocator memory = finder->tile.memory;
     if (!memory.free) return; /* never used */
-    dp_umbrellas_free(&finder->rings, &memory);
+    dp_one_rings_free(&finder->rings, &memory);
     dp_edge_store_free(&finder->table, &memory);
     dp_emergence_free(&finder->emergence, &memory);
     dp_crowd_free(&finder->crowd, &memory);
@@ -21,7 +21,7 @@ void dp_finder_free(dp_finder *finder) {
 }
 
 uint64_t dp_finder_bytes(const dp_finder *finder) {
-    return dp_umbrellas_bytes(&finder->rings) + dp_edge_store_bytes(&finder->table) +
+    return dp_one_rings_bytes(&finder->rings) + dp_edge_store_bytes(&finder->table) +
            dp_emergence_bytes(&finder->emergence) + dp_crowd_bytes(&finder->crowd) +
            dp_line_store_bytes(&finder->lines) + dp_tile_bytes(&finder->tile);
 }

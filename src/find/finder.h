@@ -13,7 +13,7 @@
 
 typedef struct dp_finder {
     dp_tile tile;
-    dp_umbrellas rings;
+    dp_one_rings rings;
     dp_edge_store table;
     dp_emergence emergence;
     dp_crowd crowd;

@@ -8,7 +8,7 @@
 #include "core/ld3.inc"
 #include "raster/hidden_boxes.inc"
 #include "raster/polygon_words.inc"
-#include "find/umbrellas.inc"
+#include "find/one_rings.inc"
 #include "find/edges.inc"
 #include "find/folds.inc"
 #include "find/points.inc"

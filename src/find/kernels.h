@@ -12,8 +12,8 @@ struct dp_spine;
 struct dp_finder;
 
 typedef struct dp_find_kernels {
-    /* Appends the edges of the tile's seen triangles to its list, but for those that end at calm
-     * vertices, or on rims and are flat (umbrellas.inc); makes normals that are not known, and
+    /* Appends the edges of the tile's seen triangles to its list, but for those that end at flat
+     * vertices, or on contours and are flat (one-rings.inc); makes normals that are not known, and
      * lists others that are to be made (edges.inc). */
     void (*list_edges)(struct dp_finder *worker);
     /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong

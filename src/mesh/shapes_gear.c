@@ -1,4 +1,4 @@
-/* A spur gear, axis z: hub with bore, thin web with six holes, rim, involute teeth.
+/* A spur gear, axis z: hub with bore, thin web with six holes, contour, involute teeth.
  *
  * The outline is seen from the axis at ever growing angles, so every ring of points uses the
  * outline's angles and the cells between rings never fold. A sixth of the web is a patch between

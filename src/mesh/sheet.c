@@ -74,7 +74,7 @@ void dp_turn(uint32_t k, uint32_t n, double *c, double *s) {
  * corner (0, 0) is at angle 0 and (n, 0) at a quarter turn; its sides go counter-clockwise. */
 void dp_disc(uint32_t i, uint32_t j, uint32_t n, double *x, double *y) {
     const uint32_t di = i < n - i ? i : n - i, dj = j < n - j ? j : n - j;
-    const uint32_t ring = di < dj ? di : dj; /* 0 is the rim */
+    const uint32_t ring = di < dj ? di : dj; /* 0 is the contour */
     const uint32_t side = n - 2 * ring;      /* cells along one side of the ring */
     *x = *y = 0;
     if (!side) return;

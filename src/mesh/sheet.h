@@ -53,7 +53,7 @@ dp_sheet *dp_model_triangle(dp_model *model, double corners[3][3], uint32_t n);
 void dp_between_points(const double a[3], const double b[3], uint32_t k, uint32_t n, double p[3]);
 /* cos and sin of 2 pi k / n, the same bits for k and k + n, and exact at quarter turns. */
 void dp_turn(uint32_t k, uint32_t n, double *c, double *s);
-/* Point (i, j) of a disc of radius 1 in n x n cells; its rim is dp_turn(k, 4 n) from (1, 0) on. */
+/* Point (i, j) of a disc of radius 1 in n x n cells; its contour is dp_turn(k, 4 n) from (1, 0) on. */
 void dp_disc(uint32_t i, uint32_t j, uint32_t n, double *x, double *y);
 
 /* Triangles the model has at most (cells that shrink to a line lose one or two). */

@@ -45,7 +45,7 @@ static float ramp(float from, float to, float x) {
     return smooth(dp_minf(dp_maxf(t, 0), 1));
 }
 
-/* How far inside the stroke: 0 at its rim, 1 in the middle. */
+/* How far inside the stroke: 0 at its contour, 1 in the middle. */
 static float depth_in(float v) { return 1 - fabsf(2 * v - 1); }
 
 /* Graphite caught by the paper's grain; pressure wanders along the stroke. */
@@ -64,7 +64,7 @@ static float brush(float u, float v, uint32_t seed) {
     return ramp(edge - 0.06f, edge + 0.08f, depth_in(v)) * ramp(load - 0.16f, load + 0.10f, streak);
 }
 
-/* Crumbs: coarse grain, no clear rim. */
+/* Crumbs: coarse grain, no clear contour. */
 static float charcoal(float u, float v, uint32_t seed) {
     const float grain = 0.5f * noise(u, v, 110, 14, seed) + 0.3f * noise(u, v, 240, 30, seed + 1) +
                         0.2f * noise(u, v, 16, 3, seed + 2);
@@ -73,7 +73,7 @@ static float charcoal(float u, float v, uint32_t seed) {
            ramp(0, 0.2f, depth_in(v));
 }
 
-/* A pen: full ink, a rim that swells a little. */
+/* A pen: full ink, a contour that swells a little. */
 static float pen(float u, float v, uint32_t seed) {
     const float rim = 0.05f + 0.14f * noise(u, v < 0.5f ? 0 : 5, 7, 1, seed) +
                       0.04f * noise(u, v < 0.5f ? 2 : 9, 29, 1, seed + 1);

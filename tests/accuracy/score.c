@@ -14,7 +14,7 @@
 #define REACH    1.0  /* px across the line in which ink is looked for */
 #define INKED    0.4  /* coverage that counts as ink there */
 #define BARE     0.3  /* coverage under which a pixel of the ideal stroke is uncovered */
-#define STRAY    1.5  /* px beyond a line's rim that ink may be */
+#define STRAY    1.5  /* px beyond a line's contour that ink may be */
 #define GRAIN    0.25 /* px between the points of a segment */
 #define ACROSS   0.1  /* px between the points of a profile */
 #define AVERAGED 32   /* samples (a quarter px each) that one width is averaged over */

@@ -117,18 +117,16 @@ static void same_way(scene *s) {
     assert_int_equal(partner_of(s, 0, 0, false), 1);
 }
 
-/* ------- umbrellas: what is listed ------- */
+/* ------- one-rings: what is listed ------- */
 
-/* The key of vertex `i`: where umbrellas lie apart. */
+/* The key of vertex `i`: where one-rings lie apart. */
 static uint32_t spread_key(uint32_t i) { return (i + 1) * 0x9e3779b1u; }
 
-static void begin_calm(scene *s) {
-    s->worker.rings.spread = 0.25f * DP_UMBRELLA_ONE * DP_UMBRELLA_ONE;
-}
+static void begin_flat(scene *s) { s->worker.rings.spread = 0.25f * DP_RING_ONE * DP_RING_ONE; }
 
 /* Around vertex 0, vertices 1 to 6 in a ring; all flat. Vertices of the ring are open. */
-static void add_umbrella(scene *s, uint32_t triangles) {
-    begin_calm(s);
+static void add_ring(scene *s, uint32_t triangles) {
+    begin_flat(s);
     for (uint32_t i = 0; i < triangles; i++)
         add_triangle(s, spread_key(0), spread_key(1 + i), spread_key(1 + (i + 1) % 6));
 }
@@ -155,27 +153,27 @@ static uint32_t count_spokes(scene *s) {
 static void expect_spokes(scene *s, uint32_t count) {
     const uint32_t spokes = count_spokes(s);
     assert_true(spokes == count || (DP_TUNED(0, 1) && spokes == 12));
-    assert_int_equal(s->worker.table.edges.count + s->worker.table.calm_edges, 3 * s->count);
+    assert_int_equal(s->worker.table.edges.count + s->worker.table.flat_edges, 3 * s->count);
 }
 
-static void expect_calm(scene *s) { expect_spokes(s, 0); }
+static void expect_flat(scene *s) { expect_spokes(s, 0); }
 
-static void calm(scene *s) {
-    add_umbrella(s, 6);
-    expect_calm(s);
+static void flat(scene *s) {
+    add_ring(s, 6);
+    expect_flat(s);
     for (uint32_t i = 0; i < 6; i++) set_normal(s, i, i % 2 ? 0.2f : -0.2f, i % 3 ? 0 : DP_ROUGH);
-    expect_calm(s);
+    expect_flat(s);
     for (uint32_t i = 0; i < 6; i++) memcpy(s->worker.tile.normals[i], dp_away, sizeof dp_away);
-    expect_calm(s);
+    expect_flat(s);
 }
 
-static void open_umbrella(scene *s) {
-    add_umbrella(s, 5);
+static void open_ring(scene *s) {
+    add_ring(s, 5);
     assert_int_equal(count_spokes(s), 10);
 }
 
 static void bent(scene *s) {
-    add_umbrella(s, 6);
+    add_ring(s, 6);
     set_normal(s, 3, 0.6f, 0);
     assert_int_equal(count_spokes(s), 12);
 }
@@ -187,8 +185,8 @@ static void turn_away(scene *s, uint32_t triangle) {
 
 /* Of a vertex with flat front faces and some back faces, only edges between them are listed, by
  * both. */
-static void rim(scene *s) {
-    add_umbrella(s, 6);
+static void contour(scene *s) {
+    add_ring(s, 6);
     turn_away(s, 3);
     expect_spokes(s, 4);
     turn_away(s, 4);
@@ -202,13 +200,13 @@ static void rim(scene *s) {
 /* Normals that are unknown are made first, those that are rough only where edges are listed. */
 static void unknown(scene *s) {
     static float places[3 * MOST][3];
-    add_umbrella(s, 6);
+    add_ring(s, 6);
     s->frame.polygons.positions = places[0];
     memset(places, 0, sizeof places);
     places[3 * 2 + 1][0] = 1, places[3 * 2 + 2][1] = 1;
     set_normal(s, 2, 0, DP_UNKNOWN);
     set_normal(s, 4, 0, DP_ROUGH);
-    expect_calm(s);
+    expect_flat(s);
     assert_true(s->worker.tile.normals[2][2] == 1 && s->worker.tile.normals[2][3] == 0);
     set_normal(s, 2, 0, DP_UNKNOWN);
     places[3 * 2 + 2][2] = 1; /* upright now */
@@ -219,14 +217,14 @@ static void unknown(scene *s) {
 
 /* A triangle that is wound the other way does not close the ring. */
 static void wound_wrongly(scene *s) {
-    add_umbrella(s, 5);
+    add_ring(s, 5);
     add_triangle(s, spread_key(1), spread_key(6), spread_key(0));
     assert_int_equal(count_spokes(s), 12);
 }
 
 /* Three vertices in one slot: a triangle by itself, and a hole. */
 static void same_slot(scene *s) {
-    begin_calm(s);
+    begin_flat(s);
     add_triangle(s, 1, 2, 3);
     count_spokes(s);
     assert_int_equal(s->worker.table.edges.count, 3);
@@ -242,7 +240,7 @@ static void same_slot(scene *s) {
 
 /* What is clipped has its edges listed, and those of the triangles around it. */
 static void clipped(scene *s) {
-    add_umbrella(s, 6);
+    add_ring(s, 6);
     s->worker.tile.polygons[1].flags |= DP_POLYGON_CLIPPED;
     for (uint32_t i = 0; i < 3 * MOST; i++) s->frame.vertices[i].key = s->worker.tile.points[i].key;
     assert_int_equal(count_spokes(s), 12);
@@ -253,15 +251,15 @@ static void fill_up(scene *s, uint32_t count, uint32_t all) {
     while (s->count + count < all) add_triangle(s, spread_key(7), spread_key(10), spread_key(11));
 }
 
-/* However many triangles there are, the last one closes its umbrella, or opens it. */
+/* However many triangles there are, the last one closes its one-ring, or opens it. */
 static void last_one(scene *s) {
     for (uint32_t all = 7; all <= MOST; all++) {
         s->count = 0;
         fill_up(s, 6, all);
-        add_umbrella(s, 6);
-        expect_calm(s);
+        add_ring(s, 6);
+        expect_flat(s);
         s->count = 0;
-        add_umbrella(s, 6);
+        add_ring(s, 6);
         fill_up(s, 1, all);
         add_triangle(s, spread_key(0), spread_key(14), spread_key(15));
         assert_int_equal(count_spokes(s), 14);
@@ -288,24 +286,25 @@ static void for_all_kernels(void **state) {
 }
 
 int main(void) {
-    static trial trials[] = {
-        {tells_apart}, {pairs_apart},   {fans_apart}, {same_way},  {calm}, {open_umbrella}, {bent},
-        {unknown},     {wound_wrongly}, {clipped},    {same_slot}, {rim},  {last_one}};
+    static trial trials[] = {{tells_apart}, {pairs_apart}, {fans_apart}, {same_way},      {flat},
+                             {open_ring},   {bent},        {unknown},    {wound_wrongly}, {clipped},
+                             {same_slot},   {contour},     {last_one}};
     const struct CMUnitTest tests[] = {
         {"edges of one name are told apart", for_all_kernels, NULL, NULL, &trials[0]},
         {"pairs of one name are told apart", for_all_kernels, NULL, NULL, &trials[1]},
         {"fans of one name are told apart", for_all_kernels, NULL, NULL, &trials[2]},
         {"edges may run the same way", for_all_kernels, NULL, NULL, &trials[3]},
-        {"edges around a calm vertex are not listed", for_all_kernels, NULL, NULL, &trials[4]},
-        {"an open umbrella is not calm", for_all_kernels, NULL, NULL, &trials[5]},
-        {"a bent umbrella is not calm", for_all_kernels, NULL, NULL, &trials[6]},
+        {"edges around a flat interior vertex are not listed", for_all_kernels, NULL, NULL,
+         &trials[4]},
+        {"an open one-ring is not flat", for_all_kernels, NULL, NULL, &trials[5]},
+        {"a bent one-ring is not flat", for_all_kernels, NULL, NULL, &trials[6]},
         {"normals are made where edges are listed", for_all_kernels, NULL, NULL, &trials[7]},
-        {"wrong winding opens an umbrella", for_all_kernels, NULL, NULL, &trials[8]},
-        {"a clipped triangle opens an umbrella", for_all_kernels, NULL, NULL, &trials[9]},
-        {"umbrellas of one slot do not close each other", for_all_kernels, NULL, NULL, &trials[10]},
-        {"on a rim, edges between both facings are listed", for_all_kernels, NULL, NULL,
+        {"wrong winding opens a one-ring", for_all_kernels, NULL, NULL, &trials[8]},
+        {"a clipped triangle opens a one-ring", for_all_kernels, NULL, NULL, &trials[9]},
+        {"one-rings of one slot do not close each other", for_all_kernels, NULL, NULL, &trials[10]},
+        {"on a contour, edges between both facings are listed", for_all_kernels, NULL, NULL,
          &trials[11]},
-        {"umbrellas know of all triangles, the last one too", for_all_kernels, NULL, NULL,
+        {"one-rings know of all triangles, the last one too", for_all_kernels, NULL, NULL,
          &trials[12]},
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,7 +2,7 @@
  * library included, calls malloc. This program's own malloc counts; what the application's
  * allocator gives comes from behind it. Skipped where a sanitizer has taken malloc's place. */
 #include "base/sort.h"
-#include "pipe/context.h"
+#include "draw/context.h"
 
 #include <drypoint/drypoint.h>
 

@@ -1,7 +1,7 @@
 /* Progress: in every mode it runs forward and ends at exactly 1; who says stop is not asked
  * again, and the next drawing is as if nothing had been. */
 #include "base/hostile.h"
-#include "pipe/context.h"
+#include "draw/context.h"
 
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
