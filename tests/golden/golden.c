@@ -114,6 +114,7 @@ static dp_camera camera_of(const golden_camera *c, uint32_t width, uint32_t heig
                           (const double[3]){0, 0, 0}, (const double[3]){0, 1, 0});
         dp_camera_orthographic(&camera, height, aspect, 1, 1500);
     }
+    for (int i = 0; i < 16 && c->gain > 0; i++) camera.projection[i] *= c->gain;
     if (c->scale > 0) scale_view(&camera, c->scale, c->flat || c->orthographic);
     return camera;
 }

@@ -25,6 +25,7 @@ typedef struct golden_camera {
     double direction[3], zoom;
     bool orthographic;
     double scale; /* of the view matrix; 0: 1 */
+    double gain;  /* of all of the projection, which changes nothing; 0: 1 */
 } golden_camera;
 
 typedef struct golden {

@@ -190,6 +190,10 @@ static const golden mirrors[] = {
      .like = "quads"},
     {"view-ortho-scaled", "gear", .style = {QUADS, COLORS(4)},
      .camera = {.orthographic = true, .scale = 2.5}, .like = "quads-ortho"},
+    {"view-gained", "bracket", .style = {QUADS, COLORS(5), .method = DP_METHOD_PAPER},
+     .camera = {.gain = 3}, .like = "quads-paper"},
+    {"view-ortho-gained", "gear", .style = {QUADS, COLORS(4)},
+     .camera = {.orthographic = true, .gain = 3}, .like = "quads-ortho"},
     /* These are not as without the scale, which is wrong: a pixel's size in camera space is taken
      * for one in world space where sample points are lifted off the surface, and in the paper's
      * widths. */
