@@ -197,10 +197,10 @@ const option option_table[] = {
      "Draw the visible pieces of lines as strokes, or let the added polygons be the line, as in the "
      "paper. Default: strokes."},
     {"passes", 0, "1|2", OPTION_WORD, GROUP_METHOD, PICTURE, AT(passes), 0, 0, 0,
-     "With --ink quads: passes over the polygons of a tile; 1 needs --between interval. Default: what "
-     "--between needs. With --ink strokes: how often a model that does not fit into --memory is read; "
-     "1 is faster, works in a pipe with --eye and --target, and judges what is hidden by the picture's "
-     "samples. Default: 2."},
+     "With --ink quads: passes over the polygons of a tile; --between plane takes 2, interval 1 or 2, "
+     "stencil its own 3. Default: what --between needs. With --ink strokes: how often a model that does "
+     "not fit into --memory is read; 1 is faster, works in a pipe with --eye and --target, and judges "
+     "what is hidden by the picture's samples. Default: 2."},
     {"edge-table", 0, "on|off", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edge_table), 0, 0, 0,
      "With --ink strokes: resolve edges by a small table per tile where that is possible, or look for "
      "what lies across every edge on the screen. Default: on."},

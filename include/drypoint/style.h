@@ -81,9 +81,11 @@ typedef struct dp_style {
     dp_method method;
     dp_between between;
     dp_ink ink;
-    int passes; /* quads: over a tile's polygons, 1 or 2; 0 means what `between` needs (the
-                   interval one, as printed; with 2 it does not depend on their order).
-                   strokes: 1 means that a source which is streamed is read once (dp_draw) */
+    int passes;           /* 0 means the first of these.
+                             strokes: 2 or 1; 1: a source that is streamed is read once (dp_draw).
+                             quads: how often a tile's polygons are gone through; plane 2, interval 1 (as
+                             printed) or 2 (it does not depend on their order), stencil 3.
+                             DP_EDGES_ADJACENCY: 1 or 2, to the same picture */
     float between_offset; /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
     dp_color paper;       /* 0 means white */
     dp_color surface;     /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */

@@ -36,23 +36,38 @@ static dp_result resolve_angle(float *angle, float other, const char *name, dp_d
     return DP_OK;
 }
 
-/* Only the paper's own test works with one pass; the plane test needs the finished depth. */
-static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
-    if (style->edges == DP_EDGES_ADJACENCY) { /* there is no between-test */
-        if (style->passes == 0) style->passes = 1;
-        if (style->passes == 1 || style->passes == 2) return DP_OK;
-        return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
+/* How often polygons are gone through, by what is drawn: from `least` to `most`. */
+typedef struct passes_rule {
+    const char *what;
+    int least, most, usual;
+} passes_rule;
+
+static passes_rule passes_rule_of(const dp_style *style) {
+    /* there is no between-test */
+    if (style->edges == DP_EDGES_ADJACENCY) return (passes_rule){"lines by adjacency", 1, 2, 1};
+    if (style->ink != DP_INK_QUADS) return (passes_rule){"strokes", 1, 2, 2};
+    /* only the paper's own test works with one pass; the plane test needs the finished depth */
+    switch (style->between) {
+    case DP_BETWEEN_INTERVAL:
+        return (passes_rule){"quads with the interval test", 1, 2, 1};
+    case DP_BETWEEN_STENCIL:
+        return (passes_rule){"quads with the stencil test", 3, 3, 3};
+    default:
+        return (passes_rule){"quads with the plane test", 2, 2, 2};
     }
-    const int needed = style->between == DP_BETWEEN_PLANE     ? 2
-                       : style->between == DP_BETWEEN_STENCIL ? 3
-                                                              : 1;
-    if (style->passes == 0) style->passes = needed;
-    if (style->passes == 1 && style->ink == DP_INK_QUADS && style->between != DP_BETWEEN_INTERVAL)
-        return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "one pass over quads needs the interval test (--between interval)");
-    if (style->passes < 1 || style->passes > 3)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; it must be 1 or 2", style->passes);
-    return DP_OK;
+}
+
+static dp_result resolve_passes(dp_style *style, dp_diag *diag) {
+    const passes_rule rule = passes_rule_of(style);
+    if (style->passes == 0) style->passes = rule.usual;
+    if (style->passes >= rule.least && style->passes <= rule.most) return DP_OK;
+    if (rule.least < rule.most)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; for %s it must be %d or %d",
+                       style->passes, rule.what, rule.least, rule.most);
+    return dp_fail(diag, DP_ERR_ARGUMENT, "passes is %d; for %s it must be %d%s", style->passes,
+                   rule.what, rule.least,
+                   style->passes == 1 ? "; one pass needs the interval test (--between interval)"
+                                      : "");
 }
 
 static bool within(float value, float least, float most) { return value >= least && value <= most; }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Independence. */
@@ -292,6 +293,57 @@ static void wrong_arguments_are_told(void **state) {
 }
 
 /* Every plane is optional. */
+/* Each way to draw takes its own passes, and says which when it is given others. */
+static void passes_have_a_range_for_each_ink(void **state) {
+    static const struct {
+        dp_style style;
+        int least, most, usual;
+        const char *range;
+    } ways[] = {
+        {{.ink = DP_INK_STROKES}, 1, 2, 2, "for strokes it must be 1 or 2"},
+        {{.between = DP_BETWEEN_INTERVAL}, 1, 2, 2, "for strokes it must be 1 or 2"},
+        {{.between = DP_BETWEEN_STENCIL}, 1, 2, 2, "for strokes it must be 1 or 2"},
+        {{.ink = DP_INK_QUADS}, 2, 2, 2, "for quads with the plane test it must be 2"},
+        {{.ink = DP_INK_QUADS, .between = DP_BETWEEN_INTERVAL},
+         1,
+         2,
+         1,
+         "for quads with the interval test it must be 1 or 2"},
+        {{.ink = DP_INK_QUADS, .between = DP_BETWEEN_STENCIL},
+         3,
+         3,
+         3,
+         "for quads with the stencil test it must be 3"},
+        {{.edges = DP_EDGES_ADJACENCY}, 1, 2, 1, "for lines by adjacency it must be 1 or 2"},
+        {{.edges = DP_EDGES_ADJACENCY, .ink = DP_INK_QUADS},
+         1,
+         2,
+         1,
+         "for lines by adjacency it must be 1 or 2"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
+        for (int passes = -1; passes <= 5; passes++) {
+            dp_style style = ways[i].style, resolved, again;
+            dp_diag diag = {0};
+            char start[32];
+            style.passes = passes;
+            const dp_result result = dp_style_resolve(&style, &resolved, &diag);
+            if (!passes || (passes >= ways[i].least && passes <= ways[i].most)) {
+                if (result) fail_msg("way %zu, %d passes: %s", i, passes, diag.message);
+                assert_int_equal(resolved.passes, passes ? passes : ways[i].usual);
+                assert_int_equal(dp_style_resolve(&resolved, &again, NULL), DP_OK);
+                assert_int_equal(again.passes, resolved.passes);
+                continue;
+            }
+            assert_int_equal(result, DP_ERR_ARGUMENT);
+            snprintf(start, sizeof start, "passes is %d; ", passes);
+            if (strncmp(diag.message, start, strlen(start)) != 0 ||
+                !strstr(diag.message, ways[i].range))
+                fail_msg("way %zu, %d passes: \"%s\"", i, passes, diag.message);
+        }
+}
+
 static void planes_are_optional(void **state) {
     static uint8_t rgba[BYTES], line_class[WIDTH * HEIGHT];
     static float depth[WIDTH * HEIGHT], normal[3 * WIDTH * HEIGHT];
@@ -402,6 +454,7 @@ int main(void) {
         cmocka_unit_test(streams_are_read_once),
         cmocka_unit_test(a_failing_source_says_why),
         cmocka_unit_test(wrong_arguments_are_told),
+        cmocka_unit_test(passes_have_a_range_for_each_ink),
         cmocka_unit_test(planes_are_optional),
         cmocka_unit_test(extreme_sizes),
         cmocka_unit_test(statistics_and_segments_add_up),
