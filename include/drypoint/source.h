@@ -24,16 +24,18 @@ typedef struct dp_source dp_source;
  * none. */
 typedef struct dp_attribute {
     const float *values;     /* NULL: there is none */
-    size_t stride;           /* bytes from one to the next; 0: tight */
+    size_t stride;           /* bytes from one to the next, a multiple of 4; 0: tight */
     size_t count;            /* how many values */
     const uint32_t *indices; /* corner_count value numbers, or NULL */
 } dp_attribute;
 
 /* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
- * `stable` is set, until the source is destroyed. */
+ * `stable` is set, until the source is destroyed. Numbers are read where they lie: pointers to
+ * floats and to uint32_t must be multiples of 4, and so must strides (of groups: 2); copy what is
+ * packed otherwise. Whoever takes a batch refuses another with DP_ERR_ARGUMENT. */
 typedef struct dp_batch {
     const float *positions;  /* x, y, z of vertex v at (const char *)positions + v * stride */
-    size_t position_stride;  /* bytes from one vertex to the next; 0 means 12 */
+    size_t position_stride;  /* bytes from one vertex to the next, a multiple of 4; 0 means 12 */
     size_t vertex_count;     /* at most UINT32_MAX */
     const uint32_t *indices; /* corner_count vertex numbers; NULL: corner c is vertex c */
     size_t corner_count;     /* triangles without `firsts`: 3 * polygon_count */

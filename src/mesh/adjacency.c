@@ -18,6 +18,7 @@
 #include "base/vec.h"
 #include "mesh/fingerprint.h"
 #include "mesh/places.h"
+#include "mesh/source.h"
 #include <drypoint/adjacency.h>
 
 #include "base/diag.h"
@@ -439,6 +440,8 @@ dp_result dp_adjacency_indices(const dp_batch *triangles, const dp_allocator *al
                        "six indices each");
     if (triangles->polygon_count > UINT32_MAX / 4 || triangles->vertex_count >= UINT32_MAX)
         return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles or vertices", UINT32_MAX / 4);
+    const dp_result misplaced = dp_check_alignment(triangles, diag);
+    if (misplaced) return misplaced;
     const dp_allocator memory = dp_allocator_resolve(allocator);
     const dp_polygons polygons = {.positions = triangles->positions,
                                   .stride =

@@ -24,6 +24,36 @@ dp_result dp_source_from_callbacks(const dp_source_callbacks *callbacks,
     return DP_OK;
 }
 
+static bool is_aligned(const void *address, size_t stride, size_t size) {
+    return ((uintptr_t)address | stride) % size == 0;
+}
+
+dp_result dp_check_alignment(const dp_batch *b, dp_diag *diag) {
+    const struct {
+        const void *address;
+        size_t stride, size;
+        const char *what;
+    } arrays[] = {
+        {b->positions, b->position_stride, sizeof(float), "positions"},
+        {b->normals.values, b->normals.values ? b->normals.stride : 0, sizeof(float), "normals"},
+        {b->texcoords.values, b->texcoords.values ? b->texcoords.stride : 0, sizeof(float),
+         "texcoords"},
+        {b->indices, 0, sizeof(uint32_t), "indices"},
+        {b->firsts, 0, sizeof(uint32_t), "firsts"},
+        {b->normals.indices, 0, sizeof(uint32_t), "normals' indices"},
+        {b->texcoords.indices, 0, sizeof(uint32_t), "texcoords' indices"},
+        {b->groups, 0, sizeof(uint16_t), "groups"},
+    };
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (!is_aligned(arrays[i].address, arrays[i].stride, arrays[i].size))
+            return dp_fail(
+                diag, DP_ERR_ARGUMENT,
+                "a batch's %s must lie at multiples of %zu bytes: they begin elsewhere, or "
+                "their stride of %zu is none",
+                arrays[i].what, arrays[i].size, arrays[i].stride);
+    return DP_OK;
+}
+
 /* One batch of arrays, handed out once per rewind. */
 typedef struct arrays {
     dp_batch batch;
@@ -57,6 +87,8 @@ dp_result dp_source_from_arrays(const dp_batch *batch, const dp_allocator *alloc
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "dp_source_from_arrays: arrays, positions or out is NULL");
     *out = NULL;
+    const dp_result misplaced = dp_check_alignment(batch, diag);
+    if (misplaced) return misplaced;
     const dp_allocator memory = dp_allocator_resolve(allocator);
     arrays *const self = dp_alloc(&memory, sizeof *self);
     if (!self) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a polygon source");
@@ -74,6 +106,11 @@ static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
     if (!batch->polygon_count) return DP_OK;
     if (!batch->positions || batch->vertex_count > UINT32_MAX)
         return dp_fail(diag, DP_ERR_ARGUMENT, "a batch has polygons but no usable positions");
+    if (dp_times(batch->vertex_count, batch->position_stride) > PTRDIFF_MAX)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%zu vertices %zu bytes apart are beyond any address",
+                       batch->vertex_count, batch->position_stride);
+    const dp_result misplaced = dp_check_alignment(batch, diag);
+    if (misplaced) return misplaced;
     if (!batch->firsts && batch->corner_count / 3 < batch->polygon_count)
         return dp_fail(diag, DP_ERR_ARGUMENT, "a batch of %zu triangles has only %zu corners",
                        batch->polygon_count, batch->corner_count);

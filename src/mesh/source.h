@@ -26,6 +26,10 @@ struct dp_source {
     uint64_t key;       /* of that, once somebody has computed it (mesh/normals.c); 0: nobody has */
 };
 
+/* DP_ERR_ARGUMENT where a batch's numbers do not lie where this machine reads them: pointers and
+ * strides of floats must be multiples of 4 bytes, and so on. Strides of 0 are tight. */
+dp_result dp_check_alignment(const dp_batch *batch, dp_diag *diag);
+
 /* Reads all corners of a source with records, in threads: extent.c. */
 dp_result dp_records_extent(dp_source *source, dp_extent *extent, dp_diag *diag);
 

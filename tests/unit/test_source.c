@@ -1,5 +1,5 @@
 /* mesh/source: arrays and callbacks as sources, tables that contradict themselves, extents. */
-#include <drypoint/source.h>
+#include <drypoint/drypoint.h>
 
 #include <math.h>
 #include <setjmp.h>
@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -195,6 +196,113 @@ static void failing_memory_leaves_nothing_behind(void **state) {
     }
 }
 
+/* ------- where numbers may lie ------- */
+
+enum { WIDTH = 120, HEIGHT = 90 };
+
+static dp_result next_batch(void *user, dp_batch *batch, dp_diag *diag) {
+    (void)diag;
+    *batch = *(const dp_batch *)user;
+    return DP_OK;
+}
+
+static const void *moved(const void *address) { return (const char *)address + 1; }
+
+/* Every array, one byte off where it must begin or with a stride that is not a multiple. */
+static void what_lies_askew_is_refused(void **state) {
+    static const float zeros[64];
+    static const uint32_t numbers[16];
+    static const uint16_t groups[4];
+    dp_batch sound = quad_batch(), bad[12];
+    size_t n = 0;
+    (void)state;
+    sound.positions = zeros;
+    sound.normals = sound.texcoords = (dp_attribute){zeros, 12, 4, numbers};
+    sound.groups = groups;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) bad[i] = sound;
+    for (size_t off = 1; off < 4; off++) bad[n++].position_stride = 12 + off;
+    bad[n++].positions = moved(zeros);
+    bad[n++].indices = moved(two_triangles);
+    bad[n++].groups = moved(groups);
+    bad[n++].normals.stride = 13;
+    bad[n++].normals.values = moved(zeros);
+    bad[n++].normals.indices = moved(numbers);
+    bad[n++].texcoords.stride = 10;
+    bad[n++].texcoords.values = moved(zeros);
+    bad[n++].firsts = moved(numbers);
+    assert_int_equal(n, sizeof bad / sizeof *bad);
+    for (size_t i = 0; i < n; i++) {
+        const dp_source_callbacks callbacks = {.user = &bad[i], .next = next_batch};
+        dp_source *source = NULL;
+        dp_batch batch;
+        dp_diag diag = {0};
+        uint32_t six[12];
+        if (dp_source_from_arrays(&bad[i], NULL, &source, &diag) != DP_ERR_ARGUMENT)
+            fail_msg("arrays %zu were taken", i);
+        assert_non_null(strstr(diag.message, "multiple"));
+        assert_null(source);
+        assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, NULL), DP_OK);
+        diag = (dp_diag){0};
+        if (dp_source_next(source, &batch, &diag) != DP_ERR_ARGUMENT)
+            fail_msg("batch %zu was taken", i);
+        assert_non_null(strstr(diag.message, "multiple"));
+        dp_source_destroy(source);
+        if (!bad[i].firsts)
+            assert_int_equal(dp_adjacency_indices(&bad[i], NULL, six, NULL), DP_ERR_ARGUMENT);
+    }
+    /* an array that is not there has no stride */
+    dp_batch bare = quad_batch();
+    dp_source *source = NULL;
+    bare.normals.stride = 7;
+    assert_int_equal(dp_source_from_arrays(&bare, NULL, &source, NULL), DP_OK);
+    dp_source_destroy(source);
+}
+
+static void draw(const dp_batch *batch, const dp_style *style, uint8_t *rgba) {
+    dp_context *context = NULL;
+    dp_source *source = NULL;
+    dp_camera camera;
+    const dp_fit fit = {.min = {-1, -1, -1}, .max = {1, 1, 1}};
+    const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};
+    assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
+    assert_int_equal(dp_context_create(&(dp_context_desc){.threads = 2}, &context, NULL), DP_OK);
+    assert_int_equal(dp_source_from_arrays(batch, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_draw(context, source, &camera, style, &target, NULL), DP_OK);
+    dp_source_destroy(source);
+    dp_context_destroy(context);
+}
+
+/* Any multiple of 4 does, and draws what tight positions draw. */
+static void vertices_may_be_any_multiple_apart(void **state) {
+    static const dp_style styles[] = {{0},
+                                      {.ink = DP_INK_QUADS},
+                                      {.edges = DP_EDGES_ADJACENCY},
+                                      {.shade = {.shading = DP_SHADING_PENCIL}}};
+    static uint8_t expected[4 * WIDTH * HEIGHT], rgba[4 * WIDTH * HEIGHT];
+    static float spread[3000 * 9];
+    dp_source *shape = NULL;
+    dp_batch tight;
+    (void)state;
+    assert_int_equal(
+        dp_source_from_shape(&(dp_shape){.name = "torus", .triangles = 1000}, &shape, NULL), DP_OK);
+    assert_int_equal(dp_source_next(shape, &tight, NULL), DP_OK);
+    assert_true(tight.polygon_count > 100 && tight.vertex_count <= 3000);
+    for (size_t s = 0; s < sizeof styles / sizeof *styles; s++) {
+        draw(&tight, &styles[s], expected);
+        for (size_t stride = 4; stride <= 9; stride++) {
+            dp_batch wide = tight;
+            for (size_t v = 0; v < tight.vertex_count; v++)
+                memcpy(spread + v * stride,
+                       (const char *)tight.positions + v * tight.position_stride, 12);
+            wide.positions = spread;
+            wide.position_stride = stride * sizeof(float);
+            draw(&wide, &styles[s], rgba);
+            assert_memory_equal(rgba, expected, sizeof rgba);
+        }
+    }
+    dp_source_destroy(shape);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(arrays_come_once_per_rewind),
@@ -204,6 +312,8 @@ int main(void) {
         cmocka_unit_test(a_failing_stream_always_says_something),
         cmocka_unit_test(tables_that_contradict_themselves_are_refused),
         cmocka_unit_test(failing_memory_leaves_nothing_behind),
+        cmocka_unit_test(what_lies_askew_is_refused),
+        cmocka_unit_test(vertices_may_be_any_multiple_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
