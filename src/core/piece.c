@@ -4,7 +4,7 @@
 #include "base/memory.h"
 
 static const dp_array arrays[] = {DP_ARRAY(dp_found, pieces, pieces_cap),
-                                  DP_ARRAY(dp_found, bones, bones_cap)};
+                                  DP_ARRAY(dp_found, geometry, geometry_cap)};
 
 void dp_found_free(dp_found *found, const dp_allocator *memory) {
     dp_arrays_free(memory, found, DP_ARRAYS(arrays));

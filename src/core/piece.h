@@ -9,7 +9,7 @@ typedef struct dp_piece {
     uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
     uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
     uint32_t k0, k1, n; /* sample points */
-    uint32_t bones;     /* as of its candidate (dp_bones) … */
+    uint32_t geometry;  /* as of its candidate (dp_segment_geometry) … */
     uint32_t worker;    /* … of this worker: set where pieces are joined */
     uint8_t line;       /* dp_line */
     bool open;          /* it touches the tile's border: a neighbour may hold its continuation */
@@ -24,17 +24,17 @@ typedef struct dp_tile_pieces {
 } dp_tile_pieces;
 
 /* What segments along a candidate's spine are made of (strokes/segments.c). */
-typedef struct dp_bones {
+typedef struct dp_segment_geometry {
     dp_pointd a, b;    /* the spine's ends */
     dp_vec3 normal[2]; /* of the candidate's polygons; unit */
-} dp_bones;
+} dp_segment_geometry;
 
 /* What one worker has found in the tiles that it has held; until the next picture. */
 typedef struct dp_found {
     dp_piece *pieces;
-    dp_bones *bones;
-    size_t pieces_cap, bones_cap, piece_count;
-    uint32_t bone_count;
+    dp_segment_geometry *geometry;
+    size_t pieces_cap, geometry_cap, piece_count;
+    uint32_t geometry_count;
 } dp_found;
 
 void dp_found_free(dp_found *found, const dp_allocator *memory);

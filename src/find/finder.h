@@ -36,7 +36,7 @@ void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two */
 void dp_hide_points(dp_finder *finder);         /* the tile's seen polygons hide sample points */
 void dp_collect_pieces(dp_finder *finder);      /* runs of visible sample points become pieces */
 
-/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe, bones and
+/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe, segment geometry and
  * the final k0, k1 are filled here (visibility.c). `normals`: of its polygons, a's and b's (a's, if
  * there is none), or NULL where they are not at hand. */
 void dp_add_candidate(dp_finder *finder, dp_candidate candidate, const dp_spine *spine,

@@ -70,14 +70,15 @@ static bool reserve_probes(dp_finder *w, size_t need) {
 }
 
 /* Keeps what segments will be made of; where there are too many, that is found again. */
-static uint32_t keep_bones(dp_finder *w, const dp_spine *spine, const dp_vec3 normals[2]) {
+static uint32_t keep_geometry(dp_finder *w, const dp_spine *spine, const dp_vec3 normals[2]) {
     const uint32_t most = DP_TUNED((1u << 24) - 1, 100);
-    if (w->found->bone_count == most ||
-        !DP_TILE_RESERVE(&w->tile, w, found->bones, found->bones_cap, w->found->bone_count + 1u))
+    if (w->found->geometry_count == most ||
+        !DP_TILE_RESERVE(&w->tile, w, found->geometry, found->geometry_cap,
+                         w->found->geometry_count + 1u))
         return 0;
-    w->found->bones[w->found->bone_count++] =
-        (dp_bones){spine->a, spine->b, {normals[0], normals[1]}};
-    return w->found->bone_count;
+    w->found->geometry[w->found->geometry_count++] =
+        (dp_segment_geometry){spine->a, spine->b, {normals[0], normals[1]}};
+    return w->found->geometry_count;
 }
 
 void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
@@ -90,7 +91,7 @@ void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
         return;
     c.n = spine->n;
     c.probe = w->lines.probe_count;
-    c.bones = (normals ? keep_bones(w, spine, normals) : 0) & 0xffffff;
+    c.geometry = (normals ? keep_geometry(w, spine, normals) : 0) & 0xffffff;
     w->lines.candidates[w->lines.candidate_count++] = c;
     dp_find_kernels_for(w->tile.frame->lanes)
         ->points(w, spine, c.k0, c.k1, &w->lines.probes, c.probe);
@@ -196,7 +197,7 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                    .k0 = k0,
                    .k1 = k1,
                    .n = c->n,
-                   .bones = c->bones,
+                   .geometry = c->geometry,
                    .line = c->line,
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
 }

@@ -13,7 +13,7 @@ typedef struct dp_candidate {
     uint32_t k0, k1; /* those in this tile: [k0, k1) */
     uint32_t probe;  /* first of its probes */
     uint32_t line : 8;
-    uint32_t bones : 24; /* 1 + number of the worker's; 0: they are to be found again */
+    uint32_t geometry : 24; /* 1 + number of the worker's; 0: they are to be found again */
 } dp_candidate;
 
 /* Sample points of spines (px, d), each member for itself, with room for one vector beyond the

@@ -7,7 +7,7 @@
  * triangulated, and everything but positions, normals, texture coordinates and faces is left out
  * early.
  *
- * Does not handle: animation, bones and morph targets (models come in their bind pose), points,
+ * Does not handle: animation, segment geometry and morph targets (models come in their bind pose), points,
  * lines, reading from a pipe; progress is reported before and after, as Assimp cannot be stopped
  * from C. */
 #include <drypoint/io.h>

@@ -173,7 +173,7 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
            from->candidate_count * sizeof *from->candidates);
     for (uint32_t i = 0; i < from->candidate_count; i++) {
         to->candidates[candidate + i].probe += probe;
-        to->candidates[candidate + i].bones = 0; /* they stay with the worker */
+        to->candidates[candidate + i].geometry = 0; /* they stay with the worker */
     }
     if (!bytes) return;
     memcpy(to->probes.x + probe, from->probes.x, bytes);
@@ -188,7 +188,7 @@ static dp_tile_lines lines_of(const dp_finder *w) {
 
 static bool store_lines(const dp_stream_draw *s, dp_finder *w, dp_tile_lines *out) {
     const dp_tile_lines own = lines_of(w);
-    w->found->bone_count = 0;
+    w->found->geometry_count = 0;
     if (!own.candidate_count) return true;
     if (!dp_stream_make_lines(s, own.candidate_count, own.probe_count, out)) return false;
     dp_stream_put_lines(&own, out, 0, 0);

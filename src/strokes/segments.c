@@ -3,7 +3,7 @@
  * A piece is a run of sample points [k0, k1) of an edge's spine. Where a spine crosses a tile
  * border its run continues in the neighbour with the next number: such open pieces are sorted by
  * edge and joined. All others are segments as they are. What the tile knew of a piece's edge when
- * it found it (its bones) need not be found again; ends and planes are made of that, many segments
+ * it found it (its segment geometry) need not be found again; ends and planes are made of that, many segments
  * at once. The order (tile by tile, then the joined ones by polygon) does not depend on threads. */
 #include "strokes/mark.h"
 #include "strokes/segment_batch.h"
@@ -86,9 +86,9 @@ static void edge_of(const dp_polygons *polygons, const dp_piece *piece, uint32_t
 
 /* What a segment is made of, found again. The spine could be made when the piece was found: it can
  * now. */
-static dp_bones find_bones(const dp_frame *frame, const dp_piece *piece) {
+static dp_segment_geometry find_geometry(const dp_frame *frame, const dp_piece *piece) {
     const dp_polygons *const polygons = &frame->polygons;
-    dp_bones out = {0};
+    dp_segment_geometry out = {0};
     dp_spine spine = {0};
     dp_vec3 a, b, normal;
     if (piece->edge != DP_CROSSING) {
@@ -116,16 +116,17 @@ typedef struct job {
     const dp_stroke_store *store;
 } job;
 
-static void put_bones(const job *j, const dp_piece *piece, dp_segment_batch *out, uint32_t i) {
-    const dp_bones bones = piece->bones ? j->found[piece->worker].bones[piece->bones - 1]
-                                        : find_bones(j->frame, piece);
-    out->a[0][i] = bones.a.x, out->a[1][i] = bones.a.y, out->a[2][i] = bones.a.d;
-    out->b[0][i] = bones.b.x, out->b[1][i] = bones.b.y, out->b[2][i] = bones.b.d;
+static void put_geometry(const job *j, const dp_piece *piece, dp_segment_batch *out, uint32_t i) {
+    const dp_segment_geometry geometry = piece->geometry
+                                             ? j->found[piece->worker].geometry[piece->geometry - 1]
+                                             : find_geometry(j->frame, piece);
+    out->a[0][i] = geometry.a.x, out->a[1][i] = geometry.a.y, out->a[2][i] = geometry.a.d;
+    out->b[0][i] = geometry.b.x, out->b[1][i] = geometry.b.y, out->b[2][i] = geometry.b.d;
     out->share[0][i] = (double)piece->k0 / piece->n;
     out->share[1][i] = (double)piece->k1 / piece->n;
     for (int k = 0; k < 2; k++)
-        out->normal[k][0][i] = bones.normal[k].x, out->normal[k][1][i] = bones.normal[k].y,
-        out->normal[k][2][i] = bones.normal[k].z;
+        out->normal[k][0][i] = geometry.normal[k].x, out->normal[k][1][i] = geometry.normal[k].y,
+        out->normal[k][2][i] = geometry.normal[k].z;
 }
 
 /* What a stroke may not lie in front of: not a polygon that leads towards the eye outside an
@@ -173,7 +174,7 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     (void)worker;
     for (size_t at = first; at < end; at += DP_SEGMENTS) {
         const uint32_t n = end - at < DP_SEGMENTS ? (uint32_t)(end - at) : DP_SEGMENTS;
-        for (uint32_t i = 0; i < n; i++) put_bones(j, &store->pieces[at + i], &batch, i);
+        for (uint32_t i = 0; i < n; i++) put_geometry(j, &store->pieces[at + i], &batch, i);
         dp_stroke_kernels_for(j->frame->lanes)->segments(&j->frame->view, &batch, n);
         for (uint32_t i = 0; i < n; i++)
             take_segment(j->frame, &store->pieces[at + i], &batch, i, &store->segments[at + i],
