@@ -68,8 +68,9 @@ typedef struct dp_frame {
     dp_segment *segments;
     struct dp_stroke *strokes; /* one per segment, strokes/stroke.h */
     size_t segment_count;
-    struct dp_mark *marks; /* instead of strokes, where lines are drawn by hand: strokes/mark.h */
-    size_t mark_count;
+    struct dp_stylized
+        *stylized; /* instead of strokes, where lines are stylized: strokes/stylized.h */
+    size_t stylized_count;
     dp_bins stroke_bins;
 } dp_frame;
 

@@ -8,7 +8,7 @@
 #include "find/finder.h"
 #include "printed/quads.h"
 #include "shade/shade.h"
-#include "strokes/mark.h"
+#include "strokes/stylized.h"
 #include "strokes/stroke.h"
 
 typedef struct dp_recording dp_recording; /* immediate.c */
@@ -28,7 +28,7 @@ struct dp_context {
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
-    dp_mark_store marks;
+    dp_stylized_store stylized;
     struct {
         dp_normal_store normals; /* of the reflected scene */
         uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */

@@ -95,7 +95,7 @@ void dp_context_destroy(dp_context *c) {
     dp_stroke_store_free(&c->strokes, &memory);
     dp_normal_store_free(&c->normals, &memory);
     dp_shade_store_free(&c->shade, &memory);
-    dp_mark_store_free(&c->marks, &memory);
+    dp_stylized_store_free(&c->stylized, &memory);
     dp_normal_store_free(&c->mirror.normals, &memory);
     dp_free(&memory, c->mirror.rgba);
     dp_free(&memory, c->mirror.distance);
@@ -211,8 +211,8 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
 
 static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
-    (dp_is_by_hand(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker],
-                                                             index);
+    (dp_is_stylized(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker],
+                                                              index);
 }
 
 /* Progress when a stage is over; what is read in parts ends at DP_STREAMED instead. */
@@ -287,7 +287,8 @@ static uint64_t scratch_bytes(const dp_context *c) {
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap +
            2 * p->groups_cap;
     sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
-           c->strokes.strokes_cap * sizeof(dp_stroke) + c->marks.marks_cap * sizeof(dp_mark);
+           c->strokes.strokes_cap * sizeof(dp_stroke) +
+           c->stylized.stylized_cap * sizeof(dp_stylized);
     for (uint32_t i = 0; i < c->workers; i++)
         sum += dp_finder_bytes(&c->finders[i]) + dp_printer_bytes(&c->printers[i]) +
                dp_found_bytes(&c->found[i]) + sizeof *c->finders + sizeof *c->printers +
@@ -442,12 +443,12 @@ static dp_result shade(dp_context *c, dp_diag *diag) {
     return DP_OK;
 }
 
-/* Segments; then strokes, or what the hand makes of them. */
+/* Segments; then strokes, or stylized strokes. */
 static bool make_strokes(dp_context *c) {
     dp_frame *const f = &c->frame;
     if (!dp_make_segments(f, c->found, &c->strokes)) return false;
-    if (!dp_is_by_hand(f)) return dp_bin_strokes(f);
-    return dp_make_marks(f, c->strokes.pieces, &c->marks) && dp_bin_marks(f);
+    if (!dp_is_stylized(f)) return dp_bin_strokes(f);
+    return dp_stylize(f, c->strokes.pieces, &c->stylized) && dp_bin_stylized(f);
 }
 
 static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream,

@@ -1,6 +1,6 @@
-/* Inking marks: strokes with texture and a width that varies, over the surface.
+/* Inking stylized strokes: with texture and a width that varies, over the surface.
  *
- * A chain is one stroke: of its marks, a pixel belongs to the one whose spine is nearest, which
+ * A chain is one stroke: of its parts, a pixel belongs to the one whose spine is nearest, which
  * gives it u (along) and v (across); so u runs on through joints without a jump. Chains are laid
  * over each other one by one, classes in the order of plain strokes. Coverage is that of plain
  * strokes (ink.c) times the texture's ink.
@@ -8,7 +8,7 @@
  * Marks that lie outside (extruded silhouettes, Hermosilla and Vázquez 2010, 2.3) have v = 0 on the
  * spine and 1 at their width outside. Between two of them lies a sector around their common point,
  * so that there are no gaps at any width. */
-#include "strokes/mark.h"
+#include "strokes/stylized.h"
 
 #include "core/blend.h"
 #include "texture/texture.h"
@@ -28,20 +28,21 @@ typedef struct brush {
 } brush;
 
 /* Texels with less ink are discarded. */
-static float least_ink(const dp_mark *m) { return m->outside ? 0.1f : 1.0f / 512; }
+static float least_ink(const dp_stylized *m) { return m->outside ? 0.1f : 1.0f / 512; }
 
 static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
     const dp_frame *const frame = arg;
     (void)worker;
-    for (uint32_t i = 0; i < count; i++) rects[i] = dp_stroke_rect(&frame->marks[first + i].stroke);
+    for (uint32_t i = 0; i < count; i++)
+        rects[i] = dp_stroke_rect(&frame->stylized[first + i].stroke);
 }
 
-bool dp_bin_marks(dp_frame *frame) {
-    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->mark_count, frame->tiles_x,
+bool dp_bin_stylized(dp_frame *frame) {
+    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->stylized_count, frame->tiles_x,
                         frame->tiles_y, place, NULL, frame, frame->threads, frame->memory);
 }
 
-/* Where a pixel lies on a mark. */
+/* Where a pixel lies on a part. */
 typedef struct spot {
     float t;        /* along the spine, 0 to 1 */
     float along;    /* the same, not held to that */
@@ -58,8 +59,8 @@ static float overlap(float x, float low, float high) {
     return clamp01(dp_minf(x + 0.5f, high) - dp_maxf(x - 0.5f, low));
 }
 
-/* False where it is out of the mark's reach. */
-static bool find_spot(const dp_mark *m, float x, float y, spot *s) {
+/* False where it is out of the part's reach. */
+static bool find_spot(const dp_stylized *m, float x, float y, spot *s) {
     const dp_point a = m->stroke.a, b = m->stroke.b;
     const float ex = b.x - a.x, ey = b.y - a.y, length2 = m->length * m->length,
                 reach = m->stroke.half_width + 0.5f;
@@ -73,23 +74,23 @@ static bool find_spot(const dp_mark *m, float x, float y, spot *s) {
     return true;
 }
 
-static void cover_centred(const dp_mark *m, spot *s) {
+static void cover_centred(const dp_stylized *m, spot *s) {
     const float half = m->half[0] + (m->half[1] - m->half[0]) * s->t;
     s->cover = overlap(s->distance, -half, half);
     s->v = 0.5f + 0.5f * s->across / half;
 }
 
 /* Does a chain begin here? */
-static bool starts(const dp_mark *m) { return m->before[0] == 0 && m->before[1] == 0; }
+static bool starts(const dp_stylized *m) { return m->before[0] == 0 && m->before[1] == 0; }
 
-/* The sector at the joint with the mark before: beyond that one's end, before this one's start. */
-static bool in_joint(const dp_mark *m, float dx, float dy) {
+/* The sector at the joint with the part before: beyond that one's end, before this one's start. */
+static bool in_joint(const dp_stylized *m, float dx, float dy) {
     if (starts(m)) return false;
     return m->before[0] * dx + m->before[1] * dy >= -0.5f && m->length > 0 &&
            m->middle[0] * dx + m->middle[1] * dy > 0;
 }
 
-static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
+static void cover_outside(const dp_stylized *m, spot *s, float x, float y) {
     const float width = m->half[0] + (m->half[1] - m->half[0]) * s->t;
     const float dx = x - m->stroke.a.x, dy = y - m->stroke.a.y;
     const float length = m->length;
@@ -108,13 +109,13 @@ static void cover_outside(const dp_mark *m, spot *s, float x, float y) {
         return;
     }
     const float ends = dp_minf(clamp01(1.75f - ahead),
-                               clamp01(1.75f - past)); /* marks of a chain overlap a little */
+                               clamp01(1.75f - past)); /* parts of a chain overlap a little */
     s->cover = ends * overlap(out, INSIDE, width);
     s->v = dp_maxf(out, 0) / width;
 }
 
 /* u in repeats of the texture. It stands still around a joint and runs on beyond the ends. */
-static float u_at(const dp_mark *m, const spot *s) {
+static float u_at(const dp_stylized *m, const spot *s) {
     const float along = (s->along < 0 && starts(m)) || (s->along > 1 && m->ends) ? s->along : s->t;
     return m->arc[0] + (m->arc[1] - m->arc[0]) * along;
 }
@@ -123,7 +124,7 @@ static float u_at(const dp_mark *m, const spot *s) {
  * Around a line's end no further than at the end itself, or a thin arc of its round end would stand
  * out over what hides the rest of it. And where outlines lie outside, they do not cover what stands
  * out beside a crease that runs under one: less all along. */
-static float trusted_distance(const brush *b, const dp_mark *m, const spot *s) {
+static float trusted_distance(const brush *b, const dp_stylized *m, const spot *s) {
     const bool beyond = (s->along < 0 && starts(m)) || (s->along > 1 && m->ends);
     return (beyond ? dp_minf(s->distance, 1) : s->distance) * (b->outlines_outside ? 0.375f : 1);
 }
@@ -131,7 +132,8 @@ static float trusted_distance(const brush *b, const dp_mark *m, const spot *s) {
 /* Share of the pixel's samples over which extruded ink shows: those that fall away behind the
  * outline, by at least an eighth of a pixel size per px. What is merely beside it on the same
  * surface, as around a hidden fold of a single triangle, does not. */
-static float beyond_share(const brush *b, const dp_mark *m, const spot *s, uint32_t x, uint32_t y) {
+static float beyond_share(const brush *b, const dp_stylized *m, const spot *s, uint32_t x,
+                          uint32_t y) {
     if (!b->depth) return 1;
     const uint32_t samples = b->frame->target.samples;
     const float *const depth = b->depth + (size_t)((y - b->y0) * DP_TILE + (x - b->x0)) * samples;
@@ -143,7 +145,8 @@ static float beyond_share(const brush *b, const dp_mark *m, const spot *s, uint3
     return (float)visible / (float)samples;
 }
 
-static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32_t x, uint32_t y) {
+static void cover_pixel(const brush *b, const dp_stylized *m, uint32_t level, uint32_t x,
+                        uint32_t y) {
     const float fx = (float)x + 0.5f, fy = (float)y + 0.5f;
     spot s;
     if (!find_spot(m, fx, fy, &s)) return;
@@ -170,7 +173,7 @@ static void cover_pixel(const brush *b, const dp_mark *m, uint32_t level, uint32
         const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(m, &s), s.v);
         s.cover *= t.ink < least_ink(m)
                        ? 0
-                       : t.ink; /* discarded, it is this mark's pixel all the same, no other's */
+                       : t.ink; /* discarded, it is this part's pixel all the same, no other's */
         if (b->style->texture->coloured)
             color = DP_RGB((uint32_t)(t.r + 0.5f), (uint32_t)(t.g + 0.5f), (uint32_t)(t.b + 0.5f));
     }
@@ -184,7 +187,7 @@ static uint32_t clamp_to(float v, uint32_t lo, uint32_t hi) {
     return v <= (float)lo ? lo : v >= (float)hi ? hi : (uint32_t)v;
 }
 
-static void cover(const brush *b, const dp_mark *m) {
+static void cover(const brush *b, const dp_stylized *m) {
     const dp_stroke *const k = &m->stroke;
     const float r = k->half_width + 1;
     const uint32_t y0 = clamp_to(dp_minf(k->a.y, k->b.y) - r, b->y0, b->y1),
@@ -215,11 +218,11 @@ static void flush(const brush *b, dp_line line) {
     }
 }
 
-static void ink_layer(const brush *b, const uint32_t *marks, size_t count, dp_line line) {
+static void ink_layer(const brush *b, const uint32_t *stylized, size_t count, dp_line line) {
     bool any = false;
     uint32_t chain = 0;
     for (size_t i = 0; i < count; i++) {
-        const dp_mark *const m = &b->frame->marks[marks[i]];
+        const dp_stylized *const m = &b->frame->stylized[stylized[i]];
         if (m->stroke.line != line) continue;
         if (any && m->chain != chain) flush(b, line);
         chain = m->chain;

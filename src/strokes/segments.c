@@ -5,7 +5,7 @@
  * edge and joined. All others are segments as they are. What the tile knew of a piece's edge when
  * it found it (its segment geometry) need not be found again; ends and planes are made of that, many segments
  * at once. The order (tile by tile, then the joined ones by polygon) does not depend on threads. */
-#include "strokes/mark.h"
+#include "strokes/stylized.h"
 #include "strokes/segment_batch.h"
 #include "strokes/stroke.h"
 
@@ -71,7 +71,7 @@ static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_stroke_
             store->pieces[last++] = store->pieces[i];
     }
     /* chains begin and run by the order of their segments, which must not depend on tiles */
-    if (dp_is_by_hand(frame) && last) dp_sort(store->pieces, last, sizeof *store->pieces, by_edge);
+    if (dp_is_stylized(frame) && last) dp_sort(store->pieces, last, sizeof *store->pieces, by_edge);
     *count = last;
     return true;
 }

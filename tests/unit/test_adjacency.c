@@ -214,7 +214,7 @@ static void expect_point(const dp_fringe_point *p, double x, double y, double tx
         fail_msg("(%g, %g) with (%g, %g, %g)", p->at.x, p->at.y, p->tx, p->ty, p->v);
 }
 
-/* Figures 2.3 to 2.5. Normals at 45 degrees: d_a = d_c = 2 * 5 sin(22.5), d_b = 10, by hand. */
+/* Figures 2.3 to 2.5. Normals at 45 degrees: d_a = d_c = 2 * 5 sin(22.5), d_b = 10, stylized. */
 static void test_extrusion_and_its_texture_coordinates(void **state) {
     (void)state;
     const double s = sqrt(0.5);

@@ -1,4 +1,4 @@
-/* gbuffer: the detectors by hand on 5 x 5 pixels, and the G-buffer and edge map of whole
+/* gbuffer: the detectors stylized on 5 x 5 pixels, and the G-buffer and edge map of whole
  * pictures. */
 #include "gbuffer/detect.h"
 #include "gbuffer/gbuffer.h"
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-/* ------- operators, 5 x 5, by hand ------- */
+/* ------- operators, 5 x 5, stylized ------- */
 
 enum { SIDE = 5 };
 

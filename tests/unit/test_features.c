@@ -1,4 +1,4 @@
-/* The primitive shaders against quads worked out by hand, and the paper's formulas. */
+/* The primitive shaders against quads worked out stylized, and the paper's formulas. */
 #include "features/features.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* shade: the looks of surfaces and the cartoon map on runs of pixels, by hand; every width of
+/* shade: the looks of surfaces and the cartoon map on runs of pixels, stylized; every width of
  * vectors gives the same. */
 #include "base/kernels.h"
 #include "shade/shade.h"
@@ -215,7 +215,7 @@ static void wider_vectors_shade_the_same(void **state) {
             }
 }
 
-/* The cartoon map, too; by hand: a mean of one surface's colours, weighed 1 2 1 both ways. */
+/* The cartoon map, too; stylized: a mean of one surface's colours, weighed 1 2 1 both ways. */
 static void wider_vectors_smooth_the_same(void **state) {
     (void)state;
     static uint8_t colors[3][3 * DP_TILE][4], out[2][DP_TILE][4];

@@ -143,7 +143,7 @@ static void lines_and_quads(void **state) {
     check(&(mode){.name = "adjacency, quads",
                   .style = {.edges = DP_EDGES_ADJACENCY, .ink = DP_INK_QUADS}});
     check(
-        &(mode){.name = "by hand", .style = {.stroke = {.jitter = 1, .taper = 20, .repeats = 3}}});
+        &(mode){.name = "stylized", .style = {.stroke = {.jitter = 1, .taper = 20, .repeats = 3}}});
     check(&(mode){.name = "no lines", .style = {.lines = DP_NO_LINES}});
 }
 

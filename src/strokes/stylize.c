@@ -1,15 +1,15 @@
-/* The hand: from chains of segments to marks.
+/* Stylizing: from chains of segments to stylized strokes.
  *
  * Each chain is walked once per repeat. Its spine is taken up at even distances, smoothed where it
  * is ragged and not where it has a corner, moved off by jitter, run on by overshoot; then each pair
- * of points is a mark, with the width that taper, depth and light leave and with u from the length
+ * of points is a part of a stroke, with the width that taper, depth and light leave and with u from the length
  * so far. A closed chain's texture is stretched to fit a whole number of times, so that it has no
  * seam.
  *
- * Errors of the hand are noise over the arc length, seeded by the style's seed, the repeat, and the
+ * Errors, as of a hand, are noise over the arc length, seeded by the style's seed, the repeat, and the
  * polygon at which the chain begins: nothing depends on threads or on what else is in the
  * picture. */
-#include "strokes/mark.h"
+#include "strokes/stylized.h"
 
 #include "features/silhouette_edge.h"
 #include "core/outline.h"
@@ -25,24 +25,24 @@ static const float SWELL = 0.4f;   /* px of width per px of an extruded outline'
 static const float CORE = 0.6f; /* px, half the width of the edges themselves under extruded ink */
 static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
 
-typedef struct dp_hand_point {
+typedef struct dp_path_point {
     float x, y, d;
     float arc;        /* px from the chain's start */
     uint32_t segment; /* that follows */
-} hand_point;
+} path_point;
 
-void dp_mark_store_free(dp_mark_store *s, const dp_allocator *memory) {
+void dp_stylized_store_free(dp_stylized_store *s, const dp_allocator *memory) {
     dp_chain_store_free(&s->chains, memory);
-    dp_free(memory, s->marks);
+    dp_free(memory, s->stylized);
     dp_free(memory, s->points);
     dp_free(memory, s->sides);
     dp_free(memory, s->lights);
-    *s = (dp_mark_store){0};
+    *s = (dp_stylized_store){0};
 }
 
 bool dp_lies_outside(const dp_frame *f) { return f->adjacency && f->styles[0].ink == DP_INK_QUADS; }
 
-bool dp_is_by_hand(const dp_frame *f) {
+bool dp_is_stylized(const dp_frame *f) {
     const dp_stroke_style *const s = &f->styles[0].stroke;
     return dp_lies_outside(f) || s->texture || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
            s->depth > 0 || s->light > 0 || s->repeats > 1;
@@ -69,15 +69,15 @@ static float noise(float t, uint32_t seed) {
 
 /* ------- one chain's points ------- */
 
-typedef struct hand {
+typedef struct stylizer {
     dp_frame *frame;
-    dp_mark_store *store;
+    dp_stylized_store *store;
     const dp_piece *pieces;
     const dp_stroke_style *style;
     bool outside;            /* the line that is being drawn lies beside its spine */
     float nearest, farthest; /* distances of all lines */
     double nearest_depth;    /* d of the nearest */
-} hand;
+} stylizer;
 
 /* A part of a chain between two corners at which the pen is lifted; or the whole. */
 typedef struct run {
@@ -97,11 +97,11 @@ static dp_point link_end(const dp_frame *f, const dp_link *l) {
     return l->reversed ? f->strokes[l->segment].a : f->strokes[l->segment].b;
 }
 
-static bool add_point(hand *h, size_t *n, dp_point p, uint32_t segment) {
-    dp_mark_store *const s = h->store;
+static bool add_point(stylizer *h, size_t *n, dp_point p, uint32_t segment) {
+    dp_stylized_store *const s = h->store;
     if (!dp_reserve(h->frame->memory, &s->points, &s->points_cap, *n + 1, sizeof *s->points))
         return false;
-    s->points[(*n)++] = (hand_point){p.x, p.y, p.d, 0, segment};
+    s->points[(*n)++] = (path_point){p.x, p.y, p.d, 0, segment};
     return true;
 }
 
@@ -112,7 +112,7 @@ static float cosine(float ax, float ay, float bx, float by) {
 
 /* Points along the chain, each at least `spacing` from the last and no further than that within a
  * segment: what zigzags within that distance does so no more. Where long segments meet always. */
-static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
+static bool take_points(stylizer *h, const run *chain, float spacing, size_t *n) {
     const dp_frame *const f = h->frame;
     dp_point last = {0, 0, 0};
     *n = 0;
@@ -140,7 +140,7 @@ static bool take_points(hand *h, const run *chain, float spacing, size_t *n) {
 }
 
 /* Arc lengths of the points as they lie now. */
-static float measure(hand_point *p, size_t n) {
+static float measure(path_point *p, size_t n) {
     float arc = 0;
     for (size_t i = 0; i < n; i++) {
         if (i) arc += dp_hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
@@ -150,7 +150,7 @@ static float measure(hand_point *p, size_t n) {
 }
 
 /* Where a ring closes is a point like any other. */
-static void smooth(hand_point *p, size_t n, bool closed) {
+static void smooth(path_point *p, size_t n, bool closed) {
     for (int pass = 0; pass < SMOOTHINGS; pass++) {
         float x = p[0].x, y = p[0].y;
         const float seam_x = (p[n - 2].x + 2 * x + p[1].x) / 4,
@@ -167,12 +167,12 @@ static void smooth(hand_point *p, size_t n, bool closed) {
 
 /* Off the line, square to it: a slow sway and a small tremble. Ends of closed chains stay
  * together. */
-static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) {
+static void sway(path_point *p, size_t n, float by, uint32_t seed, bool closed) {
     if (!(by > 0)) return;
     float x = p[0].x, y = p[0].y;
     const float length = p[n - 1].arc;
     for (size_t i = 0; i < n; i++) {
-        const hand_point *const next = &p[i + 1 < n ? i + 1 : i];
+        const path_point *const next = &p[i + 1 < n ? i + 1 : i];
         const float dx = next->x - x, dy = next->y - y, step = dp_hypotf(dx, dy);
         const float hold = closed ? dp_minf(1, dp_minf(p[i].arc, length - p[i].arc) / 20) : 1;
         const float off =
@@ -183,7 +183,7 @@ static void sway(hand_point *p, size_t n, float by, uint32_t seed, bool closed) 
 }
 
 /* Runs the ends on along their directions. */
-static void overshoot(hand_point *p, size_t n, float by) {
+static void overshoot(path_point *p, size_t n, float by) {
     const float most = p[n - 1].arc / 4, reach = by < most ? by : most;
     const float ax = p[0].x - p[1].x, ay = p[0].y - p[1].y, a = dp_hypotf(ax, ay);
     const float bx = p[n - 1].x - p[n - 2].x, by_ = p[n - 1].y - p[n - 2].y, b = dp_hypotf(bx, by_);
@@ -206,7 +206,7 @@ static float light_of(const dp_frame *f, const dp_piece *piece) {
     return (float)dp_max(0, dp_dot(dp_unit(n), to_light));
 }
 
-static void find_distances(hand *h) {
+static void find_distances(stylizer *h) {
     h->nearest = INFINITY, h->farthest = -INFINITY, h->nearest_depth = (double)DP_DEPTH_EMPTY;
     for (size_t i = 0; i < h->frame->segment_count; i++) {
         const float a = h->frame->segments[i].a[2], b = h->frame->segments[i].b[2];
@@ -223,7 +223,7 @@ static float ramp(float t) {
 }
 
 /* Share of the line's width at a point. */
-static float width_at(const hand *h, const hand_point *p, float length, bool closed) {
+static float width_at(const stylizer *h, const path_point *p, float length, bool closed) {
     const dp_stroke_style *const s = h->style;
     float share = 1;
     if (s->taper > 0 && !closed && length > 0) {
@@ -246,7 +246,7 @@ static float width_at(const hand *h, const hand_point *p, float length, bool clo
 /* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that
  * begin where the texture does end where it does, so that no dot is cut, for a stretch of an eighth
  * at most. */
-static float repeats_per_px(const hand *h, float width, float length, bool closed) {
+static float repeats_per_px(const stylizer *h, float width, float length, bool closed) {
     if (!h->style->texture) return 0;
     const float period = dp_texture_period(h->style->texture, width) * h->style->scale;
     if (length < (closed ? 0.5f : 4) * period || (!closed && h->style->jitter > 0))
@@ -254,7 +254,7 @@ static float repeats_per_px(const hand *h, float width, float length, bool close
     return floorf(length / period + 0.5f) / length;
 }
 
-static void set_directions(dp_mark *m, const hand_point *before, bool outside, float side) {
+static void set_directions(dp_stylized *m, const path_point *before, bool outside, float side) {
     const float ex = m->stroke.b.x - m->stroke.a.x, ey = m->stroke.b.y - m->stroke.a.y,
                 e = dp_hypotf(ex, ey);
     m->length = e;
@@ -269,7 +269,7 @@ static void set_directions(dp_mark *m, const hand_point *before, bool outside, f
 
 /* u by the polar formula at a point, in turns; whole turns are added so that it lies within half a
  * turn of `near`. */
-static float polar_at(const hand *h, dp_point p, float near) {
+static float polar_at(const stylizer *h, dp_point p, float near) {
     const dp_frame *const f = h->frame;
     const double half = f->view.height / 2;
     const double u = dp_stroke_polar((p.x - f->centre[0]) / half, (f->centre[1] - p.y) / half,
@@ -283,11 +283,12 @@ static float outside_width(float full, float length) {
     return dp_maxf(dp_minf(full, 1.5f + SWELL * length) - CORE, 0.25f);
 }
 
-static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_t id,
+static bool add_parts(stylizer *h, const run *chain, size_t n, float length, uint32_t id,
                       uint32_t seed) {
-    dp_mark_store *const s = h->store;
-    const hand_point *const p = s->points;
-    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + n, sizeof *s->marks))
+    dp_stylized_store *const s = h->store;
+    const path_point *const p = s->points;
+    if (!dp_reserve(h->frame->memory, &s->stylized, &s->stylized_cap, s->count + n,
+                    sizeof *s->stylized))
         return false;
     const dp_link *const head = link_at(chain, 0);
     const dp_stroke *const first = &h->frame->strokes[head->segment];
@@ -302,11 +303,11 @@ static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_
         h->outside ? (float)(s->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
     for (size_t i = 0; i + 1 < n; i++) {
         const bool closed = chain->closed;
-        dp_mark *const m = &s->marks[s->count++];
-        *m = (dp_mark){.stroke = h->frame->strokes[p[i].segment],
-                       .chain = id,
-                       .outside = h->outside,
-                       .ends = i + 2 == n && !chain->closed};
+        dp_stylized *const m = &s->stylized[s->count++];
+        *m = (dp_stylized){.stroke = h->frame->strokes[p[i].segment],
+                           .chain = id,
+                           .outside = h->outside,
+                           .ends = i + 2 == n && !chain->closed};
         m->stroke.a = (dp_point){p[i].x, p[i].y, p[i].d},
         m->stroke.b = (dp_point){p[i + 1].x, p[i + 1].y, p[i + 1].d};
         m->half[0] = full * width_at(h, &p[i], length, closed);
@@ -323,7 +324,7 @@ static bool add_marks(hand *h, const run *chain, size_t n, float length, uint32_
     return true;
 }
 
-static float raw_length(const hand *h, const run *r) {
+static float raw_length(const stylizer *h, const run *r) {
     float sum = 0;
     for (uint32_t i = 0; i < r->count; i++) {
         const dp_stroke *const k = &h->frame->strokes[link_at(r, i)->segment];
@@ -334,25 +335,25 @@ static float raw_length(const hand *h, const run *r) {
 
 /* Extruded ink lies beside points taken at a distance; the edges themselves are inked as they are,
  * thinly, so that none is lost between two points or on a surface that hardly falls away. u is that
- * of the marks, by the share of the length. */
-static bool add_core(hand *h, const run *r, size_t first_mark, uint32_t id) {
-    dp_mark_store *const s = h->store;
-    if (!dp_reserve(h->frame->memory, &s->marks, &s->marks_cap, s->count + r->count,
-                    sizeof *s->marks))
+ * of the parts, by the share of the length. */
+static bool add_core(stylizer *h, const run *r, size_t first_part, uint32_t id) {
+    dp_stylized_store *const s = h->store;
+    if (!dp_reserve(h->frame->memory, &s->stylized, &s->stylized_cap, s->count + r->count,
+                    sizeof *s->stylized))
         return false;
-    const bool any = s->count > first_mark;
-    const float from = any ? s->marks[first_mark].arc[0] : 0,
-                to = any ? s->marks[s->count - 1].arc[1] : 0;
+    const bool any = s->count > first_part;
+    const float from = any ? s->stylized[first_part].arc[0] : 0,
+                to = any ? s->stylized[s->count - 1].arc[1] : 0;
     const float total = raw_length(h, r);
     float arc = 0;
     for (uint32_t i = 0; i < r->count && total > 0; i++) {
         const dp_link *const l = link_at(r, i);
-        dp_mark *const m = &s->marks[s->count++];
-        *m = (dp_mark){.stroke = h->frame->strokes[l->segment],
-                       .chain = id,
-                       .outside = true,
-                       .core = true,
-                       .half = {CORE, CORE}};
+        dp_stylized *const m = &s->stylized[s->count++];
+        *m = (dp_stylized){.stroke = h->frame->strokes[l->segment],
+                           .chain = id,
+                           .outside = true,
+                           .core = true,
+                           .half = {CORE, CORE}};
         m->stroke.a = link_start(h->frame, l), m->stroke.b = link_end(h->frame, l);
         m->stroke.half_width = CORE;
         m->length = dp_hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
@@ -363,7 +364,7 @@ static bool add_core(hand *h, const run *r, size_t first_mark, uint32_t id) {
     return true;
 }
 
-static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
+static bool draw_run(stylizer *h, const run *chain, uint32_t repeat, uint32_t *id) {
     const dp_stroke_style *const s = h->style;
     const dp_link *const head = link_at(chain, 0);
     const dp_piece *const piece = &h->pieces[head->segment];
@@ -374,7 +375,7 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
         dp_maxf(raw_length(h, chain) / 4, 0.25f); /* a small ring is more than a point */
     size_t n;
     if (!take_points(h, chain, dp_minf(spacing, quarter), &n)) return false;
-    hand_point *const p = h->store->points;
+    path_point *const p = h->store->points;
     float length = measure(p, n);
     if (!h->outside) {
         smooth(p, n, chain->closed);
@@ -385,7 +386,7 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
         length = measure(p, n);
     }
     const size_t first = h->store->count;
-    if (length > 0 && !add_marks(h, chain, n, length, *id, seed)) return false;
+    if (length > 0 && !add_parts(h, chain, n, length, *id, seed)) return false;
     if (h->outside && !add_core(h, chain, first, *id)) return false;
     ++*id;
     return true;
@@ -393,7 +394,7 @@ static bool draw_run(hand *h, const run *chain, uint32_t repeat, uint32_t *id) {
 
 /* Does the pen stop before link i? Where two segments that are long on the screen make a corner.
  * What is short may zigzag as it likes. */
-static bool is_cut(const hand *h, const run *r, uint32_t i) {
+static bool is_cut(const stylizer *h, const run *r, uint32_t i) {
     const dp_link *const l = link_at(r, i + r->total - 1), *const m = link_at(r, i);
     const dp_point a = link_start(h->frame, l), b = link_end(h->frame, l),
                    c = link_start(h->frame, m), d = link_end(h->frame, m);
@@ -404,7 +405,7 @@ static bool is_cut(const hand *h, const run *r, uint32_t i) {
 }
 
 /* A chain's runs, each as often as the style says. */
-static bool draw_chain(hand *h, const dp_chain *chain, uint32_t *id) {
+static bool draw_chain(stylizer *h, const dp_chain *chain, uint32_t *id) {
     h->outside = h->store->sides[h->store->chains.links[chain->first].segment];
     run r = {.links = h->store->chains.links + chain->first,
              .total = chain->count,
@@ -425,7 +426,7 @@ static bool draw_chain(hand *h, const dp_chain *chain, uint32_t *id) {
 }
 
 /* Which side of an extruded line is outside, for chains to keep to. */
-static int8_t side_of(const hand *h, size_t i) {
+static int8_t side_of(const stylizer *h, size_t i) {
     const dp_stroke *const k = &h->frame->strokes[i];
     double out[2] = {0, 0};
     if (!dp_lies_outside(h->frame) || !(1u << k->line & DP_OUTLINES)) return 0;
@@ -435,9 +436,9 @@ static int8_t side_of(const hand *h, size_t i) {
 }
 
 /* Sides; and how lit lines are. */
-static bool look_at_segments(hand *h) {
+static bool look_at_segments(stylizer *h) {
     dp_frame *const f = h->frame;
-    dp_mark_store *const s = h->store;
+    dp_stylized_store *const s = h->store;
     if (!dp_reserve(f->memory, &s->sides, &s->sides_cap, f->segment_count, sizeof *s->sides) ||
         !dp_reserve(f->memory, &s->lights, &s->lights_cap, f->segment_count, sizeof *s->lights))
         return false;
@@ -453,8 +454,9 @@ static float gap_outside(const dp_frame *f) {
     return dp_minf(GAP, f->styles[0].line[DP_LINE_SILHOUETTE].width / 4);
 }
 
-bool dp_make_marks(dp_frame *frame, const dp_piece *pieces, dp_mark_store *store) {
-    hand h = {.frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke};
+bool dp_stylize(dp_frame *frame, const dp_piece *pieces, dp_stylized_store *store) {
+    stylizer h = {
+        .frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke};
     store->count = 0;
     if (!look_at_segments(&h)) return false;
     find_distances(&h);
@@ -469,7 +471,7 @@ bool dp_make_marks(dp_frame *frame, const dp_piece *pieces, dp_mark_store *store
     uint32_t id = 0;
     for (uint32_t c = 0; c < store->chains.chain_count; c++)
         if (!draw_chain(&h, &store->chains.chains[c], &id)) return false;
-    frame->marks = store->marks;
-    frame->mark_count = store->count;
+    frame->stylized = store->stylized;
+    frame->stylized_count = store->count;
     return store->count < UINT32_MAX;
 }

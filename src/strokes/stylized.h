@@ -1,0 +1,46 @@
+/* Stylized strokes. A chain of segments becomes a run of parts, short straight pieces of one
+ * stroke with everything that varies along it; between segments (finding) and ink (drawing). */
+#ifndef DP_STROKES_STYLIZED_H
+#define DP_STROKES_STYLIZED_H
+
+#include "strokes/chain.h"
+
+typedef struct dp_stylized {
+    dp_stroke stroke; /* ends on the screen; half_width is the wider one's; planes hide it as they
+                         do strokes */
+    float half[2];    /* half widths at a and b, px; lying outside: whole widths */
+    float arc[2];     /* texture u at a and b, in repeats */
+    float before[2];  /* direction of the part before, unit; 0, 0 where the chain begins */
+    float outward[2]; /* unit; lying outside only: the side that is drawn */
+    float middle[2];  /* at the joint with the part before: between both outward directions */
+    float length;     /* px */
+    uint32_t chain;   /* parts of one chain and repeat lie together */
+    bool ends;        /* the chain ends at b */
+    bool outside;     /* it lies beside its spine */
+    bool core;        /* … the edge itself, thin, on both sides of the spine */
+} dp_stylized;
+
+typedef struct dp_stylized_store {
+    dp_chain_store chains;
+    dp_stylized *stylized;
+    struct dp_path_point *points; /* stylize.c: of one chain */
+    int8_t *sides;
+    float *lights;
+    size_t stylized_cap, points_cap, sides_cap, lights_cap, count;
+} dp_stylized_store;
+
+/* Are lines stylized rather than as plain strokes? */
+bool dp_is_stylized(const dp_frame *frame);
+/* Do outlines lie beside their spines, on the outside, as extruded silhouettes do? */
+bool dp_lies_outside(const dp_frame *frame);
+
+/* Fills frame->stylized from frame->strokes and the pieces they were made of. False when memory is
+ * out. */
+bool dp_stylize(dp_frame *frame, const dp_piece *pieces, dp_stylized_store *store);
+void dp_stylized_store_free(dp_stylized_store *store, const dp_allocator *memory);
+
+/* Stylized strokes to tiles (brush.c); a tile's stylized strokes over what the target holds. */
+bool dp_bin_stylized(dp_frame *frame);
+void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile);
+
+#endif
