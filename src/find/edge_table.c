@@ -248,7 +248,7 @@ static bool clear_table(dp_finder *w) {
     const size_t count = w->table.edges.count, slots = count + count / 2 + 64,
                  marks = (count + 8) / 8 * 8;
     if (slots >= UINT32_MAX || !DP_TILE_RESERVE(&w->tile, w, table.slots, table.slots_cap, slots) ||
-        !DP_TILE_RESERVE(&w->tile, w, table.marks, table.stylized_cap, marks) ||
+        !DP_TILE_RESERVE(&w->tile, w, table.marks, table.marks_cap, marks) ||
         !DP_TILE_RESERVE(&w->tile, w, table.pair_first, table.pair_first_cap,
                          count / 2 + DP_EDGES_ROOM) ||
         !DP_TILE_RESERVE(&w->tile, w, table.pair_second, table.pair_second_cap,
@@ -356,7 +356,7 @@ static const dp_array store_arrays[] = {DP_ARRAY(dp_edge_store, edges.polygon, e
                                         DP_ARRAY(dp_edge_store, edges.from, edges.from_cap),
                                         DP_ARRAY(dp_edge_store, edges.name, edges.name_cap),
                                         DP_ARRAY(dp_edge_store, slots, slots_cap),
-                                        DP_ARRAY(dp_edge_store, marks, stylized_cap),
+                                        DP_ARRAY(dp_edge_store, marks, marks_cap),
                                         DP_ARRAY(dp_edge_store, pair_first, pair_first_cap),
                                         DP_ARRAY(dp_edge_store, pair_second, pair_second_cap),
                                         DP_ARRAY(dp_edge_store, meetings, meetings_cap),

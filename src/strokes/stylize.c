@@ -241,7 +241,7 @@ static float width_at(const stylizer *h, const path_point *p, float length, bool
     return dp_maxf(share, 0.05f);
 }
 
-/* ------- marks ------- */
+/* ------- parts of strokes ------- */
 
 /* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that
  * begin where the texture does end where it does, so that no dot is cut, for a stretch of an eighth
