@@ -38,10 +38,10 @@ int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
     const int code = s->stroke ? load(s, style, texture) : 0;
     if (code) return code;
     dp_stroke_style *const stroke = &style->stroke;
-    const bool fringed = style->edges == DP_EDGES_ADJACENCY && style->ink == DP_INK_QUADS;
+    const bool fins = style->edges == DP_EDGES_ADJACENCY && style->ink == DP_INK_QUADS;
     stroke->texture = *texture;
     stroke->u =
-        (s->stroke_u ? s->stroke_u == STROKE_POLAR : fringed) ? DP_STROKE_POLAR : DP_STROKE_ARC;
+        (s->stroke_u ? s->stroke_u == STROKE_POLAR : fins) ? DP_STROKE_POLAR : DP_STROKE_ARC;
     if (s->has_stroke_k) stroke->k = s->stroke_k == 0 ? -1e-9f : (float)s->stroke_k;
     if (s->has_taper) stroke->taper = (float)s->taper;
     if (s->has_jitter) stroke->jitter = (float)s->jitter;

@@ -54,7 +54,7 @@ typedef struct dp_frame {
     dp_bins polygon_bins;
 
     const struct dp_adjacency *adjacency; /* mesh/adjacency.h; NULL: lines emerge without it */
-    float fringe;    /* px that textured silhouettes reach beyond outlined polygons; 0: none */
+    float fin_reach; /* px that textured silhouettes reach beyond outlined polygons; 0: none */
     uint8_t *facing; /* with adjacency, by polygon: core/facing.h */
     double centre[2], radius; /* px, polar stroke textures: features/silhouette_edge.h */
     bool seen_through;        /* some polygons have no area */
@@ -94,7 +94,7 @@ enum { DP_OUTLINES = DP_SILHOUETTE | DP_BORDER };
 
 /* Is the picture drawn so? Else the same geometry lies beside visible pieces of lines
  *. */
-static inline bool dp_is_fringed(const dp_frame *frame) {
+static inline bool dp_draws_fins(const dp_frame *frame) {
     const dp_style *const s = &frame->styles[0];
     return frame->adjacency && s->ink == DP_INK_QUADS && s->method == DP_METHOD_PAPER;
 }

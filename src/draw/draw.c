@@ -15,7 +15,7 @@
 #include "base/kernels.h"
 #include "mesh/source.h"
 #include "core/facing.h"
-#include "printed/fringe.h"
+#include "printed/fins.h"
 #include "features/silhouette_edge.h"
 #include "stream/stream.h"
 
@@ -306,14 +306,14 @@ static void lap(dp_stats *stats, dp_stage stage, double *since) {
 static bool is_polar(const dp_frame *f) {
     for (uint32_t i = 0; i < f->style_count; i++)
         if (f->styles[i].stroke.texture && f->styles[i].stroke.u == DP_STROKE_POLAR) return true;
-    return dp_is_fringed(f);
+    return dp_draws_fins(f);
 }
 
 /* Who paints: the tiles, or shading after them. Tiles that ink before surfaces are shaded (quads,
- * fringes) do so on a layer of its own then. False when memory is out. */
+ * silhouette fins) do so on a layer of its own then. False when memory is out. */
 static bool begin_paint(dp_context *c) {
     dp_frame *const f = &c->frame;
-    const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_is_fringed(f));
+    const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_draws_fins(f));
     f->painted_later = c->shade.colored;
     if (!f->painted_later || !inks_early) return true;
     if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap,
@@ -336,7 +336,7 @@ static bool find_adjacency(dp_context *c) {
     c->stats.adjacency_ms = built ? c->adjacency.ms : 0;
     c->stats.adjacency_bytes = dp_adjacency_bytes(&c->adjacency);
     dp_find_facing(f);
-    f->fringe = dp_is_fringed(f) ? dp_fringe_reach(f) : 0;
+    f->fin_reach = dp_draws_fins(f) ? dp_fin_reach(f) : 0;
     return true;
 }
 
@@ -489,7 +489,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->painted_later = false;
     f->ink_layer = NULL;
     f->adjacency = NULL;
-    f->fringe = 0;
+    f->fin_reach = 0;
     f->memory = &c->memory;
     f->threads = c->threads;
     f->styles = styles;

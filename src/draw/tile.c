@@ -1,7 +1,7 @@
 /* The stages of one tile, in order: faces, surface and lines; or the papers as printed. */
 #include "draw/tile.h"
 
-#include "printed/fringe.h"
+#include "printed/fins.h"
 
 /* Visible pieces of lines, for strokes. */
 static void find_pieces(dp_finder *f) {
@@ -15,11 +15,11 @@ static void find_pieces(dp_finder *f) {
 }
 
 /* Silhouettes and borders as geometry; what has no outside, as strokes. */
-static void find_fringes(dp_finder *f, dp_printer *printer) {
+static void find_fins(dp_finder *f, dp_printer *printer) {
     if (f->tile.frame->styles[0].passes == 1)
-        dp_tile_fringe_one_pass(printer);
+        dp_printed_fins_one_pass(printer);
     else
-        dp_tile_fringe_two_passes(printer);
+        dp_printed_fins_two_passes(printer);
     if (!f->tile.failed && f->tile.frame->lines & ~DP_OUTLINES) find_pieces(f);
 }
 
@@ -48,8 +48,8 @@ void dp_draw_tile(dp_finder *f, dp_printer *printer, uint32_t index) {
     }
     for (size_t i = 0; i < frame->tile_samples; i++) f->tile.depth[i] = DP_DEPTH_EMPTY;
     dp_tile_assemble(&f->tile);
-    if (frame->lines && dp_is_fringed(frame))
-        find_fringes(f, printer);
+    if (frame->lines && dp_draws_fins(frame))
+        find_fins(f, printer);
     else
         find_lines(f, printer);
     out->count = f->found->piece_count - first;

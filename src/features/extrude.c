@@ -29,7 +29,7 @@ static dp_pointd beyond(dp_pointd end, const double normal[2], double ox, double
     return (dp_pointd){end.x + nx * width, end.y + ny * width, end.d};
 }
 
-bool dp_extrude(const dp_silhouette_edge *e, double width, dp_fringe_point out[DP_FRINGE_POINTS]) {
+bool dp_extrude(const dp_silhouette_edge *e, double width, dp_fin_point out[DP_FIN_POINTS]) {
     const double d = distance(e->a, e->b);
     if (!(d > 0)) return false;
     const double ex = (e->b.x - e->a.x) / d, ey = (e->b.y - e->a.y) / d;
@@ -42,11 +42,11 @@ bool dp_extrude(const dp_silhouette_edge *e, double width, dp_fringe_point out[D
     const double da = distance(n1, e1), db = distance(e1, e2), dc = distance(e2, n2),
                  rim = da + db + dc;
     const double t1 = d * da / rim, t2 = d * dc / rim; /* (2.1) */
-    out[0] = (dp_fringe_point){n1, e->a.x, e->a.y, 1};
-    out[1] = (dp_fringe_point){e1, e->a.x + ex * t1, e->a.y + ey * t1, 1};
-    out[2] = (dp_fringe_point){e->a, e->a.x, e->a.y, 0};
-    out[3] = (dp_fringe_point){e2, e->b.x - ex * t2, e->b.y - ey * t2, 1};
-    out[4] = (dp_fringe_point){e->b, e->b.x, e->b.y, 0};
-    out[5] = (dp_fringe_point){n2, e->b.x, e->b.y, 1};
+    out[0] = (dp_fin_point){n1, e->a.x, e->a.y, 1};
+    out[1] = (dp_fin_point){e1, e->a.x + ex * t1, e->a.y + ey * t1, 1};
+    out[2] = (dp_fin_point){e->a, e->a.x, e->a.y, 0};
+    out[3] = (dp_fin_point){e2, e->b.x - ex * t2, e->b.y - ey * t2, 1};
+    out[4] = (dp_fin_point){e->b, e->b.x, e->b.y, 0};
+    out[5] = (dp_fin_point){n2, e->b.x, e->b.y, 1};
     return true;
 }

@@ -14,15 +14,15 @@
 #include "core/view.h"
 
 /* A vertex for the pixel stage: (x, y) that u is made of, and v. */
-typedef struct dp_fringe_point {
+typedef struct dp_fin_point {
     dp_pointd at;  /* screen space */
     double tx, ty; /* px, screen space */
     double v;      /* 0 at the edge, 1 outside */
-} dp_fringe_point;
+} dp_fin_point;
 
 /* The strip of Listing 2.2, in its order: n1, e1, a, e2, b, n2; triangle i is points i, i + 1 and i
  * + 2. */
-enum { DP_FRINGE_POINTS = 6, DP_FRINGE_TRIANGLES = 4 };
+enum { DP_FIN_POINTS = 6, DP_FIN_TRIANGLES = 4 };
 
 /* A silhouette edge on the screen. `outward`: the side on which to extrude, unit or not, square to
  * the edge or not; `normal`: of the vertices, projected, unit; 0, 0 where there is none (it then is
@@ -35,8 +35,7 @@ typedef struct dp_silhouette_edge {
 
 /* False where the edge has no length on the screen. `width` in px. A normal that points against the
  * extrusion is turned round (Hermosilla and Vázquez 2009). */
-bool dp_extrude(const dp_silhouette_edge *edge, double width,
-                dp_fringe_point out[DP_FRINGE_POINTS]);
+bool dp_extrude(const dp_silhouette_edge *edge, double width, dp_fin_point out[DP_FIN_POINTS]);
 
 /* The direction in which a point at `p` moves on the screen when it moves along `normal` in space:
  * unit, or 0, 0. Listing 2.2 projects the point one whole unit further on, which depends on the

@@ -34,7 +34,7 @@ static shared_edge owned(const dp_frame *frame, uint32_t polygon, uint32_t corne
 static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     if (!(dp_polygon_style(w->tile.frame, e->a)->lines & (1u << line))) return;
-    if (1u << line & DP_OUTLINES && dp_is_fringed(w->tile.frame)) return; /* fringe.c draws them */
+    if (1u << line & DP_OUTLINES && dp_draws_fins(w->tile.frame)) return; /* fins.c draws them */
     const uint32_t first = dp_first_corner(polygons, e->a), n = dp_corner_count(polygons, e->a);
     const uint32_t va = dp_corner_vertex(polygons, first + e->edge_a);
     const uint32_t vb = dp_corner_vertex(polygons, first + (e->edge_a + 1) % n);

@@ -75,8 +75,7 @@ typedef struct dp_edge_store {
         *pair_second; /* edges of the list: one as either of two polygons has it */
     dp_meeting *meetings;
     uint32_t *slot_meetings; /* by slot: 1 + first meeting, where it has DP_SLOT_MORE */
-    size_t slots_cap, marks_cap, pair_first_cap, pair_second_cap, meetings_cap,
-        slot_meetings_cap;
+    size_t slots_cap, marks_cap, pair_first_cap, pair_second_cap, meetings_cap, slot_meetings_cap;
     uint32_t slot_count, pairs, meeting_count;
     uint32_t flat_edges; /* not listed, as both polygons have them */
 } dp_edge_store;

@@ -92,7 +92,7 @@ typedef struct dp_detectors {
     void (*c1_slope)(const dp_rays *rays, const float *nx, const float *ny, const float *nz,
                      uint32_t x, uint32_t y, uint32_t n, float *slope);
 
-    /* `out` holds intensities I_N, I_Z and gets strengths: 1 - I, from the thresholds on. A fringe
+    /* `out` holds intensities I_N, I_Z and gets strengths: 1 - I, from the thresholds on. A partial pixel
      * is a whole profile edge, a pixel without surface none. */
     void (*strengths)(const dp_pixel_run *p, dp_threshold inner, dp_threshold profile, int radius,
                       dp_edge_run *out);

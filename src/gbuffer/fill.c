@@ -233,7 +233,7 @@ static void put_ids(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_
     }
 }
 
-/* Pixels that surfaces share: how much is whose, what lies beside, and which are fringes. After
+/* Pixels that surfaces share: how much is whose, what lies beside, and which are partial pixels. After
  * finishing. */
 static void share_pixel(const dp_fill *f, float other, uint8_t share, size_t pixel) {
     dp_gbuffer *const g = f->g;
@@ -241,7 +241,7 @@ static void share_pixel(const dp_fill *f, float other, uint8_t share, size_t pix
     g->share[pixel] = share;
     g->other[pixel] = paper ? DP_FAR : (float)dp_distance(&f->w->frame->view, other);
     if (share >= 128 || !paper) return;
-    g->other[pixel] = g->distance[pixel]; /* fringe */
+    g->other[pixel] = g->distance[pixel]; /* partial pixel */
     g->distance[pixel] = DP_FAR;
     g->depth[pixel] = dp_gbuffer_empty_depth(g->perspective);
 }

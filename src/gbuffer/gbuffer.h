@@ -22,7 +22,7 @@ static inline float dp_gbuffer_empty_depth(bool perspective) { return perspectiv
 
 /* Planes of floats, `stride` apart from row to row; pixel (0, 0) is at [0], and rows and columns
  * down to -DP_GBUFFER_MARGIN may be read. Rows have room for whole tiles. A pixel without surface
- * has normal 0, distance DP_FAR and id 0. One that is mostly paper (a fringe) is background to
+ * has normal 0, distance DP_FAR and id 0. One that is mostly paper (a partial pixel) is background to
  * whoever looks for edges, distance DP_FAR, but has the id and normal of the surface at its border,
  * whose distance is `other`. Invariant: tiles marked `clean` hold no surface, so that background is
  * written once and then costs nothing. */
@@ -80,7 +80,7 @@ void dp_gbuffer_quantize(dp_gbuffer *g, uint32_t tile);
 void dp_gbuffer_fit_range(dp_gbuffer *g, const dp_frame *frame, const uint8_t *enhanced,
                           uint32_t enhanced_count);
 
-static inline bool dp_gbuffer_is_fringe(const dp_gbuffer *g, size_t at) {
+static inline bool dp_gbuffer_is_partial(const dp_gbuffer *g, size_t at) {
     return g->id[at] && g->distance[at] >= DP_FAR;
 }
 

@@ -133,9 +133,9 @@ static bool collect_ids(dp_tile *w, uint32_t *count, uint32_t *back_count) {
     return true;
 }
 
-/* Silhouettes as printed, in one pass, come together with the back faces (fringe.c). */
+/* Silhouettes as printed, in one pass, come together with the back faces (fins.c). */
 static bool draws_backs(const dp_frame *frame) {
-    return !(frame->lines && dp_is_fringed(frame) && frame->styles[0].passes == 1);
+    return !(frame->lines && dp_draws_fins(frame) && frame->styles[0].passes == 1);
 }
 
 void dp_tile_assemble(dp_tile *w) {

@@ -12,10 +12,10 @@ static const dp_tile_rect NOWHERE = {0};
 
 static int16_t tile_of(float px) { return (int16_t)floorf(px / DP_TILE); }
 
-/* Silhouettes as printed lie beyond the polygons that they belong to (fringe.c). */
+/* Silhouettes as printed lie beyond the polygons that they belong to (fins.c). */
 static float margin_of(const job *j, uint32_t polygon) {
-    return j->frame->fringe > j->margin && j->frame->outlined[polygon] ? j->frame->fringe
-                                                                       : j->margin;
+    return j->frame->fin_reach > j->margin && j->frame->outlined[polygon] ? j->frame->fin_reach
+                                                                          : j->margin;
 }
 
 static dp_tile_rect rect_around(float margin, float x0, float y0, float x1, float y1) {

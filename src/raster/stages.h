@@ -8,7 +8,7 @@
 /* Fills frame->vertices (allocated). */
 void dp_transform_vertices(dp_frame *frame);
 
-/* Polygons to tiles widened by `margin` px, those that are outlined by frame->fringe where that is
+/* Polygons to tiles widened by `margin` px, those that are outlined by frame->fin_reach where that is
  * more; adds dropped and clipped polygons to `stats`. False when memory is out. `scratch` and
  * `stats` hold one entry per worker. */
 typedef struct dp_bin_worker {

@@ -85,7 +85,7 @@ static void resolve_pixel(const dp_shade_store *s, const uint8_t background[4], 
                           uint32_t y) {
     const dp_gbuffer *const g = &s->gbuffer;
     const size_t at = (size_t)y * g->stride + x;
-    const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_fringe(g, at);
+    const bool on_paper = g->other[at] >= DP_FAR || dp_gbuffer_is_partial(g, at);
     mix_colors(s->shown + 4 * ((size_t)y * g->width + x),
                on_paper ? background : other_color(s, s->shown, x, y, g->other[at]), g->share[at],
                s->frame->target.rgba + (size_t)y * s->frame->target.rgba_stride + 4 * (size_t)x);

@@ -296,7 +296,7 @@ static void put_outputs(const dp_shade_store *s, uint32_t tile) {
         for (uint64_t bits = g->mask[(size_t)tile * DP_TILE + row]; bits; bits &= bits - 1) {
             const uint32_t x = tile_x + (uint32_t)__builtin_ctzll(bits), y = first + row;
             const size_t from = (size_t)y * g->stride + x, to = (size_t)y * g->width + x;
-            if (dp_gbuffer_is_fringe(g, from)) continue;
+            if (dp_gbuffer_is_partial(g, from)) continue;
             if (t->eye_normal) {
                 t->eye_normal[3 * to] = g->nx[from];
                 t->eye_normal[3 * to + 1] = g->ny[from];

@@ -207,7 +207,7 @@ static void test_it_is_built_once_per_topology(void **state) {
 
 /* ------- the geometry stage ------- */
 
-static void expect_point(const dp_fringe_point *p, double x, double y, double tx, double ty,
+static void expect_point(const dp_fin_point *p, double x, double y, double tx, double ty,
                          double v) {
     if (fabs(p->at.x - x) > 1e-9 || fabs(p->at.y - y) > 1e-9 || fabs(p->tx - tx) > 1e-9 ||
         fabs(p->ty - ty) > 1e-9 || p->v != v)
@@ -223,7 +223,7 @@ static void test_extrusion_and_its_texture_coordinates(void **state) {
                                      .outward = {0.3, -2},
                                      .normal_a = {-s, -s},
                                      .normal_b = {s, -s}};
-    dp_fringe_point p[DP_FRINGE_POINTS];
+    dp_fin_point p[DP_FIN_POINTS];
     assert_true(dp_extrude(&edge, 5, p));
     const double corner = 3.826834323650898, t = 10 * corner / (10 + 2 * corner);
     expect_point(&p[0], 100 - 5 * s, 50 - 5 * s, 100, 50, 1);
@@ -239,7 +239,7 @@ static void test_a_normal_against_the_extrusion_is_turned_round(void **state) {
     (void)state;
     const dp_silhouette_edge edge = {
         .a = {0, 0, 1}, .b = {10, 0, 1}, .outward = {0, 1}, .normal_a = {0.6, -0.8}};
-    dp_fringe_point p[DP_FRINGE_POINTS];
+    dp_fin_point p[DP_FIN_POINTS];
     assert_true(dp_extrude(&edge, 10, p));
     assert_true(fabs(p[0].at.x + 6) < 1e-9 && fabs(p[0].at.y - 8) < 1e-9);
     assert_true(p[5].at.x == 10 && p[5].at.y == 10); /* none given: square to the edge */

@@ -12,10 +12,10 @@
  * Two passes: first all faces, then the polygons once more. Ink keeps its own depth, so both give
  * the same picture, in any order of polygons.
  *
- * Data structure: per sample the ink's colour (0: none), depth and class; a fringe's triangles are
+ * Data structure: per sample the ink's colour (0: none), depth and class; a silhouette fin's triangles are
  * made where they are drawn and never stored. Ink that a sample shows is blended over the surface
  * pixel by pixel. */
-#include "printed/fringe.h"
+#include "printed/fins.h"
 
 #include "features/extrude.h"
 #include "raster/kernels.h"
@@ -97,7 +97,7 @@ static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 nearest) {
 /* ------- geometry stage ------- */
 
 /* An affine function of the screen from its values at three points. */
-static void make_affine(const dp_fringe_point p[3], const double value[3], double out[3]) {
+static void make_affine(const dp_fin_point p[3], const double value[3], double out[3]) {
     const double ax = p[1].at.x - p[0].at.x, ay = p[1].at.y - p[0].at.y, av = value[1] - value[0];
     const double bx = p[2].at.x - p[0].at.x, by = p[2].at.y - p[0].at.y, bv = value[2] - value[0];
     const double area = ax * by - ay * bx;
@@ -106,7 +106,7 @@ static void make_affine(const dp_fringe_point p[3], const double value[3], doubl
     out[0] = value[0] - dx * p[0].at.x - dy * p[0].at.y, out[1] = dx, out[2] = dy;
 }
 
-static void fill_triangle(fragment *f, const dp_fringe_point *p) {
+static void fill_triangle(fragment *f, const dp_fin_point *p) {
     const dp_printer *const w = f->w;
     dp_point points[3];
     dp_coverage area;
@@ -122,12 +122,12 @@ static void fill_triangle(fragment *f, const dp_fringe_point *p) {
     dp_coverage_fill(&w->tile->sampling, &area, &plane, w->tile->sampling.vectors, cover, f);
 }
 
-static void add_fringe(dp_printer *w, uint32_t polygon, uint32_t corner, dp_line line) {
+static void add_fin(dp_printer *w, uint32_t polygon, uint32_t corner, dp_line line) {
     const dp_frame *const frame = w->tile->frame;
     const dp_style *const style = dp_polygon_style(frame, polygon);
     if (!(style->lines & (1u << line))) return;
     dp_silhouette_edge edge;
-    dp_fringe_point strip[DP_FRINGE_POINTS];
+    dp_fin_point strip[DP_FIN_POINTS];
     const float width = style->line[line].width;
     if (!dp_find_silhouette_edge(frame, polygon, corner, &edge) ||
         !dp_extrude(&edge, (double)width, strip))
@@ -142,11 +142,11 @@ static void add_fringe(dp_printer *w, uint32_t polygon, uint32_t corner, dp_line
         f.level = dp_texture_level(f.texture, width);
         f.scale = dp_polar_repeats(frame, stroke, width);
     }
-    for (uint32_t i = 0; i < DP_FRINGE_TRIANGLES; i++) fill_triangle(&f, strip + i);
-    w->tile->stats.added_polygons += DP_FRINGE_TRIANGLES;
+    for (uint32_t i = 0; i < DP_FIN_TRIANGLES; i++) fill_triangle(&f, strip + i);
+    w->tile->stats.added_polygons += DP_FIN_TRIANGLES;
 }
 
-static void add_fringes(dp_printer *w, uint32_t polygon) {
+static void add_fins(dp_printer *w, uint32_t polygon) {
     const dp_polygons *const polygons = &w->tile->frame->polygons;
     if (!w->tile->frame->outlined[polygon]) return;
     const uint32_t first = dp_first_corner(polygons, polygon),
@@ -154,7 +154,7 @@ static void add_fringes(dp_printer *w, uint32_t polygon) {
     for (uint32_t c = first; c < first + n; c++) {
         if (polygons->edge_flags && !polygons->edge_flags[c]) continue;
         const int line = dp_outline_of_edge(w->tile->frame, polygon, c);
-        if (line >= 0) add_fringe(w, polygon, c, (dp_line)line);
+        if (line >= 0) add_fin(w, polygon, c, (dp_line)line);
     }
 }
 
@@ -210,27 +210,27 @@ static void put_ink(const dp_printer *w) {
             put_pixel(w, x, y);
 }
 
-void dp_tile_fringe_two_passes(dp_printer *w) {
+void dp_printed_fins_two_passes(dp_printer *w) {
     dp_tile_faces(w->tile);
     dp_tile_surface(w->tile);
     if (!begin(w)) return;
-    for (uint32_t i = 0; i < w->tile->polygon_count; i++) add_fringes(w, w->tile->polygons[i].id);
+    for (uint32_t i = 0; i < w->tile->polygon_count; i++) add_fins(w, w->tile->polygons[i].id);
     put_ink(w);
 }
 
-void dp_tile_fringe_one_pass(dp_printer *w) {
+void dp_printed_fins_one_pass(dp_printer *w) {
     if (!begin(w) || !dp_tile_see(w->tile, false)) return; /* nothing is known to be hidden */
     for (uint32_t i = 0; i < w->tile->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->tile->polygons[i];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w->tile, p))
             dp_raster_kernels_for(w->tile->frame->lanes)->raster(w->tile, p, i);
-        add_fringes(w, p->id);
+        add_fins(w, p->id);
     }
     dp_tile_surface(w->tile);
     put_ink(w);
 }
 
-float dp_fringe_reach(const dp_frame *frame) {
+float dp_fin_reach(const dp_frame *frame) {
     float widest = 0;
     for (uint32_t i = 0; i < frame->style_count; i++)
         widest = dp_maxf(widest, dp_maxf(frame->styles[i].line[DP_LINE_SILHOUETTE].width,

@@ -1,0 +1,16 @@
+/* Textured silhouettes of Hermosilla and Vázquez 2010, as printed (fins.c). */
+#ifndef DP_PRINTED_FINS_H
+#define DP_PRINTED_FINS_H
+
+#include "features/extrude.h"
+#include "printed/quads.h"
+
+/* Faces, silhouettes, surface and ink of a tile; creases and intersections are for other stages
+ * (tile.c). */
+void dp_printed_fins_one_pass(dp_printer *worker);
+void dp_printed_fins_two_passes(dp_printer *worker);
+
+/* How far beyond their polygons the widest silhouettes reach, px. */
+float dp_fin_reach(const dp_frame *frame);
+
+#endif
