@@ -15,14 +15,14 @@ void dp_finder_free(dp_finder *finder) {
     dp_one_rings_free(&finder->rings, &memory);
     dp_edge_store_free(&finder->table, &memory);
     dp_emergence_free(&finder->emergence, &memory);
-    dp_crowd_free(&finder->crowd, &memory);
+    dp_intersecting_free(&finder->intersecting, &memory);
     dp_line_store_free(&finder->lines, &memory);
     dp_tile_free(&finder->tile);
 }
 
 uint64_t dp_finder_bytes(const dp_finder *finder) {
     return dp_one_rings_bytes(&finder->rings) + dp_edge_store_bytes(&finder->table) +
-           dp_emergence_bytes(&finder->emergence) + dp_crowd_bytes(&finder->crowd) +
+           dp_emergence_bytes(&finder->emergence) + dp_intersecting_bytes(&finder->intersecting) +
            dp_line_store_bytes(&finder->lines) + dp_tile_bytes(&finder->tile);
 }
 

@@ -16,7 +16,7 @@ typedef struct dp_finder {
     dp_one_rings rings;
     dp_edge_store table;
     dp_emergence emergence;
-    dp_crowd crowd;
+    dp_intersecting intersecting;
     dp_line_store lines;
     dp_found *found; /* of all the worker's tiles in this frame */
 } dp_finder;

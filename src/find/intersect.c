@@ -2,10 +2,10 @@
  * depth.
  *
  * The paper's between-test finds them sample by sample; here it only says where to look
- * (raster/near_depth.c). Around suspects, all pairs of polygons are then tested exactly, and each
+ * (raster/near_depth.c). Around candidate pixels, all pairs of polygons are then tested exactly, and each
  * crossing segment becomes a candidate line like an edge, with the same probes.
  *
- * Data structure: the crowd, polygons around suspects, sorted by their first row of pixels, so that
+ * Data structure: the intersection candidates, polygons around candidate pixels, sorted by their first row of pixels, so that
  * what may meet one of them follows soon after it; bounding boxes and planes are compared many at
  * once (find/meet.inc). */
 #include "find/kernels.h"
@@ -15,14 +15,14 @@
 #include <string.h>
 
 /* A front and a back face come close along every outline of a closed model. They cross in sight
- * only where the back face is seen too: keeps the suspects near a pixel whose winner is a back
+ * only where the back face is seen too: keeps the candidate pixels near a pixel whose winner is a back
  * face. */
-static void keep_seen_back_faces(const dp_finder *w, uint64_t suspects[DP_TILE]) {
+static void keep_seen_back_faces(const dp_finder *w, uint64_t candidate_pixels[DP_TILE]) {
     uint64_t near[DP_TILE], backs[DP_TILE];
-    if (!dp_widen(suspects, near)) return;
+    if (!dp_widen(candidate_pixels, near)) return;
     dp_find_kernels_for(w->tile.frame->lanes)->show_backs(w, near, backs);
     dp_widen(backs, near);
-    for (int y = 0; y < DP_TILE; y++) suspects[y] &= near[y];
+    for (int y = 0; y < DP_TILE; y++) candidate_pixels[y] &= near[y];
 }
 
 /* ------- pairs ------- */
@@ -80,7 +80,7 @@ static void test_pair(dp_finder *w, uint32_t a, uint32_t b) {
                      &spine, NULL);
 }
 
-/* ------- the crowd ------- */
+/* ------- the intersection candidates ------- */
 
 /* Pixels by rows, and which rows hold any. */
 typedef struct pixels {
@@ -88,9 +88,9 @@ typedef struct pixels {
     uint32_t first, last;
 } pixels;
 
-/* Suspects and what lies around them; false when there are none. */
-static bool look_around(const uint64_t suspects[DP_TILE], pixels *out) {
-    if (!dp_widen(suspects, out->row)) return false;
+/* Candidate pixels and what lies around them; false when there are none. */
+static bool look_around(const uint64_t candidate_pixels[DP_TILE], pixels *out) {
+    if (!dp_widen(candidate_pixels, out->row)) return false;
     out->first = 0, out->last = DP_TILE - 1;
     while (!out->row[out->first]) out->first++;
     while (!out->row[out->last]) out->last--;
@@ -108,7 +108,7 @@ static inline bool comes_near(uint32_t box, const pixels *near) {
     return false;
 }
 
-/* Suspects' surroundings, for front faces and for back faces. */
+/* Candidate pixels' surroundings, for front faces and for back faces. */
 typedef struct surroundings {
     pixels front, back;
     bool mixed; /* back faces have any */
@@ -148,36 +148,37 @@ static void find_cells(const surroundings *near, dp_cell_bits cells) {
                 cells[s][k][i] = cells[s - 1][k][i] | cells[0][k][i + s * DP_CELLS];
 }
 
-/* Lists polygons that come near suspects in `polygon`, and counts them by the first row of their
+/* Lists polygons that come near candidate pixels in `polygon`, and counts them by the first row of their
  * boxes. */
-static bool list_crowd(dp_finder *w, const surroundings *near, uint32_t *polygon,
-                       uint32_t rows[DP_TILE + 1]) {
-    dp_crowd *const crowd = &w->crowd;
+static bool list_intersecting(dp_finder *w, const surroundings *near, uint32_t *polygon,
+                              uint32_t rows[DP_TILE + 1]) {
+    dp_intersecting *const intersecting = &w->intersecting;
     const uint32_t *const boxes = dp_seen_words(&w->tile, DP_SEEN_BOX);
     const uint32_t *const flags = dp_seen_words(&w->tile, DP_SEEN_FLAGS);
     dp_cell_bits cells;
     find_cells(near, cells);
     const uint32_t count =
         dp_find_kernels_for(w->tile.frame->lanes)->come_near(w, &cells[0][0][0], polygon);
-    crowd->count = 0;
+    intersecting->count = 0;
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = polygon[k]; /* the crowd goes to where these have been read */
+        const uint32_t i =
+            polygon[k]; /* the intersection candidates goes to where these have been read */
         if (!near->mixed && !(flags[i] & DP_POLYGON_FRONT)) continue;
         if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
-        polygon[crowd->count++] = w->tile.seen[i];
+        polygon[intersecting->count++] = w->tile.seen[i];
         rows[(boxes[i] >> 8 & 255) + 1]++;
     }
-    const size_t room = (size_t)crowd->count + DP_CROWD_ROOM;
-    return DP_TILE_RESERVE(&w->tile, w, crowd.polygon, crowd.polygon_cap, room) &&
-           DP_TILE_RESERVE(&w->tile, w, crowd.met, crowd.met_cap, room) &&
-           DP_TILE_RESERVE(&w->tile, w, crowd.members, crowd.members_cap,
-                           DP_CROWD_MEMBERS * room) &&
-           DP_TILE_RESERVE(&w->tile, w, crowd.keys, crowd.keys_cap, 3 * room);
+    const size_t room = (size_t)intersecting->count + DP_INTERSECTING_ROOM;
+    return DP_TILE_RESERVE(&w->tile, w, intersecting.polygon, intersecting.polygon_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, intersecting.met, intersecting.met_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, intersecting.members, intersecting.members_cap,
+                           DP_INTERSECTING_MEMBERS * room) &&
+           DP_TILE_RESERVE(&w->tile, w, intersecting.keys, intersecting.keys_cap, 3 * room);
 }
 
 static void put_member(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
-    const size_t stride = w->crowd.stride;
-    float *const out = w->crowd.members + at;
+    const size_t stride = w->intersecting.stride;
+    float *const out = w->intersecting.members + at;
     const dp_vertex *const v = w->tile.points + p->point;
     const bool told = p->points == 3 && !(p->flags & (DP_POLYGON_CLIPPED | DP_POLYGON_EDGE_ON));
     dp_f4 least = {v->x, v->y, v->d, 0}, most = least;
@@ -185,35 +186,37 @@ static void put_member(const dp_finder *w, const dp_tile_polygon *p, uint32_t at
         const dp_f4 at_i = {v[i].x, v[i].y, v[i].d, 0};
         least = dp_select(at_i < least, at_i, least), most = dp_select(at_i > most, at_i, most);
         for (uint32_t k = 0; k < 3 && told; k++)
-            out[(DP_CROWD_CORNERS + 3 * i + k) * stride] = at_i[k];
+            out[(DP_INTERSECTING_CORNERS + 3 * i + k) * stride] = at_i[k];
     }
     for (uint32_t k = 0; k < 3; k++)
-        out[(DP_CROWD_LEAST + k) * stride] = least[k], out[(DP_CROWD_MOST + k) * stride] = most[k];
-    out[DP_CROWD_PLANE * stride] = told ? p->d0 : NAN;
-    out[(DP_CROWD_PLANE + 1) * stride] = p->dx, out[(DP_CROWD_PLANE + 2) * stride] = p->dy;
+        out[(DP_INTERSECTING_LEAST + k) * stride] = least[k],
+                                          out[(DP_INTERSECTING_MOST + k) * stride] = most[k];
+    out[DP_INTERSECTING_PLANE * stride] = told ? p->d0 : NAN;
+    out[(DP_INTERSECTING_PLANE + 1) * stride] = p->dx,
+                                      out[(DP_INTERSECTING_PLANE + 2) * stride] = p->dy;
 }
 
 /* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
  * their own, which match as seldom; they are told by `dp_shared_corners`. */
 static void put_keys(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
-    const dp_crowd *const crowd = &w->crowd;
+    const dp_intersecting *const intersecting = &w->intersecting;
     const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
     for (uint32_t k = 0; k < 3; k++)
-        crowd->keys[k * (size_t)crowd->stride + at] =
+        intersecting->keys[k * (size_t)intersecting->stride + at] =
             known ? w->tile.points[p->point + k].key : 3 * at + k;
 }
 
-/* Sorts the crowd by the first rows of their boxes (counting sort); `rows` become where each row
+/* Sorts the intersection candidates by the first rows of their boxes (counting sort); `rows` become where each row
  * starts. */
-static void sort_crowd(dp_finder *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
-    dp_crowd *const crowd = &w->crowd;
+static void sort_intersecting(dp_finder *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
+    dp_intersecting *const intersecting = &w->intersecting;
     uint32_t next[DP_TILE];
-    crowd->stride = crowd->count + DP_CROWD_ROOM;
+    intersecting->stride = intersecting->count + DP_INTERSECTING_ROOM;
     for (int y = 0; y < DP_TILE; y++) next[y] = rows[y], rows[y + 1] += rows[y];
-    for (uint32_t i = 0; i < crowd->count; i++) {
+    for (uint32_t i = 0; i < intersecting->count; i++) {
         const dp_tile_polygon *const p = &w->tile.polygons[polygon[i]];
         const uint32_t at = next[p->y0]++;
-        crowd->polygon[at] = polygon[i];
+        intersecting->polygon[at] = polygon[i];
         put_member(w, p, at);
         put_keys(w, p, at);
     }
@@ -222,24 +225,25 @@ static void sort_crowd(dp_finder *w, const uint32_t *polygon, uint32_t rows[DP_T
 /* Each pair is tested once, when its upper polygon's turn has come, or the first one's of a row. */
 void dp_find_intersections(dp_finder *w) {
     surroundings near;
-    dp_tile_watch(&w->tile);
-    keep_seen_back_faces(w, w->tile.suspects[1]);
-    near.mixed = look_around(w->tile.suspects[1], &near.back);
-    for (int y = 0; y < DP_TILE; y++) w->tile.suspects[0][y] |= w->tile.suspects[1][y];
-    dp_drop_lone(w->tile.suspects[0]);
-    if (!look_around(w->tile.suspects[0], &near.front)) return;
+    dp_tile_test_near_depth(&w->tile);
+    keep_seen_back_faces(w, w->tile.candidate_pixels[1]);
+    near.mixed = look_around(w->tile.candidate_pixels[1], &near.back);
+    for (int y = 0; y < DP_TILE; y++)
+        w->tile.candidate_pixels[0][y] |= w->tile.candidate_pixels[1][y];
+    dp_drop_lone(w->tile.candidate_pixels[0]);
+    if (!look_around(w->tile.candidate_pixels[0], &near.front)) return;
     uint32_t rows[DP_TILE + 1] = {0};
-    if (!DP_TILE_RESERVE(&w->tile, w, crowd.listed, crowd.listed_cap,
-                         (size_t)w->tile.seen_count + DP_CROWD_ROOM) ||
-        !list_crowd(w, &near, w->crowd.listed, rows))
+    if (!DP_TILE_RESERVE(&w->tile, w, intersecting.listed, intersecting.listed_cap,
+                         (size_t)w->tile.seen_count + DP_INTERSECTING_ROOM) ||
+        !list_intersecting(w, &near, w->intersecting.listed, rows))
         return;
-    sort_crowd(w, w->crowd.listed, rows);
-    for (uint32_t i = 0; i < w->crowd.count && !w->tile.failed; i++) {
-        const uint32_t a = w->crowd.polygon[i];
+    sort_intersecting(w, w->intersecting.listed, rows);
+    for (uint32_t i = 0; i < w->intersecting.count && !w->tile.failed; i++) {
+        const uint32_t a = w->intersecting.polygon[i];
         const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)
-                                 ->meet(&w->crowd, i, rows[w->tile.polygons[a].y1 + 1]);
+                                 ->meet(&w->intersecting, i, rows[w->tile.polygons[a].y1 + 1]);
         for (uint32_t k = 0; k < met; k++) {
-            const uint32_t b = w->crowd.polygon[w->crowd.met[k]];
+            const uint32_t b = w->intersecting.polygon[w->intersecting.met[k]];
             if (meet_near(&near, &w->tile.polygons[a], &w->tile.polygons[b]))
                 test_pair(w, a < b ? a : b, a < b ? b : a);
         }
@@ -249,12 +253,14 @@ void dp_find_intersections(dp_finder *w) {
 /* ------- memory ------- */
 
 static const dp_array arrays[] = {
-    DP_ARRAY(dp_crowd, polygon, polygon_cap), DP_ARRAY(dp_crowd, members, members_cap),
-    DP_ARRAY(dp_crowd, keys, keys_cap), DP_ARRAY(dp_crowd, met, met_cap),
-    DP_ARRAY(dp_crowd, listed, listed_cap)};
+    DP_ARRAY(dp_intersecting, polygon, polygon_cap),
+    DP_ARRAY(dp_intersecting, members, members_cap), DP_ARRAY(dp_intersecting, keys, keys_cap),
+    DP_ARRAY(dp_intersecting, met, met_cap), DP_ARRAY(dp_intersecting, listed, listed_cap)};
 
-void dp_crowd_free(dp_crowd *store, const dp_allocator *memory) {
+void dp_intersecting_free(dp_intersecting *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
 }
 
-uint64_t dp_crowd_bytes(const dp_crowd *store) { return dp_arrays_bytes(store, DP_ARRAYS(arrays)); }
+uint64_t dp_intersecting_bytes(const dp_intersecting *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
+}

@@ -5,7 +5,7 @@
 #include "core/view.h"
 #include "base/kernels.h"
 
-struct dp_crowd;
+struct dp_intersecting;
 struct dp_fold_batch;
 struct dp_probes;
 struct dp_spine;
@@ -29,12 +29,12 @@ typedef struct dp_find_kernels {
                    uint32_t k1, const struct dp_probes *out, uint32_t at);
     /* Finds which pixels show a back face, of those asked for and some others (meet.inc). */
     void (*show_backs)(const struct dp_finder *worker, const uint64_t *asked, uint64_t *out);
-    /* Lists the numbers of seen polygons that may come near suspects, in `list`, with room for a
+    /* Lists the numbers of seen polygons that may come near candidate pixels, in `list`, with room for a
      * vector more; returns how many (meet.inc). */
     uint32_t (*come_near)(const struct dp_finder *worker, const uint32_t *cells, uint32_t *list);
-    /* Lists in crowd->met those of the crowd in (self, end) whose bounds meet its, but for
+    /* Lists in intersection candidates->met those of the intersection candidates in (self, end) whose bounds meet its, but for
      * neighbours and triangles on one side of each other; returns how many (meet.inc). */
-    uint32_t (*meet)(const struct dp_crowd *crowd, uint32_t self, uint32_t end);
+    uint32_t (*meet)(const struct dp_intersecting *intersecting, uint32_t self, uint32_t end);
     /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_finder *worker);
 } dp_find_kernels;

@@ -114,5 +114,5 @@ void dp_tile_faces(dp_tile *w) {
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
             dp_raster_kernels_for(w->frame->lanes)->raster(w, p, w->seen[i]);
     }
-    dp_tile_watch(w);
+    dp_tile_test_near_depth(w);
 }

@@ -2,7 +2,7 @@
  *
  * The paper's between-test, used as a first look: where a face is rasterized and falls close to
  * what a sample already holds, that is kept, and later the two planes are compared: if they cross
- * within dp_watch_px of the sample, its pixel is a suspect. As the two frontmost surfaces meet at
+ * within dp_near_depth_px of the sample, its pixel is a candidate pixel. As the two frontmost surfaces meet at
  * every visible sample of a crossing, whichever comes first, one pass finds all of them. */
 #include "raster/kernels.h"
 #include "raster/tile.h"
@@ -22,33 +22,33 @@ uint32_t dp_shared_corners(const dp_frame *frame, uint32_t a, uint32_t b) {
     return shared;
 }
 
-static void suspect(dp_tile *w, uint32_t lane, bool both_front) {
+static void note_candidate_pixel(dp_tile *w, uint32_t lane, bool both_front) {
     const uint32_t pixel = lane / w->sampling.samples;
-    w->suspects[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
+    w->candidate_pixels[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
 }
 
 /* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
  * steeply. */
-static void watch_unknown(dp_tile *w, uint32_t i) {
+static void test_unknown(dp_tile *w, uint32_t i) {
     const dp_close_samples *const close = &w->close;
     const uint32_t lane = close->lane[i];
     const bool away = w->away[lane / 64] >> lane % 64 & 1,
                front = w->polygons[close->polygon[i]].flags & DP_POLYGON_FRONT;
     if (away && !front) return;
-    if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_WATCH_GAP))) return;
-    suspect(w, lane, front && !away);
+    if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_NEAR_DEPTH_GAP))) return;
+    note_candidate_pixel(w, lane, front && !away);
 }
 
-void dp_tile_watch(dp_tile *w) {
+void dp_tile_test_near_depth(dp_tile *w) {
     dp_close_samples *const close = &w->close;
     for (uint32_t i = 0; w->away && i < close->count; i++)
-        if (close->other[i] == UINT32_MAX) watch_unknown(w, i);
+        if (close->other[i] == UINT32_MAX) test_unknown(w, i);
     dp_raster_kernels_for(w->frame->lanes)->cross(w);
     for (uint32_t i = 0; i < close->count; i++) {
         const dp_tile_polygon *const p = &w->polygons[close->polygon[i]],
                                      *const q = &w->polygons[close->other[i]];
         if (!w->frame->polygons.firsts || !dp_shared_corners(w->frame, p->id, q->id))
-            suspect(w, close->lane[i], p->flags & q->flags & DP_POLYGON_FRONT);
+            note_candidate_pixel(w, close->lane[i], p->flags & q->flags & DP_POLYGON_FRONT);
     }
     close->count = 0;
 }
@@ -67,15 +67,15 @@ bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     return any;
 }
 
-/* Drops suspects that stand alone: a crossing in sight leads from pixel to pixel, while two folds
+/* Drops candidate pixels that stand alone: a crossing in sight leads from pixel to pixel, while two folds
  * of fine meshes come close here and there. */
-void dp_drop_lone(uint64_t suspects[DP_TILE]) {
+void dp_drop_lone(uint64_t candidate_pixels[DP_TILE]) {
     uint64_t kept[DP_TILE];
     for (int y = 0; y < DP_TILE; y++) {
-        const uint64_t above = y > 0 ? suspects[y - 1] : 0,
-                       below = y + 1 < DP_TILE ? suspects[y + 1] : 0;
-        const uint64_t rows = above | below, all = rows | suspects[y];
-        kept[y] = suspects[y] & (rows | all << 1 | all >> 1);
+        const uint64_t above = y > 0 ? candidate_pixels[y - 1] : 0,
+                       below = y + 1 < DP_TILE ? candidate_pixels[y + 1] : 0;
+        const uint64_t rows = above | below, all = rows | candidate_pixels[y];
+        kept[y] = candidate_pixels[y] & (rows | all << 1 | all >> 1);
     }
-    memcpy(suspects, kept, sizeof kept);
+    memcpy(candidate_pixels, kept, sizeof kept);
 }

@@ -9,7 +9,8 @@ bool dp_tile_init(dp_tile *tile, const dp_frame *frame) {
     tile->failed = false;
     tile->stats = (dp_stats){0};
     tile->away = NULL;
-    tile->watching = frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
+    tile->tests_near_depth =
+        frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
     tile->finds_edges = frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES &&
                         !frame->styles[0].edge_table_off &&
                         frame->styles[0].edges != DP_EDGES_ADJACENCY;
@@ -61,7 +62,7 @@ void dp_tile_open(dp_tile *w, uint32_t index) {
     w->tile_y = index / w->frame->tiles_x * DP_TILE;
     w->depth = w->frame->depth + (size_t)index * w->frame->tile_samples;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
-    memset(w->suspects, 0, sizeof w->suspects);
+    memset(w->candidate_pixels, 0, sizeof w->candidate_pixels);
     if (w->finds_edges) find_plane_normal(w);
     w->close.count = 0;
 }

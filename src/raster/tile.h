@@ -96,11 +96,11 @@ typedef struct dp_tile {
     dp_allocator memory;
     bool failed; /* out of memory: the tile is abandoned */
 
-    bool watching;        /* for intersections, while faces are drawn */
-    const uint64_t *away; /* a bit per sample that no polygon of this tile has won and that holds
+    bool tests_near_depth; /* for intersections, while faces are drawn */
+    const uint64_t *away;  /* a bit per sample that no polygon of this tile has won and that holds
                              something all the same: does that face away? NULL: there are no such
                              samples (src/stream/) */
-    dp_block block;       /* of samples that the kernels draw at once */
+    dp_block block;        /* of samples that the kernels draw at once */
 
     uint32_t index;          /* of the tile in the frame */
     uint32_t tile_x, tile_y; /* px: its corner */
@@ -129,10 +129,11 @@ typedef struct dp_tile {
     uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count;
 
-    dp_close_samples close;        /* to be looked at */
-    uint64_t suspects[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back
+    dp_close_samples close; /* to be looked at */
+    uint64_t
+        candidate_pixels[2][DP_TILE]; /* pixels where two front faces may cross; a front and a back
                                       face */
-    dp_outline_scratch scratch;    /* for one polygon */
+    dp_outline_scratch scratch;       /* for one polygon */
     dp_stats stats;
 } dp_tile;
 
@@ -197,18 +198,18 @@ bool dp_tile_exact_normals(dp_tile *tile);
  * or, when `backs`, a back face that is not hidden (assemble.c). */
 void dp_tile_reassemble(dp_tile *tile, uint32_t index, bool backs);
 
-/* Makes suspects of the pixels of close samples where the planes cross, and forgets the samples
+/* Makes candidate pixels of the pixels of close samples where the planes cross, and forgets the samples
  * (near_depth.c). Before faces are drawn in a box as narrow as a vector, or in one row of others,
  * no more than DP_CLOSE_FULL are kept. */
-void dp_tile_watch(dp_tile *tile);
+void dp_tile_test_near_depth(dp_tile *tile);
 
 /* How many corner positions two polygons share. Their keys are hashes: a false match costs one
  * crossing in four thousand million (near_depth.c). */
 uint32_t dp_shared_corners(const dp_frame *frame, uint32_t a, uint32_t b);
 
-/* Of suspects by rows of pixels (near_depth.c): drops those that stand alone; adds the neighbours,
+/* Of candidate pixels by rows of pixels (near_depth.c): drops those that stand alone; adds the neighbours,
  * false when there are none. */
-void dp_drop_lone(uint64_t suspects[DP_TILE]);
+void dp_drop_lone(uint64_t candidate_pixels[DP_TILE]);
 bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]);
 
 /* The pixels of row y that a polygon's box covers. */
@@ -238,18 +239,18 @@ static inline float dp_depth_steps(const dp_frame *frame, float d, float px) {
 
 /* A crossing is looked for this far around a sample, px: beyond the next sample on the other side
  * … */
-static inline float dp_watch_px(const dp_tile *w) {
+static inline float dp_near_depth_px(const dp_tile *w) {
     return w->sampling.samples == 1 ? 1.5f : 0.75f;
 }
 
 /* … or where the gap in depth is less than this many pixel sizes: the other polygon may be the
  * steep one. */
-#define DP_WATCH_GAP 8
+#define DP_NEAR_DEPTH_GAP 8
 
 /* A sample this close in depth to a plane may be of a polygon that crosses it. */
-static inline float dp_watch_reach(const dp_tile *w, float dx, float dy, float nearest) {
-    return dp_watch_px(w) * (fabsf(dx) + fabsf(dy)) +
-           dp_depth_steps(w->frame, nearest, DP_WATCH_GAP);
+static inline float dp_near_depth_reach(const dp_tile *w, float dx, float dy, float nearest) {
+    return dp_near_depth_px(w) * (fabsf(dx) + fabsf(dy)) +
+           dp_depth_steps(w->frame, nearest, DP_NEAR_DEPTH_GAP);
 }
 
 /* The depth of a polygon's plane at a point of the tile. */

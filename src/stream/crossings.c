@@ -4,8 +4,8 @@
  * a tile (intersect.c); what a sample holds from earlier lists counts too, by the way it faces. In
  * the second reading every triangle that touches such a pixel, or one beside it, and is not hidden
  * joins the crowd. In the end the crowd is a mesh: in each tile its faces are drawn by themselves,
- * into samples that start empty, so that suspects, pairs and crossings are found there as they
- * would be among all triangles. Where there are suspects the crowd is all there is to be seen, so
+ * into samples that start empty, so that candidate pixels, pairs and crossings are found there as they
+ * would be among all triangles. Where there are candidate pixels the crowd is all there is to be seen, so
  * it hides what is hidden; elsewhere along a crossing the picture's samples do.
  *
  * In one pass nobody comes by again: the crowd are the pairs found within each list. */
@@ -49,10 +49,11 @@ static void note_pairs(const dp_stream_draw *s, const dp_finder *w, dp_stream_wo
     }
 }
 
-void dp_stream_note_suspects(dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
-    uint64_t(*const suspects)[DP_TILE] = s->suspects[w->tile.index];
+void dp_stream_note_candidate_pixels(dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
+    uint64_t(*const candidate_pixels)[DP_TILE] = s->candidate_pixels[w->tile.index];
     for (int k = 0; k < 2; k++)
-        for (uint32_t y = 0; y < DP_TILE; y++) suspects[k][y] |= w->tile.suspects[k][y];
+        for (uint32_t y = 0; y < DP_TILE; y++)
+            candidate_pixels[k][y] |= w->tile.candidate_pixels[k][y];
     note_facing(w, s->away + (size_t)w->tile.index * w->tile.frame->tile_samples / 64);
     if (s->read_again) return;
     dp_find_intersections(w);
@@ -76,14 +77,15 @@ static void find_away(const dp_stream_draw *s, uint32_t tile, uint64_t rows[DP_T
 
 static void choose_crowded(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    uint64_t(*const suspects)[DP_TILE] = s->suspects[tile];
+    uint64_t(*const candidate_pixels)[DP_TILE] = s->candidate_pixels[tile];
     uint64_t away[DP_TILE], near[DP_TILE];
     (void)worker;
     find_away(s, tile, away);
     dp_widen(away, near);
-    for (uint32_t y = 0; y < DP_TILE; y++) suspects[0][y] |= suspects[1][y] & near[y];
-    dp_drop_lone(suspects[0]);
-    dp_widen(suspects[0], s->crowded + (size_t)tile * DP_TILE);
+    for (uint32_t y = 0; y < DP_TILE; y++)
+        candidate_pixels[0][y] |= candidate_pixels[1][y] & near[y];
+    dp_drop_lone(candidate_pixels[0]);
+    dp_widen(candidate_pixels[0], s->crowded + (size_t)tile * DP_TILE);
 }
 
 static int by_number(const void *left, const void *right) {
@@ -148,7 +150,7 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_assemble(&w->tile);
     dp_tile_faces(&w->tile);
     for (uint32_t y = 0; y < DP_TILE; y++)
-        w->tile.suspects[0][y] &= crowded[y], w->tile.suspects[1][y] &= crowded[y];
+        w->tile.candidate_pixels[0][y] &= crowded[y], w->tile.candidate_pixels[1][y] &= crowded[y];
     dp_find_intersections(w);
     if (!w->lines.candidate_count) return;
     dp_stream_hide_by_samples(w);

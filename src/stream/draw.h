@@ -82,10 +82,10 @@ struct dp_stream_draw {
     dp_kept_triangle *crowd; /* triangles where faces may cross; numbers ascend */
     size_t crowd_cap, crowd_count, crowd_limit;
     uint64_t *away; /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
-    uint64_t (*suspects)[2][DP_TILE]; /* by tile, as in dp_finder */
-    uint64_t *crowded;                /* dp_chunk_view */
-    dp_fan *fans;                     /* edges that are thought to be lines */
-    uint32_t *fan_slots;              /* [fan_slot_count] 1 + fan, 0: free */
+    uint64_t (*candidate_pixels)[2][DP_TILE]; /* by tile, as in dp_finder */
+    uint64_t *crowded;                        /* dp_chunk_view */
+    dp_fan *fans;                             /* edges that are thought to be lines */
+    uint32_t *fan_slots;                      /* [fan_slot_count] 1 + fan, 0: free */
     uint32_t fan_count, fan_slot_count;
     uint64_t
         *fan_filter; /* [fan_filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
@@ -129,7 +129,8 @@ bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *tria
 
 /* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while
  * the source is read again; at the end. */
-void dp_stream_note_suspects(dp_stream_draw *stream, dp_finder *worker, dp_stream_worker *own);
+void dp_stream_note_candidate_pixels(dp_stream_draw *stream, dp_finder *worker,
+                                     dp_stream_worker *own);
 bool dp_stream_choose_crowded(dp_stream_draw *stream);
 bool dp_stream_find_crossings(dp_stream_draw *stream);
 

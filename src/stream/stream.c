@@ -56,11 +56,11 @@ void dp_stream_free(dp_stream_draw *s) {
     for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++)
         dp_free(memory, s->lines[i].candidates);
     dp_kept_free(&s->kept);
-    void *const blocks[] = {s->workers,      s->rests,      s->corners,         s->numbers,
-                            s->positions,    s->edge_flags, s->polygon_numbers, s->source_polygons,
-                            s->crowd,        s->away,       s->suspects,        s->crowded,
-                            s->crowd_counts, s->fans,       s->fan_slots,       s->fan_filter,
-                            s->farthest,     s->wanted,     s->view.maps.words, s->lines};
+    void *const blocks[] = {s->workers,      s->rests,      s->corners,          s->numbers,
+                            s->positions,    s->edge_flags, s->polygon_numbers,  s->source_polygons,
+                            s->crowd,        s->away,       s->candidate_pixels, s->crowded,
+                            s->crowd_counts, s->fans,       s->fan_slots,        s->fan_filter,
+                            s->farthest,     s->wanted,     s->view.maps.words,  s->lines};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
     dp_free(memory, s);
 }
@@ -99,10 +99,10 @@ static bool make_picture(dp_stream_draw *s) {
     s->lines = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->lines));
     if (!s->farthest || !s->wanted || !s->lines) return false;
     s->crowded = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->crowded));
-    s->suspects = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->suspects));
+    s->candidate_pixels = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->candidate_pixels));
     s->away = dp_alloc_zeroed(s->memory, tiles * f->tile_samples / 8);
     s->crowd_counts = dp_alloc_zeroed(s->memory, tiles * DP_TILE * DP_TILE);
-    if (!s->crowded || !s->suspects || !s->away || !s->crowd_counts) return false;
+    if (!s->crowded || !s->candidate_pixels || !s->away || !s->crowd_counts) return false;
     for (size_t i = 0; i < blocks; i++) s->farthest[i] = DP_DEPTH_EMPTY;
     for (size_t i = 0; i < tiles * f->tile_samples; i++) f->depth[i] = DP_DEPTH_EMPTY;
     if (f->target.normal)

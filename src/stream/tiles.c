@@ -69,7 +69,7 @@ static void draw_faces(void *arg, uint32_t tile, uint32_t worker) {
     if (!dp_bins_tile_count(&f->polygon_bins, tile)) return;
     w->tile.finds_edges = false;
     dp_finder_open(w, tile);
-    if (w->tile.watching) w->tile.away = s->away + (size_t)tile * f->tile_samples / 64;
+    if (w->tile.tests_near_depth) w->tile.away = s->away + (size_t)tile * f->tile_samples / 64;
     dp_tile_assemble(&w->tile);
     dp_tile_faces(&w->tile);
     w->tile.away = NULL;
@@ -77,7 +77,7 @@ static void draw_faces(void *arg, uint32_t tile, uint32_t worker) {
         memcpy(s->farthest + ((size_t)tile * DP_BLOCKS + y) * DP_BLOCKS,
                &w->tile.farthest[0][0][y + 1][1], DP_BLOCKS * sizeof *s->farthest);
     if (f->target.normal) put_normals(w);
-    if (w->tile.watching) dp_stream_note_suspects(s, w, &s->workers[worker]);
+    if (w->tile.tests_near_depth) dp_stream_note_candidate_pixels(s, w, &s->workers[worker]);
 }
 
 bool dp_stream_draw_faces(dp_stream_draw *s) {
@@ -295,14 +295,14 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_worker *const own = &s->workers[worker];
     dp_tile_lines *const lines = &s->lines[tile];
     if (!lines->candidate_count || !dp_bins_tile_count(&s->frame->polygon_bins, tile)) return;
-    const bool watching = w->tile.watching;
+    const bool tests_near_depth = w->tile.tests_near_depth;
     w->tile.finds_edges = false;
     dp_finder_open(w, tile);
     swap_lines(w, lines);
-    w->tile.watching = false; /* the faces are drawn again, which changes nothing */
+    w->tile.tests_near_depth = false; /* the faces are drawn again, which changes nothing */
     dp_tile_assemble(&w->tile);
     dp_tile_faces(&w->tile);
-    w->tile.watching = watching;
+    w->tile.tests_near_depth = tests_near_depth;
     if (find_owners(s, w, own))
         dp_hide_points(w);
     else

@@ -167,7 +167,7 @@ typedef struct watch {
     double last;
 } watch;
 
-static int watching(void *user, double fraction) {
+static int tests_near_depth(void *user, double fraction) {
     watch *const self = user;
     self->last = fraction;
     return ++self->calls == self->stop_at;
@@ -196,7 +196,7 @@ static void progress_rises_and_stops(void **state) {
     for (int stl = 0; stl < 2; stl++) {
         const char *const path = write_file("", text, big_model(text, stl));
         watch seen = {.last = -2};
-        dp_file_options options = {.progress = watching, .user = &seen};
+        dp_file_options options = {.progress = tests_near_depth, .user = &seen};
         dp_extent extent;
         dp_diag diag;
         dp_source *source = NULL;

@@ -172,46 +172,50 @@ static void parts_agree(void **state) {
     }
 }
 
-enum { CROWD = 150, CROWD_STRIDE = CROWD + DP_CROWD_ROOM };
+enum { CROWD = 150, CROWD_STRIDE = CROWD + DP_INTERSECTING_ROOM };
 
-/* Which corners of crowd member a lie where one of b's does, a bit each; in how many pairs. */
-static uint32_t shared_corners(const dp_crowd *crowd, uint32_t a, uint32_t b, uint32_t *pairs) {
+/* Which corners of intersection candidates member a lie where one of b's does, a bit each; in how many pairs. */
+static uint32_t shared_corners(const dp_intersecting *intersecting, uint32_t a, uint32_t b,
+                               uint32_t *pairs) {
     uint32_t shared = 0;
     *pairs = 0;
     for (uint32_t i = 0; i < 9; i++) {
-        const bool same =
-            crowd->keys[i / 3 * CROWD_STRIDE + a] == crowd->keys[i % 3 * CROWD_STRIDE + b];
+        const bool same = intersecting->keys[i / 3 * CROWD_STRIDE + a] ==
+                          intersecting->keys[i % 3 * CROWD_STRIDE + b];
         *pairs += same;
         shared |= (uint32_t)same << i / 3;
     }
     return shared;
 }
 
-static float member(const dp_crowd *crowd, uint32_t which, uint32_t of) {
-    return crowd->members[which * CROWD_STRIDE + of];
+static float member(const dp_intersecting *intersecting, uint32_t which, uint32_t of) {
+    return intersecting->members[which * CROWD_STRIDE + of];
 }
 
 /* All corners of a that are not b's as well lie on one side of b's plane. */
-static bool lies_beside(const dp_crowd *crowd, uint32_t a, uint32_t b) {
+static bool lies_beside(const dp_intersecting *intersecting, uint32_t a, uint32_t b) {
     uint32_t pairs, nearer = 0, further = 0;
-    const uint32_t shared = shared_corners(crowd, a, b, &pairs);
+    const uint32_t shared = shared_corners(intersecting, a, b, &pairs);
     for (uint32_t c = 0; c < 3; c++) {
-        const uint32_t at = DP_CROWD_CORNERS + 3 * c;
-        const float plane = member(crowd, DP_CROWD_PLANE, b) +
-                            member(crowd, DP_CROWD_PLANE + 1, b) * member(crowd, at, a) +
-                            member(crowd, DP_CROWD_PLANE + 2, b) * member(crowd, at + 1, a);
-        const float gap = member(crowd, at + 2, a) - plane;
+        const uint32_t at = DP_INTERSECTING_CORNERS + 3 * c;
+        const float plane =
+            member(intersecting, DP_INTERSECTING_PLANE, b) +
+            member(intersecting, DP_INTERSECTING_PLANE + 1, b) * member(intersecting, at, a) +
+            member(intersecting, DP_INTERSECTING_PLANE + 2, b) * member(intersecting, at + 1, a);
+        const float gap = member(intersecting, at + 2, a) - plane;
         if (shared >> c & 1) continue;
         nearer += gap >= 0, further += gap <= 0;
     }
     return !nearer || !further;
 }
 
-static bool bounds_meet(const dp_crowd *crowd, uint32_t a, uint32_t b) {
+static bool bounds_meet(const dp_intersecting *intersecting, uint32_t a, uint32_t b) {
     bool apart = false;
     for (uint32_t k = 0; k < 3; k++)
-        apart |= member(crowd, DP_CROWD_MOST + k, a) < member(crowd, DP_CROWD_LEAST + k, b) ||
-                 member(crowd, DP_CROWD_MOST + k, b) < member(crowd, DP_CROWD_LEAST + k, a);
+        apart |= member(intersecting, DP_INTERSECTING_MOST + k, a) <
+                     member(intersecting, DP_INTERSECTING_LEAST + k, b) ||
+                 member(intersecting, DP_INTERSECTING_MOST + k, b) <
+                     member(intersecting, DP_INTERSECTING_LEAST + k, a);
     return !apart;
 }
 
@@ -226,25 +230,25 @@ static void fill_crowd(float *members, uint32_t *keys, uint32_t *seed) {
             float least = 100, most = 0;
             for (uint32_t c = 0; c < 3; c++) {
                 const float v = at[k] + (float)(next_random(seed) % 10);
-                of[(DP_CROWD_CORNERS + 3 * c + k) * CROWD_STRIDE] = v;
+                of[(DP_INTERSECTING_CORNERS + 3 * c + k) * CROWD_STRIDE] = v;
                 least = dp_minf(least, v), most = dp_maxf(most, v);
             }
-            of[(DP_CROWD_LEAST + k) * CROWD_STRIDE] = least;
-            of[(DP_CROWD_MOST + k) * CROWD_STRIDE] = most;
-            of[(DP_CROWD_PLANE + k) * CROWD_STRIDE] = (float)(next_random(seed) % 3);
+            of[(DP_INTERSECTING_LEAST + k) * CROWD_STRIDE] = least;
+            of[(DP_INTERSECTING_MOST + k) * CROWD_STRIDE] = most;
+            of[(DP_INTERSECTING_PLANE + k) * CROWD_STRIDE] = (float)(next_random(seed) % 3);
         }
-        of[DP_CROWD_PLANE * CROWD_STRIDE] = i % 5 ? at[2] - at[0] - at[1] : NAN;
+        of[DP_INTERSECTING_PLANE * CROWD_STRIDE] = i % 5 ? at[2] - at[0] - at[1] : NAN;
     }
 }
 
 /* Who meets whom, against all pairs one by one. */
 static void meetings_agree(void **state) {
-    static float members[DP_CROWD_MEMBERS * CROWD_STRIDE];
+    static float members[DP_INTERSECTING_MEMBERS * CROWD_STRIDE];
     static uint32_t met[CROWD_STRIDE], keys[3 * CROWD_STRIDE];
     (void)state;
     uint32_t seed = 9, neighbours = 0, beside = 0, crossing = 0;
     fill_crowd(members, keys, &seed);
-    const dp_crowd crowd = {
+    const dp_intersecting intersecting = {
         .members = members, .keys = keys, .met = met, .count = CROWD, .stride = CROWD_STRIDE};
     dp_width list[DP_WIDTHS_MOST];
     const uint32_t kinds = dp_widths_list(list);
@@ -252,15 +256,17 @@ static void meetings_agree(void **state) {
         const double start = now_ns();
         for (uint32_t self = 0; self < CROWD; self++) {
             const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self),
-                           count = dp_find_kernels_for(list[k].lanes)->meet(&crowd, self, end);
+                           count =
+                               dp_find_kernels_for(list[k].lanes)->meet(&intersecting, self, end);
             uint32_t expected = 0, pairs;
             for (uint32_t i = self + 1; i < end; i++) {
-                if (!bounds_meet(&crowd, self, i)) continue;
-                shared_corners(&crowd, self, i, &pairs);
+                if (!bounds_meet(&intersecting, self, i)) continue;
+                shared_corners(&intersecting, self, i, &pairs);
                 if (pairs > 1) {
                     neighbours++;
                 } else if (self % 5 && i % 5 &&
-                           (lies_beside(&crowd, self, i) || lies_beside(&crowd, i, self))) {
+                           (lies_beside(&intersecting, self, i) ||
+                            lies_beside(&intersecting, i, self))) {
                     beside++;
                 } else {
                     assert_int_equal(met[expected++], i);
@@ -304,7 +310,7 @@ static bool is_crossed(const dp_finder *w, uint32_t a, uint32_t b, float gap) {
         if (w->tile.keys[i / 3 * CLOSE_POLYGONS + a] == w->tile.keys[i % 3 * CLOSE_POLYGONS + b])
             return false;
     return (p->flags | q->flags) & DP_POLYGON_FRONT &&
-           gap <= dp_watch_px(&w->tile) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
+           gap <= dp_near_depth_px(&w->tile) * (fabsf(p->dx - q->dx) + fabsf(p->dy - q->dy));
 }
 
 /* Close samples at which planes cross, and pixels that show back faces, one by one. */
