@@ -26,12 +26,12 @@ enum {
 
 /* What is known of a triangle of a chunk. */
 enum {
-    DP_TRIANGLE_LIVE = 1,   /* it may be seen, and so may its edges */
-    DP_TRIANGLE_COVERS = 2, /* it may cover a sample */
-    DP_TRIANGLE_FRONT = 4,  /* surely faces the eye */
-    DP_TRIANGLE_BACK = 8,   /* surely faces away; neither: seen edge-on */
-    DP_TRIANGLE_CROWD = 16, /* touches a pixel where faces may cross */
-    DP_TRIANGLE_WITHIN = 32 /* lies in the picture whole; may be left out */
+    DP_TRIANGLE_LIVE = 1,     /* it may be seen, and so may its edges */
+    DP_TRIANGLE_COVERS = 2,   /* it may cover a sample */
+    DP_TRIANGLE_FRONT = 4,    /* surely faces the eye */
+    DP_TRIANGLE_BACK = 8,     /* surely faces away; neither: seen edge-on */
+    DP_TRIANGLE_FLAGGED = 16, /* touches a pixel where faces may cross */
+    DP_TRIANGLE_WITHIN = 32   /* lies in the picture whole; may be left out */
 };
 
 typedef struct dp_chunk_edge {
@@ -59,7 +59,7 @@ typedef struct dp_chunk {
 /* Which pixels the second reading looks at, in four maps: of the pixel itself, of it and its right
  * neighbour, of it and the one below, of all four. So the box of a small triangle is one look into
  * one map, which is chosen by the pixels that it spans. Two bits a pixel: it is wanted; it is
- * crowded. */
+ * flagged. */
 typedef struct dp_pixel_maps {
     uint32_t *words; /* 16 pixels each */
     uint32_t row;    /* words */
@@ -75,7 +75,7 @@ typedef struct dp_chunk_view {
     const float *farthest;   /* [tile][DP_BLOCKS][DP_BLOCKS]: depth of the furthest sample in each
                                 block of the picture;   nothing further can be seen */
     const uint64_t *wanted;  /* [tile][DP_TILE] rows of pixels; NULL: every sample is wanted */
-    const uint64_t *crowded; /* the same: where faces may cross; only with `wanted` */
+    const uint64_t *flagged; /* the same: where faces may cross; only with `wanted` */
     dp_pixel_maps maps;      /* of both */
     float flat_cosine;       /* dp_frame; below 0: folds are no lines */
 } dp_chunk_view;
@@ -111,7 +111,7 @@ uint32_t dp_chunk_pixel(const float corners[9], const dp_chunk_view *view);
 /* Does the edge from p to q lie in the picture, or may it? */
 bool dp_edge_may_be_seen(const float *p, const float *q, const dp_view *view);
 
-/* Fills view->maps, which has the room, from `wanted` and `crowded`. */
+/* Fills view->maps, which has the room, from `wanted` and `flagged`. */
 void dp_pixel_maps_fill(const dp_chunk_view *view);
 
 /* Is an edge between two triangles of this state and normal surely no line? */

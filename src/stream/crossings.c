@@ -3,12 +3,12 @@
  * While faces are drawn, pixels where two of them come close are noted for the whole picture, as in
  * a tile (intersect.c); what a sample holds from earlier lists counts too, by the way it faces. In
  * the second reading every triangle that touches such a pixel, or one beside it, and is not hidden
- * joins the crowd. In the end the crowd is a mesh: in each tile its faces are drawn by themselves,
+ * joins the intersection candidates. In the end the intersection candidates is a mesh: in each tile its faces are drawn by themselves,
  * into samples that start empty, so that candidate pixels, pairs and crossings are found there as they
- * would be among all triangles. Where there are candidate pixels the crowd is all there is to be seen, so
+ * would be among all triangles. Where there are candidate pixels the intersection candidates are all there is to be seen, so
  * it hides what is hidden; elsewhere along a crossing the picture's samples do.
  *
- * In one pass nobody comes by again: the crowd are the pairs found within each list. */
+ * In one pass nobody comes by again: the intersection candidates are the pairs found within each list. */
 #include "stream/draw.h"
 
 #include "base/sort.h"
@@ -35,15 +35,15 @@ static void note_facing(const dp_finder *w, uint64_t *away) {
 static void note_pairs(const dp_stream_draw *s, const dp_finder *w, dp_stream_worker *own) {
     for (uint32_t i = 0; i < w->lines.candidate_count; i++) {
         const uint32_t ids[2] = {w->lines.candidates[i].a, w->lines.candidates[i].b};
-        if (own->crowd_count + 2 > s->crowd_limit) return;
-        if (!dp_reserve(s->memory, &own->crowd, &own->crowd_cap, own->crowd_count + 2,
-                        sizeof *own->crowd)) {
+        if (own->intersecting_count + 2 > s->intersecting_limit) return;
+        if (!dp_reserve(s->memory, &own->intersecting, &own->intersecting_cap,
+                        own->intersecting_count + 2, sizeof *own->intersecting)) {
             own->failed = true;
             return;
         }
         for (int k = 0; k < 2; k++) {
-            dp_kept_triangle *const t = &own->crowd[own->crowd_count++];
-            *t = (dp_kept_triangle){.number = s->numbers[ids[k]], .polygon = s->numbers[ids[k]]};
+            dp_pending_triangle *const t = &own->intersecting[own->intersecting_count++];
+            *t = (dp_pending_triangle){.number = s->numbers[ids[k]], .polygon = s->numbers[ids[k]]};
             memcpy(t->corners, s->corners[ids[k]], sizeof t->corners);
         }
     }
@@ -75,7 +75,7 @@ static void find_away(const dp_stream_draw *s, uint32_t tile, uint64_t rows[DP_T
     dp_drop_lone(rows);
 }
 
-static void choose_crowded(void *arg, uint32_t tile, uint32_t worker) {
+static void choose_flagged(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     uint64_t(*const candidate_pixels)[DP_TILE] = s->candidate_pixels[tile];
     uint64_t away[DP_TILE], near[DP_TILE];
@@ -85,36 +85,40 @@ static void choose_crowded(void *arg, uint32_t tile, uint32_t worker) {
     for (uint32_t y = 0; y < DP_TILE; y++)
         candidate_pixels[0][y] |= candidate_pixels[1][y] & near[y];
     dp_drop_lone(candidate_pixels[0]);
-    dp_widen(candidate_pixels[0], s->crowded + (size_t)tile * DP_TILE);
+    dp_widen(candidate_pixels[0], s->flagged + (size_t)tile * DP_TILE);
 }
 
 static int by_number(const void *left, const void *right) {
-    const dp_kept_triangle *const l = left, *const r = right;
+    const dp_pending_triangle *const l = left, *const r = right;
     return (l->number > r->number) - (l->number < r->number);
 }
 
 /* All workers' triangles in order, each once. */
 static bool gather_pairs(dp_stream_draw *s) {
     size_t count = 0;
-    for (uint32_t i = 0; i < s->worker_count; i++) count += s->workers[i].crowd_count;
+    for (uint32_t i = 0; i < s->worker_count; i++) count += s->workers[i].intersecting_count;
     if (!count) return true;
-    if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, count, sizeof *s->crowd)) return false;
+    if (!dp_reserve(s->memory, &s->intersecting, &s->intersecting_cap, count,
+                    sizeof *s->intersecting))
+        return false;
     count = 0;
     for (uint32_t i = 0; i < s->worker_count; i++) {
         const dp_stream_worker *const w = &s->workers[i];
-        if (w->crowd_count) memcpy(s->crowd + count, w->crowd, w->crowd_count * sizeof *w->crowd);
-        count += w->crowd_count;
+        if (w->intersecting_count)
+            memcpy(s->intersecting + count, w->intersecting,
+                   w->intersecting_count * sizeof *w->intersecting);
+        count += w->intersecting_count;
     }
-    dp_sort(s->crowd, count, sizeof *s->crowd, by_number);
+    dp_sort(s->intersecting, count, sizeof *s->intersecting, by_number);
     for (size_t i = 0; i < count; i++)
-        if (!i || s->crowd[s->crowd_count - 1].number != s->crowd[i].number)
-            s->crowd[s->crowd_count++] = s->crowd[i];
+        if (!i || s->intersecting[s->intersecting_count - 1].number != s->intersecting[i].number)
+            s->intersecting[s->intersecting_count++] = s->intersecting[i];
     return true;
 }
 
-bool dp_stream_choose_crowded(dp_stream_draw *s) {
+bool dp_stream_choose_flagged(dp_stream_draw *s) {
     if (!(s->frame->lines & DP_INTERSECTION)) return true;
-    return dp_stream_for_tiles(s, choose_crowded) && (s->read_again || gather_pairs(s));
+    return dp_stream_for_tiles(s, choose_flagged) && (s->read_again || gather_pairs(s));
 }
 
 /* ------- at the end ------- */
@@ -141,7 +145,7 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_finder *const w = &s->finders[worker];
     dp_stream_worker *const own = &s->workers[worker];
-    const uint64_t *const crowded = s->crowded + (size_t)tile * DP_TILE;
+    const uint64_t *const flagged = s->flagged + (size_t)tile * DP_TILE;
     if (!dp_bins_tile_count(&w->tile.frame->polygon_bins, tile)) return;
     w->tile.finds_edges = false;
     dp_finder_open(w, tile);
@@ -150,24 +154,24 @@ static void find_crossings(void *arg, uint32_t tile, uint32_t worker) {
     dp_tile_assemble(&w->tile);
     dp_tile_faces(&w->tile);
     for (uint32_t y = 0; y < DP_TILE; y++)
-        w->tile.candidate_pixels[0][y] &= crowded[y], w->tile.candidate_pixels[1][y] &= crowded[y];
+        w->tile.candidate_pixels[0][y] &= flagged[y], w->tile.candidate_pixels[1][y] &= flagged[y];
     dp_find_intersections(w);
     if (!w->lines.candidate_count) return;
     dp_stream_hide_by_samples(w);
-    if (!add_lines(s, w, (uint32_t)(s->mesh_count - s->crowd_count), &s->lines[tile]))
+    if (!add_lines(s, w, (uint32_t)(s->mesh_count - s->intersecting_count), &s->lines[tile]))
         own->failed = true;
 }
 
 bool dp_stream_find_crossings(dp_stream_draw *s) {
     dp_frame *const f = s->frame;
     const uint32_t first = s->mesh_count;
-    if (!s->crowd_count) return true;
-    if (!dp_stream_add_polygons(s, s->crowd, s->crowd_count)) return false;
+    if (!s->intersecting_count) return true;
+    if (!dp_stream_add_polygons(s, s->intersecting, s->intersecting_count)) return false;
     const dp_polygons all = f->polygons;
     f->polygons = (dp_polygons){.positions = s->positions + 9 * (size_t)first,
                                 .stride = 3 * sizeof(float),
-                                .vertex_count = (uint32_t)(3 * s->crowd_count),
-                                .count = (uint32_t)s->crowd_count};
+                                .vertex_count = (uint32_t)(3 * s->intersecting_count),
+                                .count = (uint32_t)s->intersecting_count};
     const bool sound = dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_crossings);
     f->polygons = all;
     return sound;

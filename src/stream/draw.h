@@ -4,22 +4,22 @@
 
 #include "core/fold.h"
 #include "stream/input.h"
-#include "stream/kept.h"
+#include "stream/pending.h"
 #include "stream/stream.h"
 
 /* What a chunk leaves behind. */
-typedef struct dp_chunk_rest {
+typedef struct dp_chunk_output {
     float (*corners)[9]; /* [DP_CHUNK] of triangles that may cover samples (or wanted pixels) */
     uint32_t *numbers;   /* [DP_CHUNK] */
     uint32_t covering;
-    uint32_t first;         /* where they go in the drawing's list */
-    size_t kept_first;      /* and the others in stream->kept */
-    dp_kept_triangle *kept; /* [DP_CHUNK] */
-    uint32_t kept_count;
-    uint32_t *pixels; /* [DP_CHUNK] of the crowd: where they are counted */
+    uint32_t first;               /* where they go in the drawing's list */
+    size_t pending_first;         /* and the others in stream->pending */
+    dp_pending_triangle *pending; /* [DP_CHUNK] */
+    uint32_t pending_count;
+    uint32_t *pixels; /* [DP_CHUNK] of the intersection candidates: where they are counted */
     dp_result result;
     dp_diag diag;
-} dp_chunk_rest;
+} dp_chunk_output;
 
 typedef struct dp_fan dp_fan; /* fans.c */
 
@@ -34,8 +34,8 @@ typedef struct dp_mate {
 typedef struct dp_stream_worker {
     dp_chunk *chunk;
     uint8_t *buffer;
-    dp_kept_triangle *crowd; /* one pass: triangles that cross others */
-    size_t crowd_cap, crowd_count;
+    dp_pending_triangle *intersecting; /* one pass: triangles that cross others */
+    size_t intersecting_cap, intersecting_count;
     dp_mate *mates; /* of the part at hand */
     size_t mates_cap, mate_count;
     float *depth; /* of a tile's samples, while others may read those of the picture */
@@ -65,33 +65,33 @@ struct dp_stream_draw {
     dp_chunk_view view;
     dp_stream_worker *workers; /* [worker_count] */
 
-    dp_chunk_rest *rests; /* [chunks] of the part at hand */
+    dp_chunk_output *outputs; /* [chunks] of the part at hand */
     uint32_t chunks;
     float (*corners)[9]; /* triangles to be drawn next; [part] */
     uint32_t *numbers;   /* theirs */
     uint32_t covering;   /* how many */
 
-    dp_kept kept;
+    dp_pending pending;
     size_t joined;    /* triangles of it whose edges have met; the others came with the last part */
     float *positions; /* frame->polygons */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
     size_t positions_cap, flags_cap, numbers_cap, source_cap;
-    uint32_t mesh_count; /* polygons: what is kept, then the crowd */
+    uint32_t mesh_count; /* polygons: what is kept, then the intersection candidates */
 
-    dp_kept_triangle *crowd; /* triangles where faces may cross; numbers ascend */
-    size_t crowd_cap, crowd_count, crowd_limit;
+    dp_pending_triangle *intersecting; /* triangles where faces may cross; numbers ascend */
+    size_t intersecting_cap, intersecting_count, intersecting_limit;
     uint64_t *away; /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
     uint64_t (*candidate_pixels)[2][DP_TILE]; /* by tile, as in dp_finder */
-    uint64_t *crowded;                        /* dp_chunk_view */
+    uint64_t *flagged;                        /* dp_chunk_view */
     dp_fan *fans;                             /* edges that are thought to be lines */
     uint32_t *fan_slots;                      /* [fan_slot_count] 1 + fan, 0: free */
     uint32_t fan_count, fan_slot_count;
     uint64_t
         *fan_filter; /* [fan_filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
     uint32_t fan_filter_bits;
-    uint8_t
-        *crowd_counts; /* [tile][DP_TILE][DP_TILE] triangles of the crowd that begin in a pixel */
+    uint8_t *
+        intersecting_counts; /* [tile][DP_TILE][DP_TILE] triangles of the intersection candidates that begin in a pixel */
 
     float *farthest; /* dp_chunk_view */
     uint64_t *wanted;
@@ -106,7 +106,7 @@ struct dp_stream_draw {
 /* What a reading is for. */
 typedef enum dp_reading {
     DP_READ_FACES = 0, /* faces are drawn and edges meet */
-    DP_READ_EDGES,     /* edges of another share meet (kept.h) */
+    DP_READ_EDGES,     /* edges of another share meet (pending.h) */
     DP_READ_HIDERS     /* triangles hide sample points */
 } dp_reading;
 
@@ -124,14 +124,14 @@ bool dp_stream_hide_probes(dp_stream_draw *stream);
 bool dp_stream_find_lines(dp_stream_draw *stream);
 void dp_stream_hide_by_samples(dp_finder *worker);
 /* Makes frame->polygons longer by triangles; false when memory is out. */
-bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_kept_triangle *triangles,
+bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_pending_triangle *triangles,
                             size_t count);
 
 /* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while
  * the source is read again; at the end. */
 void dp_stream_note_candidate_pixels(dp_stream_draw *stream, dp_finder *worker,
                                      dp_stream_worker *own);
-bool dp_stream_choose_crowded(dp_stream_draw *stream);
+bool dp_stream_choose_flagged(dp_stream_draw *stream);
 bool dp_stream_find_crossings(dp_stream_draw *stream);
 
 /* Edges that are thought to be lines (fans.c): a table of them; a triangle's edge from a to b,

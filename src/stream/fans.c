@@ -110,7 +110,7 @@ bool dp_stream_make_fans(dp_stream_draw *s) {
     const uint32_t tiles = s->frame->tiles_x * s->frame->tiles_y;
     size_t count = 0;
     for (uint32_t t = 0; t < tiles; t++) count += s->lines[t].candidate_count;
-    if (!count || count > s->crowd_limit / 2) return true; /* too many to be looked after */
+    if (!count || count > s->intersecting_limit / 2) return true; /* too many to be looked after */
     s->fan_slot_count = 64;
     while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
     s->fan_slots = dp_alloc_zeroed(s->memory, dp_times(s->fan_slot_count, sizeof *s->fan_slots));

@@ -2,7 +2,7 @@
  * left of them is put together in order.
  *
  * Most triangles end in their chunk. Those that may cover a sample are listed until the list is
- * full and then go through the ordinary stages; those with an edge that matters are kept (kept.c).
+ * full and then go through the ordinary stages; those with an edge that matters are kept (pending.c).
  * Order is that of the stream, whatever thread sifted which chunk.
  *
  * The edges of what is kept meet one after the other, in one thread; the others sift the next part
@@ -17,9 +17,9 @@
 typedef struct job {
     dp_stream_draw *stream;
     dp_reading reading;
-    dp_kept_share share; /* of edges that are followed */
-    bool joins;          /* the first task lets the last part's edges meet */
-    bool failed;         /* it is out of memory */
+    dp_pending_share share; /* of edges that are followed */
+    bool joins;             /* the first task lets the last part's edges meet */
+    bool failed;            /* it is out of memory */
 } job;
 
 /* Lists the triangles whose state has one of the flags. Written without asking, and counted where
@@ -34,52 +34,53 @@ static uint32_t list_triangles(dp_chunk *chunk, const uint8_t *states, uint8_t f
 }
 
 static void leave_covering(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
-                           dp_chunk_rest *rest) {
-    rest->covering = list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS);
-    for (uint32_t i = 0; i < rest->covering; i++) {
+                           dp_chunk_output *output) {
+    output->covering = list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS);
+    for (uint32_t i = 0; i < output->covering; i++) {
         const uint32_t t = chunk->listed[i];
-        memcpy(rest->corners[i], triangles->corners + t * triangles->stride, sizeof *rest->corners);
-        rest->numbers[i] = number + t;
+        memcpy(output->corners[i], triangles->corners + t * triangles->stride,
+               sizeof *output->corners);
+        output->numbers[i] = number + t;
     }
 }
 
-static void leave_kept(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
-                       const dp_input *input, dp_kept_share share, dp_chunk_rest *rest) {
+static void leave_pending(dp_chunk *chunk, uint32_t number, const dp_triangles *triangles,
+                          const dp_input *input, dp_pending_share share, dp_chunk_output *output) {
     uint32_t left = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
         chunk->listed[left] = (uint16_t)t;
         left += (chunk->lines[t] | chunk->alone[t]) != 0;
     }
-    rest->kept_count = 0;
+    output->pending_count = 0;
     for (uint32_t l = 0; l < left; l++) {
         const uint32_t t = chunk->listed[l];
-        dp_kept_triangle *const k = &rest->kept[rest->kept_count];
+        dp_pending_triangle *const k = &output->pending[output->pending_count];
         dp_triangle_corners(triangles, t, k->corners);
         for (int i = 0; i < 3; i++) {
             const bool line = chunk->lines[t] >> i & 1, alone = chunk->alone[t] >> i & 1;
             k->edges[i] = line ? DP_EDGE_LINE : alone ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
         }
         for (uint32_t i = 0; i < 3; i++)
-            if (k->edges[i] == DP_EDGE_ALONE && !dp_kept_follows(share, k, i))
+            if (k->edges[i] == DP_EDGE_ALONE && !dp_pending_follows(share, k, i))
                 k->edges[i] = DP_EDGE_PLAIN;
-        rest->kept_count += (k->edges[0] | k->edges[1] | k->edges[2]) != 0;
+        output->pending_count += (k->edges[0] | k->edges[1] | k->edges[2]) != 0;
         k->number = number + t;
         k->polygon = dp_input_polygon(input, number + t);
         k->unused = 0;
     }
 }
 
-static void leave_crowd(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number,
-                        const dp_triangles *triangles, dp_chunk_rest *rest) {
-    rest->kept_count = list_triangles(chunk, chunk->state, DP_TRIANGLE_CROWD);
-    for (uint32_t i = 0; i < rest->kept_count; i++) {
+static void leave_flagged(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number,
+                          const dp_triangles *triangles, dp_chunk_output *output) {
+    output->pending_count = list_triangles(chunk, chunk->state, DP_TRIANGLE_FLAGGED);
+    for (uint32_t i = 0; i < output->pending_count; i++) {
         const uint32_t t = chunk->listed[i];
         float corners[9];
         dp_triangle_corners(triangles, t, corners);
-        rest->pixels[i] = dp_chunk_pixel(corners, &stream->view);
-        dp_kept_triangle *const k = &rest->kept[i];
-        *k = (dp_kept_triangle){.number = number + t,
-                                .polygon = dp_input_polygon(&stream->input, number + t)};
+        output->pixels[i] = dp_chunk_pixel(corners, &stream->view);
+        dp_pending_triangle *const k = &output->pending[i];
+        *k = (dp_pending_triangle){.number = number + t,
+                                   .polygon = dp_input_polygon(&stream->input, number + t)};
         memcpy(k->corners, triangles->corners + t * triangles->stride, sizeof k->corners);
     }
 }
@@ -102,27 +103,27 @@ static void look_for_fans(const dp_stream_draw *stream, dp_chunk *chunk, uint32_
 static void sift_chunk(const job *j, uint32_t index, uint32_t worker) {
     dp_stream_draw *const s = j->stream;
     dp_stream_worker *const w = &s->workers[worker];
-    dp_chunk_rest *const rest = &s->rests[index];
+    dp_chunk_output *const output = &s->outputs[index];
     const uint32_t number = (uint32_t)s->input.first + index * DP_CHUNK;
     dp_triangles triangles;
-    rest->covering = rest->kept_count = 0;
-    rest->result = dp_input_chunk(&s->input, index, w->buffer, &triangles, &rest->diag);
-    if (rest->result) return;
+    output->covering = output->pending_count = 0;
+    output->result = dp_input_chunk(&s->input, index, w->buffer, &triangles, &output->diag);
+    if (output->result) return;
     dp_chunk_sift(w->chunk, &triangles, &s->view, &w->stats);
-    if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, rest);
-    if (j->reading == DP_READ_HIDERS) leave_crowd(s, w->chunk, number, &triangles, rest);
+    if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, output);
+    if (j->reading == DP_READ_HIDERS) leave_flagged(s, w->chunk, number, &triangles, output);
     if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
     if (j->reading == DP_READ_HIDERS || !s->frame->lines) return;
     dp_chunk_edges(w->chunk, &triangles, &s->view);
     /* lines within the chunk are known since the first reading */
     if (j->reading == DP_READ_EDGES) memset(w->chunk->lines, 0, w->chunk->count);
-    leave_kept(w->chunk, number, &triangles, &s->input, j->share, rest);
+    leave_pending(w->chunk, number, &triangles, &s->input, j->share, output);
 }
 
 /* Edges that came with the last part meet. */
 static bool join_edges(dp_stream_draw *s) {
-    const bool sound = s->kept.count == s->joined || dp_kept_join(&s->kept, s->joined);
-    s->joined = s->kept.count;
+    const bool sound = s->pending.count == s->joined || dp_pending_join(&s->pending, s->joined);
+    s->joined = s->pending.count;
     return sound;
 }
 
@@ -138,10 +139,10 @@ static void do_task(void *arg, uint32_t index, uint32_t worker) {
 
 static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    const dp_chunk_rest *const rest = &s->rests[index];
+    const dp_chunk_output *const output = &s->outputs[index];
     (void)worker;
-    memcpy(s->corners + rest->first, rest->corners, rest->covering * sizeof *s->corners);
-    memcpy(s->numbers + rest->first, rest->numbers, rest->covering * sizeof *s->numbers);
+    memcpy(s->corners + output->first, output->corners, output->covering * sizeof *s->corners);
+    memcpy(s->numbers + output->first, output->numbers, output->covering * sizeof *s->numbers);
 }
 
 /* Pixels without a sample point in sight are wanted no more. */
@@ -155,11 +156,11 @@ static bool draw_listed(dp_stream_draw *s, dp_reading reading) {
 /* Adds what the chunks left to the list; draws the list first when it has no room. */
 static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading) {
     uint32_t sum = 0;
-    for (uint32_t i = 0; i < chunks; i++) sum += s->rests[i].covering;
+    for (uint32_t i = 0; i < chunks; i++) sum += s->outputs[i].covering;
     if (sum > s->input.part - s->covering && !draw_listed(s, reading)) return false;
     for (uint32_t i = 0; i < chunks; i++) {
-        s->rests[i].first = s->covering;
-        s->covering += s->rests[i].covering;
+        s->outputs[i].first = s->covering;
+        s->covering += s->outputs[i].covering;
     }
     dp_parallel(s->frame->threads, chunks, list_chunk, s);
     return true;
@@ -167,18 +168,19 @@ static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading
 
 static void keep_chunk(void *arg, uint32_t index, uint32_t worker) {
     dp_stream_draw *const s = arg;
-    const dp_chunk_rest *const rest = &s->rests[index];
+    const dp_chunk_output *const output = &s->outputs[index];
     (void)worker;
-    memcpy(s->kept.triangles + rest->kept_first, rest->kept, rest->kept_count * sizeof *rest->kept);
+    memcpy(s->pending.triangles + output->pending_first, output->pending,
+           output->pending_count * sizeof *output->pending);
 }
 
 /* Their edges meet while the next part is sifted. */
 static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
-    dp_kept *const kept = &s->kept;
+    dp_pending *const kept = &s->pending;
     size_t sum = kept->count;
     for (uint32_t i = 0; i < chunks; i++) {
-        s->rests[i].kept_first = sum;
-        sum += s->rests[i].kept_count;
+        s->outputs[i].pending_first = sum;
+        sum += s->outputs[i].pending_count;
     }
     if (sum == kept->count) return true;
     if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles))
@@ -190,21 +192,21 @@ static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
 
 /* Surfaces seen at a grazing angle put thousands of triangles into a pixel; what crosses there is
  * no line that could be seen. */
-enum { CROWD_MOST = 128 };
+enum { INTERSECTING_MOST = 128 };
 
 /* Beyond the limit crossings are given up. */
-static bool keep_crowd(dp_stream_draw *s, uint32_t chunks) {
+static bool add_intersecting(dp_stream_draw *s, uint32_t chunks) {
     for (uint32_t i = 0; i < chunks; i++) {
-        const dp_chunk_rest *const rest = &s->rests[i];
-        if (!dp_reserve(s->memory, &s->crowd, &s->crowd_cap, s->crowd_count + rest->kept_count,
-                        sizeof *s->crowd))
+        const dp_chunk_output *const output = &s->outputs[i];
+        if (!dp_reserve(s->memory, &s->intersecting, &s->intersecting_cap,
+                        s->intersecting_count + output->pending_count, sizeof *s->intersecting))
             return false;
-        for (uint32_t k = 0; k < rest->kept_count; k++) {
-            uint8_t *const counted = &s->crowd_counts[rest->pixels[k]];
-            if (*counted > CROWD_MOST) continue;
+        for (uint32_t k = 0; k < output->pending_count; k++) {
+            uint8_t *const counted = &s->intersecting_counts[output->pixels[k]];
+            if (*counted > INTERSECTING_MOST) continue;
             ++*counted;
-            if (s->crowd_count < s->crowd_limit)
-                s->crowd[s->crowd_count++] = rest->kept[k];
+            if (s->intersecting_count < s->intersecting_limit)
+                s->intersecting[s->intersecting_count++] = output->pending[k];
             else
                 s->stats->edges_lost++;
         }
@@ -220,17 +222,17 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
     const uint32_t chunks = s->input.count / DP_CHUNK + (s->input.count % DP_CHUNK != 0);
     job j = {.stream = s,
              .reading = reading,
-             .share = s->kept.share,
-             .joins = s->joined < s->kept.count};
+             .share = s->pending.share,
+             .joins = s->joined < s->pending.count};
     dp_parallel(s->frame->threads, chunks + j.joins, do_task, &j);
     if (j.failed) return out_of_memory(diag);
     for (uint32_t i = 0; i < chunks; i++)
-        if (s->rests[i].result) {
-            if (diag) *diag = s->rests[i].diag;
-            return s->rests[i].result;
+        if (s->outputs[i].result) {
+            if (diag) *diag = s->outputs[i].diag;
+            return s->outputs[i].result;
         }
     if (!list_covering(s, chunks, reading) ||
-        !(reading == DP_READ_HIDERS ? keep_crowd(s, chunks) && dp_stream_join_fans(s)
+        !(reading == DP_READ_HIDERS ? add_intersecting(s, chunks) && dp_stream_join_fans(s)
                                     : keep_edges(s, chunks)))
         return out_of_memory(diag);
     return DP_OK;
@@ -263,7 +265,7 @@ dp_result dp_stream_read(dp_stream_draw *s, dp_reading reading, double from, dou
     const dp_stats before = *s->stats;
     dp_result result = DP_OK;
     s->covering = 0;
-    s->joined = s->kept.count;
+    s->joined = s->pending.count;
     if (reading != DP_READ_FACES) {
         dp_input_close(&s->input);
         result = dp_input_open(&s->input, source, s->chunks, s->memory, s->stats, diag);

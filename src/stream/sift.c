@@ -148,7 +148,7 @@ static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *trian
     if (view->wanted) { /* few pixels are: this is the sieve that counts then */
         const uint8_t state =
             (any || holds_pixel(&at, view, view->wanted) ? DP_TRIANGLE_COVERS : 0) |
-            (any || holds_pixel(&at, view, view->crowded) ? DP_TRIANGLE_CROWD : 0);
+            (any || holds_pixel(&at, view, view->flagged) ? DP_TRIANGLE_FLAGGED : 0);
         if (state && (any || !is_hidden(&at, view))) chunk->state[t] = state;
         return;
     }
@@ -194,7 +194,7 @@ void dp_pixel_maps_fill(const dp_chunk_view *v) {
     const size_t map = v->maps.map, row = v->maps.row;
     memset(words, 0, map * sizeof *words);
     mark_pixels(v, v->wanted, 1);
-    mark_pixels(v, v->crowded, 2);
+    mark_pixels(v, v->flagged, 2);
     for (size_t i = 0; i < map; i++) {
         const uint32_t right = (i + 1) % row ? words[i + 1] : 0;
         words[map + i] = words[i] | words[i] >> 2 | right << 30;

@@ -22,11 +22,11 @@
 enum {
     GATHERED = 132,
     PER_CHUNK = 2 << 20,
-    PER_KEPT = 160,
+    PER_PENDING = 160,
     CHUNKS_LEAST = DP_TUNED(1, 2),
     CHUNKS_MOST = DP_TUNED(64, 2),
-    KEPT_LEAST = 65536,
-    KEPT_MOST =
+    PENDING_LEAST = 65536,
+    PENDING_MOST =
         1 << 28 /* of their edges twice as many slots, a power of two, are counted in 32 bits */
 };
 
@@ -42,25 +42,40 @@ void dp_stream_free(dp_stream_draw *s) {
     for (uint32_t i = 0; s->workers && i < s->worker_count; i++) {
         dp_free(memory, s->workers[i].chunk);
         dp_free(memory, s->workers[i].buffer);
-        dp_free(memory, s->workers[i].crowd);
+        dp_free(memory, s->workers[i].intersecting);
         dp_free(memory, s->workers[i].depth);
         dp_free(memory, s->workers[i].mates);
         dp_free(memory, s->workers[i].owners);
     }
-    for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
-        dp_free(memory, s->rests[i].corners);
-        dp_free(memory, s->rests[i].numbers);
-        dp_free(memory, s->rests[i].kept);
-        dp_free(memory, s->rests[i].pixels);
+    for (uint32_t i = 0; s->outputs && i < s->chunks; i++) {
+        dp_free(memory, s->outputs[i].corners);
+        dp_free(memory, s->outputs[i].numbers);
+        dp_free(memory, s->outputs[i].kept);
+        dp_free(memory, s->outputs[i].pixels);
     }
     for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++)
         dp_free(memory, s->lines[i].candidates);
-    dp_kept_free(&s->kept);
-    void *const blocks[] = {s->workers,      s->rests,      s->corners,          s->numbers,
-                            s->positions,    s->edge_flags, s->polygon_numbers,  s->source_polygons,
-                            s->crowd,        s->away,       s->candidate_pixels, s->crowded,
-                            s->crowd_counts, s->fans,       s->fan_slots,        s->fan_filter,
-                            s->farthest,     s->wanted,     s->view.maps.words,  s->lines};
+    dp_pending_free(&s->pending);
+    void *const blocks[] = {s->workers,
+                            s->outputs,
+                            s->corners,
+                            s->numbers,
+                            s->positions,
+                            s->edge_flags,
+                            s->polygon_numbers,
+                            s->source_polygons,
+                            s->intersecting,
+                            s->away,
+                            s->candidate_pixels,
+                            s->flagged,
+                            s->intersecting_counts,
+                            s->fans,
+                            s->fan_slots,
+                            s->fan_filter,
+                            s->farthest,
+                            s->wanted,
+                            s->view.maps.words,
+                            s->lines};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
     dp_free(memory, s);
 }
@@ -75,19 +90,20 @@ static bool make_workers(dp_stream_draw *s) {
     return s->workers;
 }
 
-static bool make_rests(dp_stream_draw *s) {
-    s->rests = dp_alloc_zeroed(s->memory, s->chunks * sizeof *s->rests);
-    for (uint32_t i = 0; s->rests && i < s->chunks; i++) {
-        dp_chunk_rest *const rest = &s->rests[i];
-        rest->corners = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->corners);
-        rest->numbers = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->numbers);
-        rest->kept = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->kept);
-        rest->pixels = dp_alloc_array(s->memory, DP_CHUNK, sizeof *rest->pixels);
-        if (!rest->corners || !rest->numbers || !rest->kept || !rest->pixels) return false;
+static bool make_outputs(dp_stream_draw *s) {
+    s->outputs = dp_alloc_zeroed(s->memory, s->chunks * sizeof *s->outputs);
+    for (uint32_t i = 0; s->outputs && i < s->chunks; i++) {
+        dp_chunk_output *const output = &s->outputs[i];
+        output->corners = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->corners);
+        output->numbers = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->numbers);
+        output->pending = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->pending);
+        output->pixels = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->pixels);
+        if (!output->corners || !output->numbers || !output->pending || !output->pixels)
+            return false;
     }
     s->corners = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->corners);
     s->numbers = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->numbers);
-    return s->rests && s->corners && s->numbers;
+    return s->outputs && s->corners && s->numbers;
 }
 
 /* What lasts as long as the picture: nothing is covered yet. */
@@ -98,11 +114,11 @@ static bool make_picture(dp_stream_draw *s) {
     s->wanted = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->wanted));
     s->lines = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->lines));
     if (!s->farthest || !s->wanted || !s->lines) return false;
-    s->crowded = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->crowded));
+    s->flagged = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->flagged));
     s->candidate_pixels = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->candidate_pixels));
     s->away = dp_alloc_zeroed(s->memory, tiles * f->tile_samples / 8);
-    s->crowd_counts = dp_alloc_zeroed(s->memory, tiles * DP_TILE * DP_TILE);
-    if (!s->crowded || !s->candidate_pixels || !s->away || !s->crowd_counts) return false;
+    s->intersecting_counts = dp_alloc_zeroed(s->memory, tiles * DP_TILE * DP_TILE);
+    if (!s->flagged || !s->candidate_pixels || !s->away || !s->intersecting_counts) return false;
     for (size_t i = 0; i < blocks; i++) s->farthest[i] = DP_DEPTH_EMPTY;
     for (size_t i = 0; i < tiles * f->tile_samples; i++) f->depth[i] = DP_DEPTH_EMPTY;
     if (f->target.normal)
@@ -125,13 +141,13 @@ static dp_result open_stream(dp_stream_draw *s, dp_source *source, dp_diag *diag
                               .flat_cosine = f->flat_cosine};
     if (!(f->lines & (DP_RIDGE | DP_VALLEY))) s->view.flat_cosine = -1;
     dp_sampling_init(&s->view.sampling, f->target.samples);
-    s->kept = (dp_kept){.memory = s->memory, .view = &s->view, .shares = 1};
+    s->pending = (dp_pending){.memory = s->memory, .view = &s->view, .shares = 1};
     const size_t parts = (size_t)s->chunks * PER_CHUNK;
-    s->kept.limit = (limit > parts ? limit - parts : 0) / PER_KEPT;
-    if (s->kept.limit < KEPT_LEAST) s->kept.limit = KEPT_LEAST;
-    if (s->kept.limit > KEPT_MOST) s->kept.limit = KEPT_MOST;
-    s->crowd_limit = s->kept.limit / 2;
-    if (!make_workers(s) || !make_rests(s) || !make_picture(s))
+    s->pending.limit = (limit > parts ? limit - parts : 0) / PER_PENDING;
+    if (s->pending.limit < PENDING_LEAST) s->pending.limit = PENDING_LEAST;
+    if (s->pending.limit > PENDING_MOST) s->pending.limit = PENDING_MOST;
+    s->intersecting_limit = s->pending.limit / 2;
+    if (!make_workers(s) || !make_outputs(s) || !make_picture(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
     s->view.farthest = s->farthest;
     return DP_OK;
@@ -149,12 +165,12 @@ static void add_stats(dp_stream_draw *s) {
 /* Readings for edges that were put off, until none is left. */
 static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *diag) {
     bool enough;
-    while (dp_kept_next_share(&s->kept, &enough)) {
+    while (dp_pending_next_share(&s->pending, &enough)) {
         if (!may) {
-            s->kept.lost += s->kept.later_count + 1; /* not known how many */
+            s->pending.lost += s->pending.later_count + 1; /* not known how many */
             return DP_OK;
         }
-        const double to = *done + (DP_STREAMED - *done) / (s->kept.later_count + 2);
+        const double to = *done + (DP_STREAMED - *done) / (s->pending.later_count + 2);
         const dp_result result = dp_stream_read(s, DP_READ_EDGES, *done, to, diag);
         if (result) return result;
         *done = to;
@@ -171,9 +187,9 @@ static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag)
     if (!result) result = dp_stream_read(s, DP_READ_FACES, 0, s->done, diag);
     if (!result) add_stats(s);
     if (!result && f->lines) result = read_edges(s, s->read_again, &s->done, diag);
-    s->stats->edges_lost = s->kept.lost + s->kept.thinned;
-    s->thinned = s->kept.thinned > 0;
-    s->waited_in_vain = s->kept.lost > 0;
+    s->stats->edges_lost = s->pending.lost + s->pending.thinned;
+    s->thinned = s->pending.thinned > 0;
+    s->waited_in_vain = s->pending.lost > 0;
     return result;
 }
 
@@ -196,7 +212,7 @@ dp_result dp_stream_read_model(const dp_stream_setup *setup, dp_source *source,
 static bool want_pixels(dp_stream_draw *s) {
     dp_chunk_view *const v = &s->view;
     v->wanted = s->wanted;
-    v->crowded = s->crowded;
+    v->flagged = s->flagged;
     v->maps.row = (v->tiles_x * DP_TILE + 15) / 16;
     v->maps.map = v->tiles_y * DP_TILE * v->maps.row;
     v->maps.words = dp_alloc_array(s->memory, 4 * (size_t)v->maps.map, sizeof *v->maps.words);
@@ -206,7 +222,7 @@ static bool want_pixels(dp_stream_draw *s) {
 
 dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {
     const bool lines = s->frame->lines;
-    if (!dp_stream_find_lines(s) || !dp_stream_choose_crowded(s))
+    if (!dp_stream_find_lines(s) || !dp_stream_choose_flagged(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
     if (s->read_again && !want_pixels(s))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the second reading");

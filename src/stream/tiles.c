@@ -89,7 +89,7 @@ bool dp_stream_draw_faces(dp_stream_draw *s) {
 
 /* ------- what was kept, as a mesh ------- */
 
-bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles, size_t count) {
+bool dp_stream_add_polygons(dp_stream_draw *s, const dp_pending_triangle *triangles, size_t count) {
     const size_t first = s->mesh_count, all = first + count;
     dp_polygons *const polygons = &s->frame->polygons;
     if (all >= UINT32_MAX / 4 ||
@@ -102,7 +102,7 @@ bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles
                     sizeof *s->source_polygons))
         return false;
     for (size_t i = 0; i < count; i++) {
-        const dp_kept_triangle *const t = &triangles[i];
+        const dp_pending_triangle *const t = &triangles[i];
         memcpy(s->positions + 9 * (first + i), t->corners, sizeof t->corners);
         for (int e = 0; e < 3; e++) s->edge_flags[3 * (first + i) + (size_t)e] = t->edges[e];
         s->polygon_numbers[first + i] = t->number;
@@ -119,8 +119,8 @@ bool dp_stream_add_polygons(dp_stream_draw *s, const dp_kept_triangle *triangles
 }
 
 static bool make_mesh(dp_stream_draw *s) {
-    const bool sound = dp_stream_add_polygons(s, s->kept.earlier, s->kept.earlier_count);
-    dp_kept_free(&s->kept);
+    const bool sound = dp_stream_add_polygons(s, s->pending.earlier, s->pending.earlier_count);
+    dp_pending_free(&s->pending);
     return sound;
 }
 

@@ -87,7 +87,7 @@ typedef struct picture {
     dp_view view;
     dp_chunk_view chunk;
     float *farthest;
-    uint64_t *wanted, *crowded;
+    uint64_t *wanted, *flagged;
 } picture;
 
 static void make_picture(picture *p, bool orthographic, uint32_t samples) {
@@ -100,11 +100,11 @@ static void make_picture(picture *p, bool orthographic, uint32_t samples) {
     const size_t tiles = (size_t)p->chunk.tiles_x * p->chunk.tiles_y;
     p->farthest = malloc(tiles * DP_BLOCKS * DP_BLOCKS * sizeof *p->farthest);
     p->wanted = calloc(tiles * DP_TILE, sizeof *p->wanted);
-    p->crowded = calloc(tiles * DP_TILE, sizeof *p->crowded);
+    p->flagged = calloc(tiles * DP_TILE, sizeof *p->flagged);
     p->chunk.maps.row = (p->chunk.tiles_x * DP_TILE + 15) / 16;
     p->chunk.maps.map = p->chunk.tiles_y * DP_TILE * p->chunk.maps.row;
     p->chunk.maps.words = malloc(4 * (size_t)p->chunk.maps.map * sizeof *p->chunk.maps.words);
-    assert_true(p->farthest && p->wanted && p->crowded && p->chunk.maps.words);
+    assert_true(p->farthest && p->wanted && p->flagged && p->chunk.maps.words);
     const float nearer = orthographic ? -3.5f : 1 / 3.5f, middle = orthographic ? -4.1f : 1 / 4.1f;
     for (size_t i = 0; i < tiles * DP_BLOCKS * DP_BLOCKS; i++)
         p->farthest[i] = i / 8 % 3 == 0 ? DP_DEPTH_EMPTY : i / 8 % 3 == 1 ? middle : nearer;
@@ -112,18 +112,18 @@ static void make_picture(picture *p, bool orthographic, uint32_t samples) {
         p->wanted[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1
                                                              << next_random(&seed) % DP_TILE;
         if (i % 2)
-            p->crowded[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1
+            p->flagged[next_random(&seed) % (tiles * DP_TILE)] |= (uint64_t)1
                                                                   << next_random(&seed) % DP_TILE;
     }
     p->chunk.farthest = p->farthest;
-    p->chunk.wanted = p->wanted, p->chunk.crowded = p->crowded;
+    p->chunk.wanted = p->wanted, p->chunk.flagged = p->flagged;
     dp_pixel_maps_fill(&p->chunk);
 }
 
 static void free_picture(picture *p) {
     free(p->farthest);
     free(p->wanted);
-    free(p->crowded);
+    free(p->flagged);
     free(p->chunk.maps.words);
 }
 

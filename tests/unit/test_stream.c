@@ -5,7 +5,7 @@
 #include "io/readers.h"
 #include "draw/context.h"
 #include "mesh/source.h"
-#include "stream/kept.h"
+#include "stream/pending.h"
 #include "stream/stream.h"
 
 #include <drypoint/drypoint.h>
@@ -309,24 +309,24 @@ static void fans_far_apart(void **state) {
 }
 
 /* Which edges of a soup are kept, in as many readings as it takes with `limit` triangles. */
-static void keep(const soup *s, const dp_chunk_view *view, size_t limit, dp_kept *kept) {
+static void keep(const soup *s, const dp_chunk_view *view, size_t limit, dp_pending *kept) {
     static dp_allocator memory; /* outlives *kept */
     bool enough = true;
     memory = dp_allocator_resolve(NULL);
-    *kept = (dp_kept){.memory = &memory, .view = view, .limit = limit, .shares = 1};
+    *kept = (dp_pending){.memory = &memory, .view = view, .limit = limit, .shares = 1};
     do {
         for (size_t i = 0; i < s->count; i++) {
             const size_t first = kept->count;
             assert_true(dp_reserve(&memory, &kept->triangles, &kept->cap, first + 1,
                                    sizeof *kept->triangles));
-            dp_kept_triangle *const t = &kept->triangles[kept->count++];
-            *t = (dp_kept_triangle){.number = (uint32_t)i, .polygon = (uint32_t)i};
+            dp_pending_triangle *const t = &kept->triangles[kept->count++];
+            *t = (dp_pending_triangle){.number = (uint32_t)i, .polygon = (uint32_t)i};
             memcpy(t->corners, s->corners[i], sizeof t->corners);
             for (uint32_t e = 0; e < 3; e++)
-                t->edges[e] = dp_kept_follows(kept->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
-            assert_true(dp_kept_join(kept, first));
+                t->edges[e] = dp_pending_follows(kept->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
+            assert_true(dp_pending_join(kept, first));
         }
-    } while (dp_kept_next_share(kept, &enough));
+    } while (dp_pending_next_share(kept, &enough));
     assert_true(enough);
 }
 
@@ -340,7 +340,7 @@ static void kept_in_shares(void **state) {
     static float farthest[DP_BLOCKS * DP_BLOCKS * 1024];
     dp_chunk_view chunk_view = {.view = &view, .farthest = farthest, .flat_cosine = 0.9f};
     soup s;
-    dp_kept all, shares, few;
+    dp_pending all, shares, few;
     assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
     assert_int_equal(dp_view_init(&view, &camera, WIDTH, HEIGHT, NULL), DP_OK);
     chunk_view.tiles_x = (WIDTH + DP_TILE - 1) / DP_TILE,
@@ -362,9 +362,9 @@ static void kept_in_shares(void **state) {
     keep(&s, &chunk_view, 20,
          &few); /* but for the hostile build there is room for some thousand at any rate */
     assert_true(few.lost > 0 || DP_TUNED(true, false));
-    dp_kept_free(&all);
-    dp_kept_free(&shares);
-    dp_kept_free(&few);
+    dp_pending_free(&all);
+    dp_pending_free(&shares);
+    dp_pending_free(&few);
     free(s.corners);
 }
 

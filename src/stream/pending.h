@@ -1,38 +1,38 @@
 /* What is kept of a stream: the triangles whose edges may be lines, or wait for their other
  * triangle. */
-#ifndef DP_STREAM_KEPT_H
-#define DP_STREAM_KEPT_H
+#ifndef DP_STREAM_PENDING_H
+#define DP_STREAM_PENDING_H
 
 #include "stream/chunk.h"
 
 /* What is known of an edge of a kept triangle. */
 enum { DP_EDGE_PLAIN = 0, DP_EDGE_LINE = 1, DP_EDGE_ALONE = 2 };
 
-typedef struct dp_kept_triangle {
+typedef struct dp_pending_triangle {
     float corners[9];
     uint32_t number;  /* in the stream */
     uint32_t polygon; /* of the source */
     uint8_t edges[3], unused;
-} dp_kept_triangle;
+} dp_pending_triangle;
 
 /* Edges whose hash has these low bits. */
-typedef struct dp_kept_share {
+typedef struct dp_pending_share {
     uint32_t mask, value;
-} dp_kept_share;
+} dp_pending_share;
 
 enum { DP_SHARES_MOST = 64 };
 
-typedef struct dp_kept {
+typedef struct dp_pending {
     const dp_allocator *memory;
     const dp_chunk_view *view;
-    dp_kept_triangle *triangles; /* numbers ascend */
+    dp_pending_triangle *triangles; /* numbers ascend */
     size_t count, cap;
-    size_t settled;            /* how many were left when all were last looked at */
-    size_t limit;              /* triangles, those of earlier readings included */
-    dp_kept_triangle *earlier; /* what earlier readings kept; after the last, all in one */
+    size_t settled;               /* how many were left when all were last looked at */
+    size_t limit;                 /* triangles, those of earlier readings included */
+    dp_pending_triangle *earlier; /* what earlier readings kept; after the last, all in one */
     size_t earlier_count, earlier_cap;
-    dp_kept_share share;                 /* edges that this reading follows */
-    dp_kept_share later[DP_SHARES_MOST]; /* and others, still to come */
+    dp_pending_share share;                 /* edges that this reading follows */
+    dp_pending_share later[DP_SHARES_MOST]; /* and others, still to come */
     uint32_t later_count, shares;
     uint32_t *slots; /* 2 * slot_count: hash and edge, triangle number */
     size_t slots_cap;
@@ -42,9 +42,9 @@ typedef struct dp_kept {
     uint32_t *cells;  /* by square of pixels, while lines are thinned */
     size_t cells_cap;
     int thinning; /* one line to a square of 2^(thinning - 1) px; 0: not at all */
-} dp_kept;
+} dp_pending;
 
-void dp_kept_free(dp_kept *kept);
+void dp_pending_free(dp_pending *kept);
 
 /* The same from both sides of the edge from p to q; its two lowest bits are 0. */
 uint32_t dp_edge_hash_bits(const float *p, const float *q);
@@ -54,16 +54,16 @@ static inline uint32_t dp_edge_hash(const float *p, const float *q) {
 }
 
 /* Does a reading that follows this share follow the edge of a triangle? */
-bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge);
+bool dp_pending_follows(dp_pending_share share, const dp_pending_triangle *triangle, uint32_t edge);
 
 /* Begins with the next share of edges; false when there is none. *enough: false when memory is
  * out. */
-bool dp_kept_next_share(dp_kept *kept, bool *enough);
+bool dp_pending_next_share(dp_pending *kept, bool *enough);
 
 /* Edges of triangles [first, count) meet those that waited; what turns out plain is dropped, and so
  * are edges that are not followed any more. False when memory is out. */
-bool dp_kept_join(dp_kept *kept, size_t first);
+bool dp_pending_join(dp_pending *kept, size_t first);
 
-uint64_t dp_kept_bytes(const dp_kept *kept);
+uint64_t dp_pending_bytes(const dp_pending *kept);
 
 #endif

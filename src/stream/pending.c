@@ -18,7 +18,7 @@
  * DP_SHARES_MOST readings are edges given up, the oldest first, and counted. Where lines themselves
  * are too many (a noisy scan whose triangles are far below a pixel), they are thinned: one to a
  * pixel, then one to a square of pixels, as it takes; it is black there already. */
-#include "stream/kept.h"
+#include "stream/pending.h"
 
 #include "base/sort.h"
 
@@ -26,21 +26,21 @@
 
 static const uint32_t FREE = UINT32_MAX, TAKEN_OUT = UINT32_MAX - 1;
 
-void dp_kept_free(dp_kept *kept) {
+void dp_pending_free(dp_pending *kept) {
     if (!kept->memory) return;
     dp_free(kept->memory, kept->triangles);
     dp_free(kept->memory, kept->slots);
     dp_free(kept->memory, kept->earlier);
     dp_free(kept->memory, kept->cells);
-    *kept = (dp_kept){0};
+    *kept = (dp_pending){0};
 }
 
-uint64_t dp_kept_bytes(const dp_kept *kept) {
+uint64_t dp_pending_bytes(const dp_pending *kept) {
     return (kept->cap + kept->earlier_cap) * sizeof *kept->triangles +
            kept->slots_cap * sizeof *kept->slots;
 }
 
-static const float *corner(const dp_kept_triangle *t, uint32_t i) {
+static const float *corner(const dp_pending_triangle *t, uint32_t i) {
     return t->corners + 3 * (i % 3);
 }
 
@@ -59,24 +59,25 @@ uint32_t dp_edge_hash_bits(const float *p, const float *q) {
     return (sum ^ sum >> 15) * 0x9e3779b1u & ~(uint32_t)3;
 }
 
-static uint32_t edge_hash(const dp_kept_triangle *t, uint32_t edge) {
+static uint32_t edge_hash(const dp_pending_triangle *t, uint32_t edge) {
     return dp_edge_hash_bits(corner(t, edge), corner(t, edge + 1));
 }
 
-static bool is_of_share(dp_kept_share share, uint32_t hash) {
+static bool is_of_share(dp_pending_share share, uint32_t hash) {
     return (hash >> 20 & share.mask) == share.value;
 }
 
-bool dp_kept_follows(dp_kept_share share, const dp_kept_triangle *triangle, uint32_t edge) {
+bool dp_pending_follows(dp_pending_share share, const dp_pending_triangle *triangle,
+                        uint32_t edge) {
     return !share.mask || is_of_share(share, edge_hash(triangle, edge));
 }
 
 /* The edges of one share have some bits of their hash in common. */
-static uint32_t first_slot(const dp_kept *kept, uint32_t hash) {
+static uint32_t first_slot(const dp_pending *kept, uint32_t hash) {
     return (uint32_t)((uint64_t)(hash * 0x85ebca6bu) * kept->slot_count >> 32);
 }
 
-static void put(dp_kept *kept, uint32_t hash, uint32_t number, uint32_t edge) {
+static void put(dp_pending *kept, uint32_t hash, uint32_t number, uint32_t edge) {
     uint32_t s = first_slot(kept, hash);
     while (kept->slots[2 * (size_t)s + 1] != FREE) s = (s + 1) & (kept->slot_count - 1);
     kept->slots[2 * (size_t)s] = hash | edge;
@@ -85,7 +86,7 @@ static void put(dp_kept *kept, uint32_t hash, uint32_t number, uint32_t edge) {
 }
 
 /* Makes the table anew from the first `count` triangles, with room for `more` edges. */
-static bool rebuild(dp_kept *kept, size_t count, size_t more) {
+static bool rebuild(dp_pending *kept, size_t count, size_t more) {
     size_t edges = more;
     for (size_t i = 0; i < count; i++)
         for (int e = 0; e < 3; e++) edges += kept->triangles[i].edges[e] == DP_EDGE_ALONE;
@@ -106,8 +107,8 @@ static bool rebuild(dp_kept *kept, size_t count, size_t more) {
 
 /* Numbers are spread more or less evenly, so every other step guesses the place from the numbers at
  * both ends; the steps between bisect. */
-static dp_kept_triangle *find_number(const dp_kept *kept, uint32_t number) {
-    dp_kept_triangle *const all = kept->triangles;
+static dp_pending_triangle *find_number(const dp_pending *kept, uint32_t number) {
+    dp_pending_triangle *const all = kept->triangles;
     if (!kept->count || number < all[0].number || number > all[kept->count - 1].number) return NULL;
     size_t lo = 0, hi = kept->count - 1;
     for (bool guess = true; lo < hi; guess = !guess) {
@@ -127,7 +128,7 @@ static dp_kept_triangle *find_number(const dp_kept *kept, uint32_t number) {
 }
 
 /* 1: the edges run opposite ways, as they should; -1: the same way; 0: they are different edges. */
-static int compare_edges(const dp_kept_triangle *t, uint32_t e, const dp_kept_triangle *u,
+static int compare_edges(const dp_pending_triangle *t, uint32_t e, const dp_pending_triangle *u,
                          uint32_t f) {
     const size_t size = 3 * sizeof(float);
     if (!memcmp(corner(t, e), corner(u, f + 1), size) &&
@@ -139,7 +140,8 @@ static int compare_edges(const dp_kept_triangle *t, uint32_t e, const dp_kept_tr
     return 0;
 }
 
-static bool is_plain(const dp_kept *kept, const dp_kept_triangle *t, const dp_kept_triangle *u) {
+static bool is_plain(const dp_pending *kept, const dp_pending_triangle *t,
+                     const dp_pending_triangle *u) {
     float n[2][4];
     uint8_t state[2];
     const dp_view *const view = kept->view->view;
@@ -149,13 +151,13 @@ static bool is_plain(const dp_kept *kept, const dp_kept_triangle *t, const dp_ke
 }
 
 /* An edge meets the one that waits for it, or waits itself. */
-static void join_edge(dp_kept *kept, dp_kept_triangle *t, uint32_t edge, uint32_t hash) {
+static void join_edge(dp_pending *kept, dp_pending_triangle *t, uint32_t edge, uint32_t hash) {
     for (uint32_t s = first_slot(kept, hash);; s = (s + 1) & (kept->slot_count - 1)) {
         uint32_t *const slot = kept->slots + 2 * (size_t)s;
         if (slot[1] == FREE) break;
         if (slot[1] == TAKEN_OUT || (slot[0] & ~(uint32_t)3) != hash) continue;
         const uint32_t other_edge = slot[0] & 3;
-        dp_kept_triangle *const other = find_number(kept, slot[1]);
+        dp_pending_triangle *const other = find_number(kept, slot[1]);
         const int same = other ? compare_edges(t, edge, other, other_edge) : 0;
         if (!same || other == t) continue;
         const uint8_t found = same > 0 && is_plain(kept, t, other) ? DP_EDGE_PLAIN : DP_EDGE_LINE;
@@ -166,10 +168,12 @@ static void join_edge(dp_kept *kept, dp_kept_triangle *t, uint32_t edge, uint32_
     put(kept, hash, t->number, edge);
 }
 
-static bool matters(const dp_kept_triangle *t) { return t->edges[0] | t->edges[1] | t->edges[2]; }
+static bool matters(const dp_pending_triangle *t) {
+    return t->edges[0] | t->edges[1] | t->edges[2];
+}
 
 /* Drops what does not matter from triangles [first, count). */
-static void drop_plain(dp_kept *kept, size_t first) {
+static void drop_plain(dp_pending *kept, size_t first) {
     size_t left = first;
     for (size_t i = first; i < kept->count; i++) {
         if (!matters(&kept->triangles[i])) continue;
@@ -180,10 +184,10 @@ static void drop_plain(dp_kept *kept, size_t first) {
 }
 
 /* Gives up waiting edges from the oldest on, until the triangles left are no more than `most`. */
-static void give_up_oldest(dp_kept *kept, size_t most) {
+static void give_up_oldest(dp_pending *kept, size_t most) {
     size_t left = kept->count;
     for (size_t i = 0; i < kept->count && left > most; i++) {
-        dp_kept_triangle *const t = &kept->triangles[i];
+        dp_pending_triangle *const t = &kept->triangles[i];
         for (int e = 0; e < 3; e++) {
             if (t->edges[e] != DP_EDGE_ALONE) continue;
             t->edges[e] = DP_EDGE_PLAIN;
@@ -193,9 +197,9 @@ static void give_up_oldest(dp_kept *kept, size_t most) {
     }
 }
 
-static void drop_hidden(dp_kept *kept) {
+static void drop_hidden(dp_pending *kept) {
     for (size_t i = 0; i < kept->count; i++) {
-        dp_kept_triangle *const t = &kept->triangles[i];
+        dp_pending_triangle *const t = &kept->triangles[i];
         if (dp_triangle_is_hidden(kept->view, corner(t, 0), corner(t, 1), corner(t, 2)))
             memset(t->edges, DP_EDGE_PLAIN, sizeof t->edges);
     }
@@ -203,14 +207,15 @@ static void drop_hidden(dp_kept *kept) {
 }
 
 /* Puts half of the edges off to another reading. */
-static bool halve_share(dp_kept *kept) {
-    const dp_kept_share old = kept->share;
+static bool halve_share(dp_pending *kept) {
+    const dp_pending_share old = kept->share;
     if (kept->shares == DP_SHARES_MOST) return false;
     kept->share.mask = 2 * old.mask + 1;
-    kept->later[kept->later_count++] = (dp_kept_share){kept->share.mask, old.value + old.mask + 1};
+    kept->later[kept->later_count++] =
+        (dp_pending_share){kept->share.mask, old.value + old.mask + 1};
     kept->shares++;
     for (size_t i = 0; i < kept->count; i++) {
-        dp_kept_triangle *const t = &kept->triangles[i];
+        dp_pending_triangle *const t = &kept->triangles[i];
         for (uint32_t e = 0; e < 3; e++)
             if (t->edges[e] == DP_EDGE_ALONE && !is_of_share(kept->share, edge_hash(t, e)))
                 t->edges[e] = DP_EDGE_PLAIN;
@@ -219,11 +224,11 @@ static bool halve_share(dp_kept *kept) {
     return true;
 }
 
-static bool has_edge(const dp_kept_triangle *t, uint8_t state) {
+static bool has_edge(const dp_pending_triangle *t, uint8_t state) {
     return t->edges[0] == state || t->edges[1] == state || t->edges[2] == state;
 }
 
-static size_t count_lines(const dp_kept *kept) {
+static size_t count_lines(const dp_pending *kept) {
     size_t count = 0;
     for (size_t i = 0; i < kept->count; i++) count += has_edge(&kept->triangles[i], DP_EDGE_LINE);
     return count;
@@ -231,7 +236,8 @@ static size_t count_lines(const dp_kept *kept) {
 
 /* The square of 2^shift pixels that holds the edge's middle, the picture's nearest; the same from
  * both sides. */
-static size_t cell_of(const dp_kept *kept, const dp_kept_triangle *t, uint32_t edge, int shift) {
+static size_t cell_of(const dp_pending *kept, const dp_pending_triangle *t, uint32_t edge,
+                      int shift) {
     const dp_chunk_view *const v = kept->view;
     const dp_vec3 middle =
         dp_scale(dp_add(dp_v3f(corner(t, edge)), dp_v3f(corner(t, edge + 1))), 0.5);
@@ -245,7 +251,7 @@ static size_t cell_of(const dp_kept *kept, const dp_kept_triangle *t, uint32_t e
 
 /* What comes late goes first, since what came early may be hidden by it; then the hash decides.
  * Both triangles of an edge give it the same rank, if only they came close enough together. */
-static uint32_t rank_of(const dp_kept_triangle *t, uint32_t edge) {
+static uint32_t rank_of(const dp_pending_triangle *t, uint32_t edge) {
     const uint32_t age = ~(t->number >> 18) & 0x3fff;
     return age << 18 | edge_hash(t, edge) >> 14;
 }
@@ -254,7 +260,7 @@ enum { THINNING_MOST = 6 };
 
 /* Leaves one line to a square of 1, 2, 4, … px: the first in rank. An edge is left with both its
  * triangles or with neither; those that are not, do not emerge (tiles.c). */
-static bool thin(dp_kept *kept) {
+static bool thin(dp_pending *kept) {
     const dp_chunk_view *const v = kept->view;
     const int shift = kept->thinning - 1;
     const size_t cells = (size_t)v->tiles_x * v->tiles_y * DP_TILE * DP_TILE;
@@ -264,7 +270,7 @@ static bool thin(dp_kept *kept) {
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < kept->count; i++)
             for (uint32_t e = 0; e < 3; e++) {
-                dp_kept_triangle *const t = &kept->triangles[i];
+                dp_pending_triangle *const t = &kept->triangles[i];
                 if (t->edges[e] != DP_EDGE_LINE) continue;
                 uint32_t *const first = &kept->cells[cell_of(kept, t, e, shift)];
                 const uint32_t rank = rank_of(t, e);
@@ -278,7 +284,7 @@ static bool thin(dp_kept *kept) {
 }
 
 /* Until lines take no more than a third of the room. */
-static bool thin_lines(dp_kept *kept, size_t room) {
+static bool thin_lines(dp_pending *kept, size_t room) {
     if (kept->thinning && !thin(kept)) return false;
     while (count_lines(kept) > room / 3 && kept->thinning < THINNING_MOST) {
         kept->thinning++;
@@ -288,7 +294,7 @@ static bool thin_lines(dp_kept *kept, size_t room) {
 }
 
 /* Looks at all when many have come since the last time. */
-static bool settle(dp_kept *kept) {
+static bool settle(dp_pending *kept) {
     const size_t least = DP_TUNED(4096, 8) + kept->limit / 4;
     const size_t room =
         kept->limit > kept->earlier_count + least ? kept->limit - kept->earlier_count : least;
@@ -307,7 +313,7 @@ static bool settle(dp_kept *kept) {
 
 enum { AHEAD = 16 /* triangles whose slots are asked for before the first is looked at */ };
 
-static void join_some(dp_kept *kept, dp_kept_triangle *triangles, size_t count) {
+static void join_some(dp_pending *kept, dp_pending_triangle *triangles, size_t count) {
     uint32_t hashes[AHEAD][3] = {{0}};
     for (size_t i = 0; i < count; i++)
         for (uint32_t e = 0; e < 3; e++) {
@@ -325,7 +331,7 @@ static void join_some(dp_kept *kept, dp_kept_triangle *triangles, size_t count) 
         }
 }
 
-bool dp_kept_join(dp_kept *kept, size_t first) {
+bool dp_pending_join(dp_pending *kept, size_t first) {
     const size_t edges = 3 * (kept->count - first);
     if (2 * (kept->slots_used + edges) > kept->slot_count && !rebuild(kept, first, edges))
         return false;
@@ -338,17 +344,17 @@ bool dp_kept_join(dp_kept *kept, size_t first) {
 /* ------- from reading to reading ------- */
 
 static int by_number(const void *left, const void *right) {
-    const dp_kept_triangle *const l = left, *const r = right;
+    const dp_pending_triangle *const l = left, *const r = right;
     return (l->number > r->number) - (l->number < r->number);
 }
 
 /* Each triangle once, with what any reading found. */
-static void merge_earlier(dp_kept *kept) {
+static void merge_earlier(dp_pending *kept) {
     size_t left = 0;
     if (!kept->earlier_count) return;
     dp_sort(kept->earlier, kept->earlier_count, sizeof *kept->earlier, by_number);
     for (size_t i = 0; i < kept->earlier_count; i++) {
-        const dp_kept_triangle t = kept->earlier[i];
+        const dp_pending_triangle t = kept->earlier[i];
         if (!left || kept->earlier[left - 1].number != t.number) {
             kept->earlier[left++] = t;
             continue;
@@ -359,7 +365,7 @@ static void merge_earlier(dp_kept *kept) {
     kept->earlier_count = left;
 }
 
-bool dp_kept_next_share(dp_kept *kept, bool *enough) {
+bool dp_pending_next_share(dp_pending *kept, bool *enough) {
     drop_plain(kept, 0);
     *enough = dp_reserve(kept->memory, &kept->earlier, &kept->earlier_cap,
                          kept->earlier_count + kept->count, sizeof *kept->earlier);
