@@ -1,5 +1,5 @@
 /* A tile's lines along edges: what the table of edges holds is resolved into folds, outlines and
- * loose edges.
+ * unpaired edges.
  *
  * Nearly all edges are flat, which the table tells (edge_table.c); here come those that may be
  * lines. Two polygons make a ridge, a valley or a silhouette; more than two, or winding that
@@ -13,10 +13,10 @@
 #include <string.h>
 
 static void leave(dp_finder *w, uint32_t polygon, uint32_t edge) {
-    if (!DP_TILE_RESERVE(&w->tile, w, emergence.loose, emergence.loose_cap,
-                         w->emergence.loose_count + 1u))
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.unpaired, emergence.unpaired_cap,
+                         w->emergence.unpaired_count + 1u))
         return;
-    w->emergence.loose[w->emergence.loose_count++] = (dp_loose_edge){polygon, edge};
+    w->emergence.unpaired[w->emergence.unpaired_count++] = (dp_unpaired_edge){polygon, edge};
 }
 
 /* The polygon that came first in the source owns the edge, in every tile. */
@@ -138,16 +138,17 @@ static void resolve_put(dp_finder *w, const dp_edge_entry *e, const dp_fold_batc
 
 /* A polygon at an edge as the eye sees it: on which side of the edge it lies on the screen, and how
  * fast it comes nearer going away from the edge. */
-typedef struct flap {
+typedef struct incident_face {
     uint32_t polygon, edge;
     bool front;
     double side; /* px; the sign tells left or right of va -> vb */
     double rise; /* change of depth per px away from the edge */
-} flap;
+} incident_face;
 
-static flap make_flap(const dp_finder *w, const dp_spine *s, uint32_t polygon, uint32_t edge) {
+static incident_face make_incident_face(const dp_finder *w, const dp_spine *s, uint32_t polygon,
+                                        uint32_t edge) {
     const dp_tile_polygon *const p = &w->tile.polygons[polygon];
-    flap f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
+    incident_face f = {.polygon = polygon, .edge = edge, .front = p->flags & DP_POLYGON_FRONT};
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
     if (!(length > 0)) return f;
     const dp_vertex *const points = w->tile.points + p->point;
@@ -162,20 +163,22 @@ static flap make_flap(const dp_finder *w, const dp_spine *s, uint32_t polygon, u
     return f;
 }
 
-/* Keeps the flap that is nearest to the eye on its side; of those in one place, the first in the
+/* Keeps the incident face that is nearest to the eye on its side; of those in one place, the first in the
  * source. */
-static void offer_flap(const dp_finder *w, flap best[2], uint32_t count[2], flap f) {
+static void offer_incident_face(const dp_finder *w, incident_face best[2], uint32_t count[2],
+                                incident_face f) {
     const int side = f.side < 0;
-    const flap had = best[side];
+    const incident_face had = best[side];
     const bool is_earlier = count[side] && f.rise == had.rise &&
                             w->tile.polygons[f.polygon].id < w->tile.polygons[had.polygon].id;
     if (!count[side]++ || f.rise > had.rise || is_earlier) best[side] = f;
 }
 
 /* The edge as these two have it, the first in the source first; `q` may be none. */
-static dp_edge_entry owned_by_flaps(const dp_finder *w, const flap *p, const flap *q) {
+static dp_edge_entry owned_by_faces(const dp_finder *w, const incident_face *p,
+                                    const incident_face *q) {
     const bool swap = q && w->tile.polygons[q->polygon].id < w->tile.polygons[p->polygon].id;
-    const flap *const a = swap ? q : p, *const b = swap ? p : q;
+    const incident_face *const a = swap ? q : p, *const b = swap ? p : q;
     dp_edge_entry e = {.a = a->polygon,
                        .edge_a = a->edge,
                        .b = b ? b->polygon : UINT32_MAX,
@@ -193,24 +196,24 @@ static void resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     if (!dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
                        dp_v3f(dp_vertex_position(polygons, e->vb)), dp_v3(0, 0, 0), &s))
         return;
-    flap best[2] = {{0}};
+    incident_face best[2] = {{0}};
     uint32_t count[2] = {0, 0};
-    offer_flap(w, best, count, make_flap(w, &s, e->a, e->edge_a));
-    offer_flap(w, best, count, make_flap(w, &s, e->b, e->edge_b));
+    offer_incident_face(w, best, count, make_incident_face(w, &s, e->a, e->edge_a));
+    offer_incident_face(w, best, count, make_incident_face(w, &s, e->b, e->edge_b));
     for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
         const dp_edge_place at = dp_edge_place_of(w, w->table.meetings[i - 1].number);
-        offer_flap(w, best, count, make_flap(w, &s, at.polygon, at.edge));
+        offer_incident_face(w, best, count, make_incident_face(w, &s, at.polygon, at.edge));
     }
     if (!count[0] || !count[1]) {
-        const flap f = best[count[0] ? 0 : 1];
-        const dp_edge_entry owned = owned_by_flaps(w, &f, NULL);
+        const incident_face f = best[count[0] ? 0 : 1];
+        const dp_edge_entry owned = owned_by_faces(w, &f, NULL);
         dp_vec3 normal = dp_polygon_normal(w->tile.frame, w->tile.polygons[f.polygon].id);
         if (!f.front) normal = dp_scale(normal, -1);
         add_line(w, &owned, DP_LINE_SILHOUETTE, normal);
         return;
     }
     if (!best[0].front && !best[1].front) return;
-    const dp_edge_entry owned = owned_by_flaps(w, &best[0], &best[1]);
+    const dp_edge_entry owned = owned_by_faces(w, &best[0], &best[1]);
     const dp_fold fold =
         dp_fold_seen(w->tile.frame, w->tile.polygons[best[0].polygon].id, best[0].front,
                      w->tile.polygons[best[1].polygon].id, best[1].front, best[1].edge);

@@ -37,7 +37,7 @@ typedef struct dp_lookup {
 } dp_lookup;
 
 typedef struct emerging {
-    dp_loose_edge loose;
+    dp_unpaired_edge unpaired;
     uint32_t id;  /* frame polygon */
     dp_vec3 a, b; /* ends, world space */
     dp_spine spine;
@@ -45,13 +45,13 @@ typedef struct emerging {
     uint32_t first;  /* lookup */
 } emerging;
 
-static bool begin_edge(dp_finder *w, dp_loose_edge loose, emerging *e) {
+static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
-    e->loose = loose;
-    e->id = w->tile.polygons[loose.polygon].id;
+    e->unpaired = unpaired;
+    e->id = w->tile.polygons[unpaired.polygon].id;
     const uint32_t first = dp_first_corner(polygons, e->id), n = dp_corner_count(polygons, e->id);
-    const uint32_t va = dp_corner_vertex(polygons, first + loose.edge);
-    const uint32_t vb = dp_corner_vertex(polygons, first + (loose.edge + 1) % n);
+    const uint32_t va = dp_corner_vertex(polygons, first + unpaired.edge);
+    const uint32_t vb = dp_corner_vertex(polygons, first + (unpaired.edge + 1) % n);
     e->a = dp_v3f(dp_vertex_position(polygons, va));
     e->b = dp_v3f(dp_vertex_position(polygons, vb));
     return dp_spine_make(&w->tile.frame->view, e->a, e->b, dp_v3(0, 0, 0), &e->spine);
@@ -81,7 +81,7 @@ static bool find_range(const dp_finder *w, emerging *e) {
 static void outward(const dp_finder *w, const emerging *e, float out[2]) {
     const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
                  length = dp_hypot(ex, ey);
-    const double sign = w->tile.polygons[e->loose.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
+    const double sign = w->tile.polygons[e->unpaired.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
     out[0] = length > 0 ? (float)(-ey / length * sign) : 1;
     out[1] = length > 0 ? (float)(ex / length * sign) : 0;
 }
@@ -103,7 +103,7 @@ static bool place_lookups(dp_finder *w, emerging *e, uint32_t *count) {
                              .ex = x,
                              .ey = y,
                              .ed = (float)p.d,
-                             .own = e->loose.polygon,
+                             .own = e->unpaired.polygon,
                              .found = UINT32_MAX,
                              .tolerance =
                                  (float)fabs(dp_depth_step(&w->tile.frame->view, p.d, TOUCHING))};
@@ -147,13 +147,13 @@ typedef struct finding {
 
 static finding outline_finding(const dp_finder *w, const emerging *e, uint32_t behind) {
     const dp_vec3 n = dp_polygon_normal(w->tile.frame, e->id);
-    const bool front = w->tile.polygons[e->loose.polygon].flags & DP_POLYGON_FRONT;
+    const bool front = w->tile.polygons[e->unpaired.polygon].flags & DP_POLYGON_FRONT;
     return (finding){behind == UINT32_MAX ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, behind,
                      front ? n : dp_scale(n, -1)};
 }
 
 static finding fold_finding(const dp_finder *w, const emerging *e, uint32_t across) {
-    const dp_tile_polygon *const p = &w->tile.polygons[e->loose.polygon];
+    const dp_tile_polygon *const p = &w->tile.polygons[e->unpaired.polygon];
     const dp_tile_polygon *const q = &w->tile.polygons[across];
     finding f = {-1, across, {0, 0, 0}};
     if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
@@ -172,7 +172,7 @@ static finding judge(const dp_finder *w, const emerging *e, uint32_t k) {
     const dp_lookup *const l = w->emergence.lookups + e->first + (size_t)LOOKUPS * (k - e->k0);
     const uint32_t far = is_near_end(e, k) ? UINT32_MAX : l[1].found, behind = l[2].found;
     const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : far;
-    const dp_tile_polygon *const p = &w->tile.polygons[e->loose.polygon];
+    const dp_tile_polygon *const p = &w->tile.polygons[e->unpaired.polygon];
     const dp_lookup *const own = &l[2];
     const bool covered =
         behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
@@ -192,11 +192,14 @@ static void add_run(dp_finder *w, const emerging *e, finding f, uint32_t k0, uin
     dp_spine spine;
     if (!dp_spine_make(&w->tile.frame->view, e->a, e->b, f.normal, &spine)) return;
     const uint32_t b = f.neighbour == UINT32_MAX ? UINT32_MAX : w->tile.polygons[f.neighbour].id;
-    dp_add_candidate(
-        w,
-        (dp_candidate){
-            .a = e->id, .b = b, .edge = e->loose.edge, .k0 = k0, .k1 = k1, .line = (uint8_t)f.line},
-        &spine, NULL);
+    dp_add_candidate(w,
+                     (dp_candidate){.a = e->id,
+                                    .b = b,
+                                    .edge = e->unpaired.edge,
+                                    .k0 = k0,
+                                    .k1 = k1,
+                                    .line = (uint8_t)f.line},
+                     &spine, NULL);
 }
 
 static bool is_same(const finding *a, const finding *b) {
@@ -233,17 +236,17 @@ static void add_lines(dp_finder *w, const emerging *e) {
 void dp_find_emergent(dp_finder *w) {
     uint32_t count = 0;
     emerging e;
-    if (!w->emergence.loose_count) return;
+    if (!w->emergence.unpaired_count) return;
     memset(w->emergence.pixels.row, 0, sizeof w->emergence.pixels.row);
-    for (uint32_t i = 0; i < w->emergence.loose_count; i++)
-        if (begin_edge(w, w->emergence.loose[i], &e) && find_range(w, &e) &&
+    for (uint32_t i = 0; i < w->emergence.unpaired_count; i++)
+        if (begin_edge(w, w->emergence.unpaired[i], &e) && find_range(w, &e) &&
             !place_lookups(w, &e, &count))
             return;
     if (!count) return;
     look(w);
     count = 0;
-    for (uint32_t i = 0; i < w->emergence.loose_count && !w->tile.failed; i++) {
-        if (!begin_edge(w, w->emergence.loose[i], &e) || !find_range(w, &e)) continue;
+    for (uint32_t i = 0; i < w->emergence.unpaired_count && !w->tile.failed; i++) {
+        if (!begin_edge(w, w->emergence.unpaired[i], &e) || !find_range(w, &e)) continue;
         e.first = count;
         count += LOOKUPS * (e.k1 - e.k0);
         w->tile.stats.edges_emergent++;
@@ -253,7 +256,7 @@ void dp_find_emergent(dp_finder *w) {
 
 /* ------- memory ------- */
 
-static const dp_array arrays[] = {DP_ARRAY(dp_emergence, loose, loose_cap),
+static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap),
                                   DP_ARRAY(dp_emergence, lookups, lookups_cap)};
 
 void dp_emergence_free(dp_emergence *store, const dp_allocator *memory) {

@@ -11,16 +11,16 @@ typedef struct dp_pixel_lists {
 } dp_pixel_lists;
 
 /* A polygon's edge that the table leaves to emerge. */
-typedef struct dp_loose_edge {
+typedef struct dp_unpaired_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
-} dp_loose_edge;
+} dp_unpaired_edge;
 
 typedef struct dp_emergence {
     dp_pixel_lists pixels;
-    dp_loose_edge *loose;
+    dp_unpaired_edge *unpaired;
     struct dp_lookup *lookups; /* emerge.c */
-    size_t loose_cap, lookups_cap;
-    uint32_t loose_count;
+    size_t unpaired_cap, lookups_cap;
+    uint32_t unpaired_count;
 } dp_emergence;
 
 void dp_emergence_free(dp_emergence *emergence, const dp_allocator *memory);

@@ -169,15 +169,15 @@ static void pair(const builder *b, uint32_t c, uint32_t d) {
 }
 
 /* A polygon at an edge with more than two. */
-typedef struct flap {
+typedef struct incident_face {
     double angle; /* about the edge, from lower to higher vertex */
     uint32_t corner;
     bool
         forward; /* it runs the edge from lower to higher: its front looks towards growing angles */
-} flap;
+} incident_face;
 
 static int by_angle(const void *left, const void *right) {
-    const flap *const l = left, *const r = right;
+    const incident_face *const l = left, *const r = right;
     if (l->angle != r->angle) return l->angle < r->angle ? -1 : 1;
     if (l->forward != r->forward)
         return l->forward ? 1 : -1; /* two sides of a sheet: the inside lies between them */
@@ -188,28 +188,29 @@ static dp_vec3 position(const builder *b, uint32_t vertex) {
     return dp_v3f(dp_vertex_position(b->polygons, vertex));
 }
 
-static flap make_flap(const builder *b, uint32_t corner, dp_vec3 from, dp_vec3 x, dp_vec3 y) {
+static incident_face make_incident_face(const builder *b, uint32_t corner, dp_vec3 from, dp_vec3 x,
+                                        dp_vec3 y) {
     const uint32_t polygon = dp_polygon_of_corner(b->out, corner);
     const uint32_t first = dp_first_corner(b->polygons, polygon),
                    n = dp_corner_count(b->polygons, polygon);
     const uint32_t far = first + (corner - first + 1 + n / 2) % n;
     const dp_vec3 w = dp_sub(position(b, vertex_at(b, far)), from);
     const edge e = edge_at(b, corner);
-    return (flap){dp_atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
+    return (incident_face){dp_atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
 }
 
 /* Takes pairs of neighbours in the circle that look at each other out of it, until there are
  * none. */
-static uint32_t pair_wedges(const builder *b, flap *flaps, uint32_t n) {
+static uint32_t pair_wedges(const builder *b, incident_face *faces, uint32_t n) {
     for (bool found = true; found && n > 1;) {
         found = false;
         for (uint32_t i = 0; i < n && n > 1; i++) {
             const uint32_t next = i + 1 == n ? 0 : i + 1;
-            if (!flaps[i].forward || flaps[next].forward) continue;
-            pair(b, flaps[i].corner, flaps[next].corner);
+            if (!faces[i].forward || faces[next].forward) continue;
+            pair(b, faces[i].corner, faces[next].corner);
             const uint32_t high = i > next ? i : next, low = i > next ? next : i;
-            memmove(flaps + high, flaps + high + 1, (n - high - 1) * sizeof *flaps);
-            memmove(flaps + low, flaps + low + 1, (n - low - 2) * sizeof *flaps);
+            memmove(faces + high, faces + high + 1, (n - high - 1) * sizeof *faces);
+            memmove(faces + low, faces + low + 1, (n - low - 2) * sizeof *faces);
             n -= 2;
             found = true;
         }
@@ -218,16 +219,16 @@ static uint32_t pair_wedges(const builder *b, flap *flaps, uint32_t n) {
 }
 
 static void match_fan(const builder *b, const uint32_t *corners, uint32_t n) {
-    flap flaps[LARGEST_FAN];
+    incident_face faces[LARGEST_FAN];
     if (n > LARGEST_FAN) n = LARGEST_FAN; /* the rest stays open */
     const edge e = edge_at(b, corners[0]);
     const dp_vec3 from = position(b, lower(e)), d = dp_unit(dp_sub(position(b, higher(e)), from));
     const dp_vec3 axis = fabs(d.x) < 0.6 ? dp_v3(1, 0, 0) : dp_v3(0, 1, 0);
     const dp_vec3 x = dp_unit(dp_cross(axis, d)), y = dp_cross(d, x);
-    for (uint32_t i = 0; i < n; i++) flaps[i] = make_flap(b, corners[i], from, x, y);
-    dp_sort(flaps, n, sizeof *flaps, by_angle);
-    const uint32_t left = pair_wedges(b, flaps, n);
-    for (uint32_t i = 0; i + 1 < left; i += 2) pair(b, flaps[i].corner, flaps[i + 1].corner);
+    for (uint32_t i = 0; i < n; i++) faces[i] = make_incident_face(b, corners[i], from, x, y);
+    dp_sort(faces, n, sizeof *faces, by_angle);
+    const uint32_t left = pair_wedges(b, faces, n);
+    for (uint32_t i = 0; i + 1 < left; i += 2) pair(b, faces[i].corner, faces[i + 1].corner);
 }
 
 /* An entry of a bucket with what it is sorted by. */

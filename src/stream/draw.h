@@ -24,11 +24,11 @@ typedef struct dp_chunk_output {
 typedef struct dp_fan dp_fan; /* fans.c */
 
 /* A triangle that has an edge which is thought to be a line. */
-typedef struct dp_mate {
+typedef struct dp_partner {
     uint32_t fan, number;
     float corner[3]; /* not on the edge */
     float triangle[9];
-} dp_mate;
+} dp_partner;
 
 /* Scratch of one worker. */
 typedef struct dp_stream_worker {
@@ -36,8 +36,8 @@ typedef struct dp_stream_worker {
     uint8_t *buffer;
     dp_pending_triangle *intersecting; /* one pass: triangles that cross others */
     size_t intersecting_cap, intersecting_count;
-    dp_mate *mates; /* of the part at hand */
-    size_t mates_cap, mate_count;
+    dp_partner *partners; /* of the part at hand */
+    size_t partners_cap, partner_count;
     float *depth; /* of a tile's samples, while others may read those of the picture */
     size_t depth_cap;
     uint32_t (*owners)[2]; /* of a tile's candidates */

@@ -16,18 +16,18 @@
 #include <string.h>
 
 /* A triangle at an edge, seen from the eye. */
-typedef struct flap {
+typedef struct incident_face {
     double rise;    /* change of depth per px away from the edge */
     dp_vec3 normal; /* unit, of the side that is seen */
     dp_vec3 corner; /* the one that is not on the edge */
     uint32_t number;
     bool front, there;
-} flap;
+} incident_face;
 
 struct dp_fan {
-    uint32_t corner; /* of frame->polygons, where the edge begins */
-    bool met;        /* others came by */
-    flap side[2];    /* left and right of the edge on the screen */
+    uint32_t corner;       /* of frame->polygons, where the edge begins */
+    bool met;              /* others came by */
+    incident_face side[2]; /* left and right of the edge on the screen */
 };
 
 static const float *position(const dp_stream_draw *s, uint32_t corner) {
@@ -35,8 +35,9 @@ static const float *position(const dp_stream_draw *s, uint32_t corner) {
 }
 static uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-static bool make_flap(const dp_stream_draw *s, const float *a, const float *b, const float *c,
-                      const float *triangle, uint32_t number, int *side, flap *out) {
+static bool make_incident_face(const dp_stream_draw *s, const float *a, const float *b,
+                               const float *c, const float *triangle, uint32_t number, int *side,
+                               incident_face *out) {
     const dp_view *const view = &s->frame->view;
     dp_spine spine;
     const dp_clip_point clip = dp_to_clip(view, dp_v3f(c));
@@ -53,18 +54,18 @@ static bool make_flap(const dp_stream_draw *s, const float *a, const float *b, c
         dp_unit(dp_cross(dp_sub(dp_v3f(triangle + 3), o), dp_sub(dp_v3f(triangle + 6), o)));
     const bool front = dp_dot(n, dp_view_vector(view, o)) < 0;
     *side = across < 0;
-    *out = (flap){(p.d - on_edge) / fabs(across),
-                  dp_scale(n, front ? 1 : -1),
-                  dp_v3f(c),
-                  number,
-                  front,
-                  true};
+    *out = (incident_face){(p.d - on_edge) / fabs(across),
+                           dp_scale(n, front ? 1 : -1),
+                           dp_v3f(c),
+                           number,
+                           front,
+                           true};
     return true;
 }
 
-/* Keeps the flap nearest to the eye on its side; of equals the first in the stream. */
-static void offer(dp_fan *fan, int side, const flap *f) {
-    flap *const best = &fan->side[side];
+/* Keeps the incident face nearest to the eye on its side; of equals the first in the stream. */
+static void offer(dp_fan *fan, int side, const incident_face *f) {
+    incident_face *const best = &fan->side[side];
     if (!best->there || f->rise > best->rise || (f->rise >= best->rise && f->number < best->number))
         *best = *f;
 }
@@ -85,9 +86,10 @@ static void add_fan(dp_stream_draw *s, uint32_t corner) {
     const float *const a = position(s, corner), *const b = position(s, next_corner(corner));
     const float *const c = position(s, next_corner(next_corner(corner)));
     int side;
-    flap own;
+    incident_face own;
     *fan = (dp_fan){.corner = corner};
-    if (!make_flap(s, a, b, c, position(s, 3 * polygon), s->polygon_numbers[polygon], &side, &own))
+    if (!make_incident_face(s, a, b, c, position(s, 3 * polygon), s->polygon_numbers[polygon],
+                            &side, &own))
         return;
     offer(fan, side, &own);
     uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1);
@@ -143,19 +145,19 @@ void dp_stream_look_for_fans(const dp_stream_draw *s, const float *a, const floa
     for (uint32_t slot = dp_edge_hash(a, b) & mask; s->fan_slots[slot]; slot = (slot + 1) & mask) {
         const dp_fan *const fan = &s->fans[s->fan_slots[slot] - 1];
         if (s->polygon_numbers[fan->corner / 3] == number || !is_edge(s, fan, a, b)) continue;
-        if (!dp_reserve(s->memory, &own->mates, &own->mates_cap, own->mate_count + 1,
-                        sizeof *own->mates)) {
+        if (!dp_reserve(s->memory, &own->partners, &own->partners_cap, own->partner_count + 1,
+                        sizeof *own->partners)) {
             own->failed = true;
             return;
         }
-        dp_mate *const mate = &own->mates[own->mate_count++];
-        *mate = (dp_mate){.fan = s->fan_slots[slot] - 1, .number = number};
-        memcpy(mate->corner, c, sizeof mate->corner);
-        memcpy(mate->triangle, triangle, sizeof mate->triangle);
+        dp_partner *const partner = &own->partners[own->partner_count++];
+        *partner = (dp_partner){.fan = s->fan_slots[slot] - 1, .number = number};
+        memcpy(partner->corner, c, sizeof partner->corner);
+        memcpy(partner->triangle, triangle, sizeof partner->triangle);
     }
 }
 
-/* Is the mate among what was kept, with this edge? Then the edge table has seen it. */
+/* Is the partner among what was kept, with this edge? Then the edge table has seen it. */
 static bool is_known(const dp_stream_draw *s, const dp_fan *fan, uint32_t number) {
     uint32_t lo = 0, hi = s->mesh_count;
     while (hi - lo > 1) {
@@ -177,19 +179,20 @@ bool dp_stream_join_fans(dp_stream_draw *s) {
     for (uint32_t i = 0; i < s->worker_count; i++) {
         dp_stream_worker *const w = &s->workers[i];
         if (w->failed) return false;
-        for (size_t k = 0; k < w->mate_count; k++) {
-            const dp_mate *const mate = &w->mates[k];
-            dp_fan *const fan = &s->fans[mate->fan];
+        for (size_t k = 0; k < w->partner_count; k++) {
+            const dp_partner *const partner = &w->partners[k];
+            dp_fan *const fan = &s->fans[partner->fan];
             int side;
-            flap f;
+            incident_face f;
             /* sides are told along the fan's own edge */
-            if (!make_flap(s, position(s, fan->corner), position(s, next_corner(fan->corner)),
-                           mate->corner, mate->triangle, mate->number, &side, &f))
+            if (!make_incident_face(s, position(s, fan->corner),
+                                    position(s, next_corner(fan->corner)), partner->corner,
+                                    partner->triangle, partner->number, &side, &f))
                 continue;
             offer(fan, side, &f);
-            fan->met = fan->met || !is_known(s, fan, mate->number);
+            fan->met = fan->met || !is_known(s, fan, partner->number);
         }
-        w->mate_count = 0;
+        w->partner_count = 0;
     }
     return true;
 }
@@ -198,7 +201,7 @@ bool dp_stream_join_fans(dp_stream_draw *s) {
 
 /* dp_line, or -1. */
 static int line_of(const dp_stream_draw *s, const dp_fan *fan) {
-    const flap *const l = &fan->side[0], *const r = &fan->side[1];
+    const incident_face *const l = &fan->side[0], *const r = &fan->side[1];
     if (!l->there || !r->there) return DP_LINE_SILHOUETTE;
     if (!l->front && !r->front) return -1;
     const dp_vec3 into = dp_sub(r->corner, dp_v3f(position(s, fan->corner)));

@@ -44,7 +44,7 @@ void dp_stream_free(dp_stream_draw *s) {
         dp_free(memory, s->workers[i].buffer);
         dp_free(memory, s->workers[i].intersecting);
         dp_free(memory, s->workers[i].depth);
-        dp_free(memory, s->workers[i].mates);
+        dp_free(memory, s->workers[i].partners);
         dp_free(memory, s->workers[i].owners);
     }
     for (uint32_t i = 0; s->outputs && i < s->chunks; i++) {

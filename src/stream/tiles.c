@@ -200,13 +200,13 @@ static bool store_lines(const dp_stream_draw *s, dp_finder *w, dp_tile_lines *ou
  * because then its other triangle may be anywhere. */
 static void drop_halves(const dp_stream_draw *s, dp_finder *w) {
     uint32_t left = 0;
-    for (uint32_t i = 0; i < w->emergence.loose_count; i++) {
-        const dp_loose_edge l = w->emergence.loose[i];
+    for (uint32_t i = 0; i < w->emergence.unpaired_count; i++) {
+        const dp_unpaired_edge l = w->emergence.unpaired[i];
         const bool alone =
             s->edge_flags[3 * (size_t)w->tile.polygons[l.polygon].id + l.edge] == DP_EDGE_ALONE;
-        if (!(alone ? s->waited_in_vain : s->thinned)) w->emergence.loose[left++] = l;
+        if (!(alone ? s->waited_in_vain : s->thinned)) w->emergence.unpaired[left++] = l;
     }
-    w->emergence.loose_count = left;
+    w->emergence.unpaired_count = left;
 }
 
 bool dp_stream_draw_apart(const dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {

@@ -2,8 +2,8 @@
  *
  * Data structure: a segment has two ends, 2 i at a and 2 i + 1 at b. A hash table over the ends'
  * bits puts ends that are one node into a list; in each node ends are mated in pairs, straightest
- * first. A chain is then a walk from mate to mate. Ends that are left over are then mated over
- * small gaps, nearest first, found in a grid. Invariant: mate[mate[e]] == e. The order of
+ * first. A chain is then a walk from partner to partner. Ends that are left over are then mated over
+ * small gaps, nearest first, found in a grid. Invariant: partner[partner[e]] == e. The order of
  * everything comes from the segments' order, never from the hash. */
 #include "strokes/chain.h"
 
@@ -17,7 +17,7 @@ typedef struct chaining {
     const dp_stroke *strokes;
     const dp_chain_rule *rule;
     uint32_t count;
-    uint32_t *slots, *next, *mate,
+    uint32_t *slots, *next, *partner,
         *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
     size_t slot_count;
 } chaining;
@@ -59,7 +59,7 @@ static void find_nodes(const chaining *c) {
         while (c->slots[s] && !same_node(c, c->slots[s] - 1, i)) s = (s + 1) & (c->slot_count - 1);
         c->next[i] = c->slots[s] ? c->slots[s] - 1 : NONE;
         c->slots[s] = i + 1;
-        c->mate[i] = NONE;
+        c->partner[i] = NONE;
     }
 }
 
@@ -83,7 +83,7 @@ static bool may_join(const chaining *c, uint32_t e, uint32_t f) {
     return along == (side_at(c, e) == side_at(c, f));
 }
 
-static void mate_node(const chaining *c, uint32_t first) {
+static void partner_node(const chaining *c, uint32_t first) {
     uint32_t ends[MOST_AT_NODE], n = 0;
     for (uint32_t e = first; e != NONE && n < MOST_AT_NODE; e = c->next[e]) ends[n++] = e;
     for (;;) {
@@ -91,14 +91,14 @@ static void mate_node(const chaining *c, uint32_t first) {
         uint32_t p = NONE, q = NONE;
         for (uint32_t i = 0; i < n; i++)
             for (uint32_t k = i + 1; k < n; k++) {
-                if (c->mate[ends[i]] != NONE || c->mate[ends[k]] != NONE ||
+                if (c->partner[ends[i]] != NONE || c->partner[ends[k]] != NONE ||
                     !may_join(c, ends[i], ends[k]))
                     continue;
                 const float s = straightness(c, ends[i], ends[k]);
                 if (s > best) best = s, p = ends[i], q = ends[k];
             }
         if (p == NONE) return;
-        c->mate[p] = q, c->mate[q] = p;
+        c->partner[p] = q, c->partner[q] = p;
     }
 }
 
@@ -123,11 +123,11 @@ static size_t cell_slot(const chaining *c, int32_t x, int32_t y) {
 
 static int32_t cell_of(const chaining *c, float px) { return (int32_t)floorf(px / c->rule->gap); }
 
-/* Loose ends into lists by grid cell; cells that share a slot share a list. */
+/* Open ends into lists by grid cell; cells that share a slot share a list. */
 static void find_cells(const chaining *c) {
     memset(c->slots, 0, c->slot_count * sizeof *c->slots);
     for (uint32_t i = 2 * c->count; i-- > 0;) {
-        if (c->mate[i] != NONE) continue;
+        if (c->partner[i] != NONE) continue;
         const dp_point p = end_point(c, i);
         uint32_t *const slot = &c->slots[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
         c->next[i] = *slot ? *slot - 1 : NONE;
@@ -167,8 +167,8 @@ static bool closes_short(const chaining *c, uint32_t e, uint32_t f) {
     uint32_t end = e ^ 1;
     for (int i = 0; i < SHORT; i++) {
         if (end == f) return true;
-        if (c->mate[end] == NONE) return false;
-        end = c->mate[end] ^ 1;
+        if (c->partner[end] == NONE) return false;
+        end = c->partner[end] ^ 1;
     }
     return false;
 }
@@ -178,12 +178,12 @@ static bool bridge_gaps(const chaining *c, const dp_allocator *memory, dp_chain_
     if (!(c->rule->gap > 0)) return true;
     find_cells(c);
     for (uint32_t e = 0; e < 2 * c->count; e++)
-        if (c->mate[e] == NONE && !offer_bridges(c, e, memory, store, &n)) return false;
+        if (c->partner[e] == NONE && !offer_bridges(c, e, memory, store, &n)) return false;
     if (n) dp_sort(store->bridges, n, sizeof *store->bridges, by_distance);
     for (size_t i = 0; i < n; i++) {
         const uint32_t e = store->bridges[i].e, f = store->bridges[i].f;
-        if (c->mate[e] == NONE && c->mate[f] == NONE && !closes_short(c, e, f))
-            c->mate[e] = f, c->mate[f] = e;
+        if (c->partner[e] == NONE && c->partner[f] == NONE && !closes_short(c, e, f))
+            c->partner[e] = f, c->partner[f] = e;
     }
     return true;
 }
@@ -195,8 +195,8 @@ static bool bridge_gaps(const chaining *c, const dp_allocator *memory, dp_chain_
 static uint32_t find_start(const chaining *c, uint32_t segment, bool *closed) {
     uint32_t end = 2 * segment; /* going backwards, out of a */
     *closed = false;
-    while (c->mate[end] != NONE) {
-        end = c->mate[end] ^ 1;
+    while (c->partner[end] != NONE) {
+        end = c->partner[end] ^ 1;
         if (end == 2 * segment) {
             *closed = true;
             return end;
@@ -212,7 +212,7 @@ static void walk(const chaining *c, uint32_t start, dp_chain_store *store, dp_ch
         store->links[(*links)++] = (dp_link){end / 2, end & 1};
         c->visited[end / 2] = 1;
         chain->count++;
-        const uint32_t next = c->mate[end ^ 1];
+        const uint32_t next = c->partner[end ^ 1];
         if (next == NONE || c->visited[next / 2]) return;
         end = next;
     }
@@ -228,12 +228,13 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
         !dp_reserve(memory, &store->links, &store->links_cap, count, sizeof *store->links) ||
         !dp_reserve(memory, &store->chains, &store->chains_cap, count, sizeof *store->chains))
         return false;
-    c.slots = store->scratch, c.next = c.slots + c.slot_count, c.mate = c.next + 2 * (size_t)count;
-    c.visited = c.mate + 2 * (size_t)count;
+    c.slots = store->scratch, c.next = c.slots + c.slot_count,
+    c.partner = c.next + 2 * (size_t)count;
+    c.visited = c.partner + 2 * (size_t)count;
     if (count) memset(c.visited, 0, count * sizeof *c.visited);
     find_nodes(&c);
     for (size_t s = 0; s < c.slot_count; s++)
-        if (c.slots[s]) mate_node(&c, c.slots[s] - 1);
+        if (c.slots[s]) partner_node(&c, c.slots[s] - 1);
     if (!bridge_gaps(&c, memory, store)) return false;
     uint32_t links = 0;
     for (uint32_t i = 0; i < count; i++) {

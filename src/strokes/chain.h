@@ -18,7 +18,7 @@ typedef struct dp_chain {
 typedef struct dp_chain_store {
     dp_link *links;
     dp_chain *chains;
-    uint32_t *scratch;         /* slots, ends by node, mates */
+    uint32_t *scratch;         /* slots, ends by node, partners */
     struct dp_bridge *bridges; /* chain.c */
     size_t links_cap, chains_cap, scratch_cap, bridges_cap;
     uint32_t chain_count;
@@ -27,7 +27,7 @@ typedef struct dp_chain_store {
 /* What may be joined. */
 typedef struct dp_chain_rule {
     float sharpest; /* cosine of the largest turn at which a chain goes on; with a side: any */
-    float gap; /* px over which loose ends are joined all the same: outlines of fine meshes are full
+    float gap; /* px over which open ends are joined all the same: outlines of fine meshes are full
                   of holes */
     float side_gap;     /* the same for segments with a side, at most `gap` */
     float step;         /* as far in depth d as that, at most */
