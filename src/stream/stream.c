@@ -50,7 +50,7 @@ void dp_stream_free(dp_stream_draw *s) {
     for (uint32_t i = 0; s->outputs && i < s->chunks; i++) {
         dp_free(memory, s->outputs[i].corners);
         dp_free(memory, s->outputs[i].numbers);
-        dp_free(memory, s->outputs[i].kept);
+        dp_free(memory, s->outputs[i].pending);
         dp_free(memory, s->outputs[i].pixels);
     }
     for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++)
