@@ -31,18 +31,20 @@ static const double UNBENT =
     0.15; /* curvature times the model's size below which a direction is uncertain */
 static const double STEADY = 0.02; /* weight of the fixed direction */
 
-typedef struct bending {
+typedef struct curvature_job {
     const dp_polygons *polygons;
     const uint32_t *first; /* [vertices] who stands for a vertex */
     float (*normal)[3];    /* [vertices] unit */
     float *area;           /* [vertices] */
     float (*form)[3];      /* [vertices] a, b, c in the vertex's frame */
-} bending;
+} curvature_job;
 
-static dp_vec3 at(const bending *b, uint32_t vertex) {
+static dp_vec3 at(const curvature_job *b, uint32_t vertex) {
     return dp_v3f(dp_vertex_position(b->polygons, vertex));
 }
-static dp_vec3 normal_at(const bending *b, uint32_t vertex) { return dp_v3f(b->normal[vertex]); }
+static dp_vec3 normal_at(const curvature_job *b, uint32_t vertex) {
+    return dp_v3f(b->normal[vertex]);
+}
 
 static void add_to(float out[3], dp_vec3 v) {
     out[0] += (float)v.x, out[1] += (float)v.y, out[2] += (float)v.z;
@@ -63,7 +65,7 @@ typedef struct triangle {
     dp_vec3 normal;     /* as long as twice the area */
 } triangle;
 
-static bool fetch(const bending *b, uint32_t first, uint32_t i, triangle *t) {
+static bool fetch(const curvature_job *b, uint32_t first, uint32_t i, triangle *t) {
     const uint32_t corners[3] = {first, first + i - 1, first + i};
     for (int k = 0; k < 3; k++) {
         const uint32_t v = dp_corner_vertex(b->polygons, corners[k]);
@@ -77,9 +79,9 @@ static bool fetch(const bending *b, uint32_t first, uint32_t i, triangle *t) {
     return size > 0 && isfinite(size);
 }
 
-typedef void visit(bending *b, const triangle *t);
+typedef void visit(curvature_job *b, const triangle *t);
 
-static void for_triangles(bending *b, visit *with) {
+static void for_triangles(curvature_job *b, visit *with) {
     const dp_polygons *const p = b->polygons;
     triangle t;
     for (uint32_t i = 0; i < p->count; i++) {
@@ -90,7 +92,7 @@ static void for_triangles(bending *b, visit *with) {
 }
 
 /* Max 1999: the cross product over the squares of the two edges' lengths. */
-static void add_normals(bending *b, const triangle *t) {
+static void add_normals(curvature_job *b, const triangle *t) {
     for (int k = 0; k < 3; k++) {
         const dp_vec3 p = t->e[(k + 1) % 3], q = t->e[(k + 2) % 3];
         const double weight = dp_dot(p, p) * dp_dot(q, q);
@@ -124,7 +126,7 @@ static void corner_areas(const triangle *t, double out[3]) {
 }
 
 /* The form a, b, c in the triangle's plane: least squares over three edges. */
-static bool triangle_form(const bending *b, const triangle *t, dp_vec3 u, dp_vec3 v,
+static bool triangle_form(const curvature_job *b, const triangle *t, dp_vec3 u, dp_vec3 v,
                           double out[3]) {
     double uu = 0, uv = 0, vv = 0, r[3] = {0, 0, 0};
     for (int k = 0; k < 3; k++) {
@@ -152,7 +154,7 @@ static dp_vec3 turn(dp_vec3 x, dp_vec3 from, dp_vec3 to) {
     return dp_sub(x, dp_scale(dp_add(from, to), dp_dot(to, x) / c));
 }
 
-static void add_forms(bending *b, const triangle *t) {
+static void add_forms(curvature_job *b, const triangle *t) {
     const dp_vec3 n = dp_unit(t->normal), u = dp_unit(t->e[0]), v = dp_cross(n, u);
     double form[3], areas[3];
     if (!triangle_form(b, t, u, v, form)) return;
@@ -174,7 +176,7 @@ static void add_forms(bending *b, const triangle *t) {
     }
 }
 
-static bool begin(bending *b, const dp_allocator *memory, uint32_t **first) {
+static bool begin(curvature_job *b, const dp_allocator *memory, uint32_t **first) {
     const size_t n = (size_t)b->polygons->vertex_count + 1;
     *first = dp_alloc_array(memory, n, sizeof **first);
     b->first = *first;
@@ -184,14 +186,14 @@ static bool begin(bending *b, const dp_allocator *memory, uint32_t **first) {
     return *first && b->normal && b->area && b->form && dp_find_places(b->polygons, *first, memory);
 }
 
-static void end(bending *b, const dp_allocator *memory, uint32_t *first) {
+static void end(curvature_job *b, const dp_allocator *memory, uint32_t *first) {
     dp_free(memory, first);
     dp_free(memory, b->normal);
     dp_free(memory, b->area);
     dp_free(memory, b->form);
 }
 
-static void find_forms(bending *b) {
+static void find_forms(curvature_job *b) {
     for_triangles(b, add_normals);
     for (uint32_t v = 0; v < b->polygons->vertex_count; v++) {
         const dp_vec3 n = dp_unit(normal_at(b, v));
@@ -201,7 +203,7 @@ static void find_forms(bending *b) {
 }
 
 /* Eigenvalues and the direction of the one that is least by absolute value. */
-static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
+static dp_curvature curvature_at(const curvature_job *b, uint32_t vertex) {
     dp_curvature out = {0, 0, {0, 0, 0}};
     if (!(b->area[vertex] > 0)) return out;
     const double inverse = 1 / (double)b->area[vertex];
@@ -221,7 +223,7 @@ static dp_curvature curvature_at(const bending *b, uint32_t vertex) {
 }
 
 bool dp_curvatures(const dp_polygons *polygons, const dp_allocator *memory, dp_curvature *out) {
-    bending b = {.polygons = polygons};
+    curvature_job b = {.polygons = polygons};
     uint32_t *first;
     const bool enough = begin(&b, memory, &first);
     if (enough) {
@@ -268,7 +270,7 @@ static dp_vec3 steady_direction(dp_vec3 n) {
     return dp_unit(dp_add(level, dp_scale(other, 0.05)));
 }
 
-static void make_tensor(const bending *b, uint32_t v, double size, tensor q) {
+static void make_tensor(const curvature_job *b, uint32_t v, double size, tensor q) {
     const dp_vec3 n = normal_at(b, v);
     const dp_curvature k = curvature_at(b, v);
     const dp_vec3 d = dp_v3f(k.along), e = dp_cross(n, d), f = steady_direction(n);
@@ -285,7 +287,7 @@ static void make_tensor(const bending *b, uint32_t v, double size, tensor q) {
 /* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns.
  * Frames do not change: they are made once. */
 typedef struct spreading {
-    bending *b;
+    curvature_job *b;
     uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as
                                  often as they share triangles */
     tensor *from, *to;
@@ -429,7 +431,7 @@ static double size_of(const dp_polygons *p) {
 
 static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory,
                  float (*out)[3]) {
-    bending b = {.polygons = p};
+    curvature_job b = {.polygons = p};
     uint32_t *first;
     const size_t n = (size_t)p->vertex_count + 2;
     if (6 * triangle_count(p) >= UINT32_MAX)
@@ -462,9 +464,9 @@ static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *
     return enough;
 }
 
-void dp_bend_store_free(dp_bend_store *store, const dp_allocator *memory) {
+void dp_curvature_store_free(dp_curvature_store *store, const dp_allocator *memory) {
     dp_free(memory, store->along);
-    *store = (dp_bend_store){0};
+    *store = (dp_curvature_store){0};
 }
 
 /* ------- made once ------- */
@@ -475,8 +477,8 @@ static double now_ms(void) {
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-bool dp_bends_make(dp_bend_store *store, const dp_polygons *polygons, dp_threads *threads,
-                   const dp_allocator *memory) {
+bool dp_curvature_directions(dp_curvature_store *store, const dp_polygons *polygons,
+                             dp_threads *threads, const dp_allocator *memory) {
     uint64_t key;
     const double start = now_ms();
     if (!dp_shape_fingerprint(polygons, threads, memory, &key)) return false;

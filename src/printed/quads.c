@@ -53,7 +53,7 @@ typedef struct tool {
 } tool;
 
 /* All that depends on the style alone; polygons of one group mostly come together. */
-typedef struct outfit {
+typedef struct style_cache {
     uint32_t group;
     const dp_style *style;
     tool tools[DP_LINE_COUNT];
@@ -63,7 +63,7 @@ typedef struct outfit {
     double scale, offset;
     bool may_hide;
     double off[2]; /* hold_off is bias * (off[0] * |d| + off[1]) */
-} outfit;
+} style_cache;
 
 /* Ridges and valleys are drawn half from either side; the paper's one pass shows a valley on one
  * side only, and gives it the whole width. */
@@ -76,7 +76,7 @@ static dp_pen pen_of(const dp_style *style, dp_line line) {
                        (double)angle);
 }
 
-static void aim(dp_brush *b, const dp_style *style, dp_line line) {
+static void set_test(dp_brush *b, const dp_style *style, dp_line line) {
     const dp_view *const view = &b->w->tile->frame->view;
     const double width = (double)style->line[line].width, offset = (double)style->between_offset;
     b->reach = (float)(width / 2);
@@ -89,11 +89,11 @@ static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t gro
     t->reach =
         (float)t->pen.reach * (t->pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1) + 1;
     t->brush = (dp_brush){.w = w, .ink = dp_ink_of(line, group), .other = UINT32_MAX};
-    aim(&t->brush, style, line);
+    set_test(&t->brush, style, line);
 }
 
 /* How far the widest line reaches. */
-static void set_reach(outfit *o, const dp_view *view) {
+static void set_reach(style_cache *o, const dp_view *view) {
     const dp_style *const style = o->style;
     const bool paper = style->method == DP_METHOD_PAPER;
     float width = 0;
@@ -109,7 +109,7 @@ static void set_reach(outfit *o, const dp_view *view) {
     o->offset = view->perspective ? 0 : share;
 }
 
-static void dress(dp_printer *w, outfit *o, uint32_t group) {
+static void fill_cache(dp_printer *w, style_cache *o, uint32_t group) {
     const dp_view *const view = &w->tile->frame->view;
     o->group = group;
     o->style = &w->tile->frame->styles[group];
@@ -127,13 +127,13 @@ static void dress(dp_printer *w, outfit *o, uint32_t group) {
 typedef struct shading {
     dp_printer *w;
     dp_fill *line, *valley;
-    outfit outfit;
+    style_cache style_cache;
 } shading;
 
 static void begin_shading(shading *pass, dp_printer *w, dp_fill *line, dp_fill *valley) {
     pass->w = w;
     pass->line = line, pass->valley = valley;
-    dress(w, &pass->outfit, 0);
+    fill_cache(w, &pass->style_cache, 0);
 }
 
 static uint32_t block_of(float px) {
@@ -142,7 +142,7 @@ static uint32_t block_of(float px) {
 
 /* Nothing that the polygon adds can come out: all around it the surface is nearer by more than
  * lines reach. */
-static bool is_hidden(const dp_printer *w, const outfit *o, const dp_tile_polygon *p) {
+static bool is_hidden(const dp_printer *w, const style_cache *o, const dp_tile_polygon *p) {
     if (!o->may_hide) return false;
     const float limit = (float)((double)p->nearest * o->scale + o->offset);
     const uint32_t x0 = block_of(p->x0 - o->reach), x1 = block_of(p->x1 + 1 + o->reach);
@@ -179,7 +179,7 @@ static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
 }
 
 /* Screen to tile space, in float32 as the faces are, so that edges they share stay shared. */
-static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double bias,
+static void fill_added(dp_brush *b, const style_cache *o, const dp_added *a, double bias,
                        dp_fill *with) {
     const dp_printer *const w = b->w;
     const float tile_x = (float)w->tile->tile_x, tile_y = (float)w->tile->tile_y;
@@ -204,7 +204,7 @@ static void fill_added(dp_brush *b, const outfit *o, const dp_added *a, double b
 static void add_class(shading *pass, const dp_primitive *primitive, uint32_t index, dp_line line,
                       dp_primitive_shader *shade, double bias, dp_fill *with) {
     dp_printer *const w = pass->w;
-    tool *const t = &pass->outfit.tools[line];
+    tool *const t = &pass->style_cache.tools[line];
     const bool folded = line != DP_LINE_SILHOUETTE && with == dp_fill_line;
     t->brush.self = index;
     for (uint32_t edge = 0; edge < primitive->n; edge++) {
@@ -212,7 +212,7 @@ static void add_class(shading *pass, const dp_primitive *primitive, uint32_t ind
         if (!dp_tile_edge_reaches(w->tile, &w->tile->polygons[index], edge, t->reach)) continue;
         const uint32_t count = shade(primitive, edge, &t->pen, added);
         for (uint32_t i = 0; i < count; i++)
-            fill_added(&t->brush, &pass->outfit, &added[i], bias,
+            fill_added(&t->brush, &pass->style_cache, &added[i], bias,
                        folded && added[i].joint ? dp_fill_joint : with);
         w->tile->stats.added_polygons += count;
     }
@@ -223,13 +223,13 @@ static void add_lines(shading *pass, uint32_t index) {
     dp_printer *const w = pass->w;
     const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t group = group_of(w, p->id);
-    if (group != pass->outfit.group) dress(w, &pass->outfit, group);
+    if (group != pass->style_cache.group) fill_cache(w, &pass->style_cache, group);
     const bool front = p->flags & DP_POLYGON_FRONT;
     const uint32_t drawn = (pass->line ? ~(uint32_t)DP_VALLEY : 0) | (pass->valley ? DP_VALLEY : 0);
-    const uint32_t lines = pass->outfit.style->lines & drawn;
+    const uint32_t lines = pass->style_cache.style->lines & drawn;
     dp_primitive primitive;
     if (!(lines & (front ? DP_RIDGE | DP_BORDER | DP_VALLEY : DP_SILHOUETTE))) return;
-    if (is_hidden(w, &pass->outfit, p) || !fetch(w, index, &primitive)) return;
+    if (is_hidden(w, &pass->style_cache, p) || !fetch(w, index, &primitive)) return;
     if (!front)
         add_class(pass, &primitive, index, DP_LINE_SILHOUETTE, dp_shade_silhouette, BIAS,
                   pass->line);
@@ -270,7 +270,7 @@ static void add_face(dp_printer *w, uint32_t index, bool back, double bias, dp_f
                   .self = index,
                   .face = true,
                   .other = UINT32_MAX};
-    aim(&b, style, DP_LINE_INTERSECTION);
+    set_test(&b, style, DP_LINE_INTERSECTION);
     dp_tile_polygon q = *p;
     const float shift = (float)hold_off(&w->tile->frame->view, (double)p->nearest, bias);
     q.d0 -= shift, q.nearest -= shift;
@@ -304,7 +304,7 @@ static void between_depths_once(dp_printer *w) {
                           .face = true,
                           .intersections =
                               style->lines & DP_INTERSECTION && p->flags & DP_POLYGON_FRONT};
-            aim(&b, style, DP_LINE_INTERSECTION);
+            set_test(&b, style, DP_LINE_INTERSECTION);
             fill_face(&b, p, dp_fill_interval);
         }
         add_lines(&pass, i);

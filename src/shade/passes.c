@@ -27,7 +27,7 @@ void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
     dp_free(memory, s->inked);
     dp_free(memory, s->hatching);
     dp_free(memory, s->halftone);
-    dp_bend_store_free(&s->bends, memory);
+    dp_curvature_store_free(&s->curvature, memory);
     dp_free(memory, s->turns);
     dp_free(memory, s->polygon);
     dp_free(memory, s->graphite);
@@ -147,11 +147,11 @@ bool dp_shade_gathered(dp_shade_store *s) {
     if (!dp_gbuffer_begin(&s->gbuffer, frame, wants_texcoords(s)) || !take_pencil(s, frame))
         return false;
     if (s->setup.shade.shading != DP_SHADING_PENCIL) return true;
-    if (!dp_bends_make(&s->bends, &frame->polygons, frame->threads, frame->memory) ||
+    if (!dp_curvature_directions(&s->curvature, &frame->polygons, frame->threads, frame->memory) ||
         !dp_reserve(frame->memory, &s->turns, &s->turns_cap,
                     (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
         return false;
-    dp_pencil_vertices(frame, (const float(*)[3])s->bends.along, s->turns);
+    dp_pencil_vertices(frame, (const float(*)[3])s->curvature.along, s->turns);
     s->setup.turns = s->turns;
     return true;
 }

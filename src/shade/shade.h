@@ -101,9 +101,9 @@ typedef struct dp_shade_store {
     size_t color_cap, smooth_cap, inked_cap;
     uint8_t *hatching, *halftone;
 
-    dp_bend_store bends; /* pencil: directions of least curvature */
-    dp_turn *turns;      /* the same on the screen */
-    uint8_t *powers;     /* of powers_of: S and O */
+    dp_curvature_store curvature; /* pencil: directions of least curvature */
+    dp_turn *turns;               /* the same on the screen */
+    uint8_t *powers;              /* of powers_of: S and O */
     float powers_of[2];
     dp_pencil_table pencil;
     uint32_t *polygon; /* the G-buffer's plane */

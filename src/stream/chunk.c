@@ -1,7 +1,7 @@
 /* Edges between the triangles of a chunk, and which way triangles face.
  *
  * Data structure: open addressing over edges, by keys that kernels have made of their ends'
- * positions (stream/sift.inc). A slot holds half of the key as well, so that looking at positions
+ * positions (stream/classify.inc). A slot holds half of the key as well, so that looking at positions
  * is nearly always looking at the edge that is sought. Invariant: at most half of the slots are
  * used. */
 #include "stream/chunk.h"

@@ -17,12 +17,12 @@ enum {
 };
 
 /* Lines and samples are looked for this far outside the picture (px), as bins are widened. */
-#define DP_SIFT_MARGIN 2
+#define DP_CLASSIFY_MARGIN 2
 /* A triangle hides behind the surface when it lies this much further in the blocks around it (pixel
  * sizes), as in cull.c. */
-#define DP_SIFT_SLACK 6
+#define DP_CLASSIFY_SLACK 6
 /* Rounding of places on the screen, px. */
-#define DP_SIFT_ROUNDING (1.0f / 512)
+#define DP_CLASSIFY_ROUNDING (1.0f / 512)
 
 /* What is known of a triangle of a chunk. */
 enum {
@@ -98,8 +98,8 @@ static inline void dp_triangle_corners(const dp_triangles *triangles, uint32_t t
 /* Sets `state`, `normal` and `edge_key`: which triangles can be dropped at once, and which cover
  * samples (or, with `wanted`, pixels that are wanted; normals are not set then). Counts what is
  * dropped for good in *stats. */
-void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view,
-                   dp_stats *stats);
+void dp_chunk_classify(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view,
+                       dp_stats *stats);
 
 /* Sets `lines` and `alone`: edges between triangles of the chunk. */
 void dp_chunk_edges(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view);

@@ -6,9 +6,9 @@
 #include "core/keys.inc"
 #include "core/ld3.inc"
 #include "core/to_screen.inc"
-#include "stream/sift.inc"
+#include "stream/classify.inc"
 
 const dp_stream_kernels DP_KERNEL_TABLE(dp_stream_kernels) = {
-    .sift = sift,
+    .classify = classify,
     .touch = touch,
 };

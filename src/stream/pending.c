@@ -327,7 +327,8 @@ static void join_some(dp_pending *kept, dp_pending_triangle *triangles, size_t c
             if (is_of_share(kept->share, hashes[i][e]))
                 join_edge(kept, &triangles[i], e, hashes[i][e]);
             else
-                triangles[i].edges[e] = DP_EDGE_PLAIN; /* put off after this triangle was sifted */
+                triangles[i].edges[e] =
+                    DP_EDGE_PLAIN; /* put off after this triangle was classified */
         }
 }
 

@@ -1,11 +1,11 @@
-/* A reading of the source: parts are cut into chunks, chunks are sifted in parallel, and what is
+/* A reading of the source: parts are cut into chunks, chunks are classified in parallel, and what is
  * left of them is put together in order.
  *
  * Most triangles end in their chunk. Those that may cover a sample are listed until the list is
  * full and then go through the ordinary stages; those with an edge that matters are kept (pending.c).
- * Order is that of the stream, whatever thread sifted which chunk.
+ * Order is that of the stream, whatever thread classified which chunk.
  *
- * The edges of what is kept meet one after the other, in one thread; the others sift the next part
+ * The edges of what is kept meet one after the other, in one thread; the others classify the next part
  * meanwhile. Nothing in a chunk depends on that: what edges are followed is said when its part
  * begins, and edges that are put off by then are dropped when it is their turn. */
 #include "stream/draw.h"
@@ -100,7 +100,7 @@ static void look_for_fans(const dp_stream_draw *stream, dp_chunk *chunk, uint32_
         }
 }
 
-static void sift_chunk(const job *j, uint32_t index, uint32_t worker) {
+static void classify_chunk(const job *j, uint32_t index, uint32_t worker) {
     dp_stream_draw *const s = j->stream;
     dp_stream_worker *const w = &s->workers[worker];
     dp_chunk_output *const output = &s->outputs[index];
@@ -109,7 +109,7 @@ static void sift_chunk(const job *j, uint32_t index, uint32_t worker) {
     output->covering = output->pending_count = 0;
     output->result = dp_input_chunk(&s->input, index, w->buffer, &triangles, &output->diag);
     if (output->result) return;
-    dp_chunk_sift(w->chunk, &triangles, &s->view, &w->stats);
+    dp_chunk_classify(w->chunk, &triangles, &s->view, &w->stats);
     if (j->reading != DP_READ_EDGES) leave_covering(w->chunk, number, &triangles, output);
     if (j->reading == DP_READ_HIDERS) leave_flagged(s, w->chunk, number, &triangles, output);
     if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
@@ -130,9 +130,9 @@ static bool join_edges(dp_stream_draw *s) {
 static void do_task(void *arg, uint32_t index, uint32_t worker) {
     job *const j = arg;
     if (!j->joins)
-        sift_chunk(j, index, worker);
+        classify_chunk(j, index, worker);
     else if (index)
-        sift_chunk(j, index - 1, worker);
+        classify_chunk(j, index - 1, worker);
     else
         j->failed = !join_edges(j->stream);
 }
@@ -174,7 +174,7 @@ static void keep_chunk(void *arg, uint32_t index, uint32_t worker) {
            output->pending_count * sizeof *output->pending);
 }
 
-/* Their edges meet while the next part is sifted. */
+/* Their edges meet while the next part is classified. */
 static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
     dp_pending *const kept = &s->pending;
     size_t sum = kept->count;

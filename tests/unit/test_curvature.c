@@ -137,20 +137,20 @@ static void test_saddle(void **state) {
 
 /* ------- what is drawn along ------- */
 
-typedef struct bends {
-    dp_bend_store store;
+typedef struct curvature {
+    dp_curvature_store store;
     dp_threads *threads;
     dp_allocator memory;
-} bends;
+} curvature;
 
-static void bend(bends *b, const dp_polygons *p) {
+static void bend(curvature *b, const dp_polygons *p) {
     b->memory = dp_allocator_resolve(NULL);
     if (!b->threads) b->threads = dp_threads_create(2, NULL, NULL, &b->memory);
-    assert_true(dp_bends_make(&b->store, p, b->threads, &b->memory));
+    assert_true(dp_curvature_directions(&b->store, p, b->threads, &b->memory));
 }
 
-static void unbend(bends *b) {
-    dp_bend_store_free(&b->store, &b->memory);
+static void unbend(curvature *b) {
+    dp_curvature_store_free(&b->store, &b->memory);
     dp_threads_destroy(b->threads);
 }
 
@@ -160,7 +160,7 @@ static void test_umbilics_and_noise_get_a_steady_direction(void **state) {
     (void)state;
     const uint32_t n = 40;
     const dp_polygons p = patch(sphere_at, n);
-    bends b;
+    curvature b;
     memset(&b, 0, sizeof b);
     bend(&b, &p);
     for (uint32_t i = 15; i + 15 <= n;
@@ -189,7 +189,7 @@ static void test_directions_are_unit_tangent_and_kept(void **state) {
     (void)state;
     const uint32_t n = 30;
     const dp_polygons p = patch(torus_at, n);
-    bends b;
+    curvature b;
     memset(&b, 0, sizeof b);
     bend(&b, &p);
     for (uint32_t v = 0; v < p.vertex_count; v++)
@@ -209,7 +209,7 @@ static void test_broken_meshes_are_survived(void **state) {
     static const uint32_t t[12] = {0, 1, 2, 0, 0, 1, 0, 1, 99, 0, 1, 3};
     const dp_polygons p = {
         .positions = few[0], .stride = 12, .vertex_count = 4, .corners = t, .count = 4};
-    bends b;
+    curvature b;
     memset(&b, 0, sizeof b);
     find(&p);
     bend(&b, &p);

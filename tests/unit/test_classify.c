@@ -1,5 +1,5 @@
-/* stream/sift.inc: what vectors of any width make of a chunk's triangles is what the general way
- * makes of them (stream/sift.c), and what they leave to it does not depend on the width.
+/* stream/classify.inc: what vectors of any width make of a chunk's triangles is what the general way
+ * makes of them (stream/classify.c), and what they leave to it does not depend on the width.
  *
  * With DRYPOINT_BENCH in the environment, times are printed as well. */
 #include "stream/kernels.h"
@@ -80,7 +80,7 @@ static void leave_all(dp_chunk *chunk, const dp_triangles *triangles, const dp_c
         chunk->unsure[chunk->unsure_count++] = (uint16_t)t;
 }
 
-static const dp_stream_kernels general = {.sift = leave_all, .touch = leave_all};
+static const dp_stream_kernels general = {.classify = leave_all, .touch = leave_all};
 
 /* A picture whose surface is known in part, and of which a tenth is looked at. */
 typedef struct picture {
@@ -133,13 +133,13 @@ static double now_ns(void) {
     return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
 }
 
-/* Sifts records [first, first + count). */
-static dp_stats sift(dp_chunk *chunk, const dp_stream_kernels *kernels, dp_chunk_view view,
-                     uint32_t first, uint32_t count) {
+/* Classifies records [first, first + count). */
+static dp_stats classify(dp_chunk *chunk, const dp_stream_kernels *kernels, dp_chunk_view view,
+                         uint32_t first, uint32_t count) {
     const dp_triangles triangles = {records[first] + CORNERS_AT, RECORD, count, NULL};
     dp_stats stats = {0};
     view.kernels = kernels;
-    dp_chunk_sift(chunk, &triangles, &view, &stats);
+    dp_chunk_classify(chunk, &triangles, &view, &stats);
     return stats;
 }
 
@@ -148,8 +148,9 @@ enum { FOR_GOOD = 0xff & ~DP_TRIANGLE_WITHIN };
 /* Counts the triangles that the kernel has left alive itself, and those with any state. */
 static void expect_general(dp_width kernels, const dp_chunk_view *view, uint32_t first,
                            uint32_t count, uint32_t counts[2]) {
-    const dp_stats truth = sift(&plain, &general, *view, first, count),
-                   stats = sift(&wide, dp_stream_kernels_for(kernels.lanes), *view, first, count);
+    const dp_stats truth = classify(&plain, &general, *view, first, count),
+                   stats =
+                       classify(&wide, dp_stream_kernels_for(kernels.lanes), *view, first, count);
     assert_int_equal(truth.dropped_finite, stats.dropped_finite);
     assert_int_equal(truth.dropped_area, stats.dropped_area);
     for (uint32_t t = 0; t < count; t++) {
@@ -163,7 +164,7 @@ static void expect_general(dp_width kernels, const dp_chunk_view *view, uint32_t
     }
     for (uint32_t i = 0; i < wide.unsure_count; i++) counts[0] -= wide.state[wide.unsure[i]] != 0;
     const uint32_t unsure = wide.unsure_count;
-    sift(&plain, &dp_stream_kernels_plain, *view, first, count);
+    classify(&plain, &dp_stream_kernels_plain, *view, first, count);
     assert_int_equal(plain.unsure_count, unsure);
     assert_memory_equal(plain.unsure, wide.unsure, unsure * sizeof *plain.unsure);
     assert_memory_equal(plain.state, wide.state, count);
@@ -186,7 +187,7 @@ static void check(const dp_chunk_view *view, const char *what) {
         assert_true(counts[0] > counts[1] / 3);
         const double start = now_ns();
         for (int r = 0; r < REPEATS; r++)
-            sift(&wide, dp_stream_kernels_for(list[i].lanes), *view, 0, DP_TUNED(4000, 3));
+            classify(&wide, dp_stream_kernels_for(list[i].lanes), *view, 0, DP_TUNED(4000, 3));
         if (getenv("DRYPOINT_BENCH"))
             print_message("%-6s %-7s %6.2f ns each\n", what, list[i].name,
                           (now_ns() - start) / 4000 / REPEATS);
@@ -231,7 +232,7 @@ static void equal_edges_have_equal_keys(void **state) {
     for (uint32_t i = 0; i < count; i++) {
         dp_stats stats = {0};
         p.chunk.kernels = dp_stream_kernels_for(list[i].lanes);
-        dp_chunk_sift(&wide, &triangles, &p.chunk, &stats);
+        dp_chunk_classify(&wide, &triangles, &p.chunk, &stats);
         assert_true(wide.state[0] & DP_TRIANGLE_LIVE);
         assert_true(wide.state[1] & DP_TRIANGLE_LIVE);
         assert_int_equal(wide.edge_key[0][0], wide.edge_key[0][1]);

@@ -1,11 +1,11 @@
-/* A chunk's triangles sifted, before anything is binned.
+/* A chunk's triangles classified, before anything is binned.
  *
  * In a model larger than memory nearly all triangles are far below a sample: what they cost is
  * decided here. A triangle is dropped that lies outside the picture, or well behind what is already
  * known of the surface; and one whose box holds no sample point covers nothing, but may still have
  * edges. In the second reading those are left that touch a pixel that is looked at.
  *
- * Kernels do so for most (stream/sift.inc), this is the general way: what has to be clipped, is
+ * Kernels do so for most (stream/classify.inc), this is the general way: what has to be clipped, is
  * seen nearly edge-on or reaches over more than two pixels or blocks. Both decide the same of what
  * both can. */
 #include "stream/chunk.h"
@@ -33,9 +33,9 @@ static box box_of(dp_point a, dp_point b, dp_point c) {
 }
 
 static bool is_outside(const box *b, const dp_view *view) {
-    return b->x1 < -DP_SIFT_MARGIN || b->y1 < -DP_SIFT_MARGIN ||
-           b->x0 > (float)view->width + DP_SIFT_MARGIN ||
-           b->y0 > (float)view->height + DP_SIFT_MARGIN;
+    return b->x1 < -DP_CLASSIFY_MARGIN || b->y1 < -DP_CLASSIFY_MARGIN ||
+           b->x0 > (float)view->width + DP_CLASSIFY_MARGIN ||
+           b->y0 > (float)view->height + DP_CLASSIFY_MARGIN;
 }
 
 /* Well behind the surface in every block around it. */
@@ -48,7 +48,7 @@ static bool is_hidden(const box *b, const dp_chunk_view *v) {
     const uint32_t by0 = (uint32_t)y0 / DP_BLOCK, by1 = (uint32_t)y1 / DP_BLOCK;
     if (bx1 - bx0 > 16 || by1 - by0 > 16) return false;
     const float nearest =
-        b->nearest + (float)fabs(dp_depth_step(v->view, b->nearest, DP_SIFT_SLACK));
+        b->nearest + (float)fabs(dp_depth_step(v->view, b->nearest, DP_CLASSIFY_SLACK));
     for (uint32_t by = by0; by <= by1; by++)
         for (uint32_t bx = bx0; bx <= bx1; bx++) {
             const size_t tile = (size_t)(by / DP_BLOCKS) * v->tiles_x + bx / DP_BLOCKS;
@@ -69,8 +69,8 @@ bool dp_triangle_is_hidden(const dp_chunk_view *view, const float *a, const floa
 
 /* Does the box hold a sample point? Also true for boxes of more than two pixels' side. */
 static bool holds_sample(const box *b, const dp_sampling *s) {
-    const float x0 = b->x0 - DP_SIFT_ROUNDING, y0 = b->y0 - DP_SIFT_ROUNDING,
-                x1 = b->x1 + DP_SIFT_ROUNDING, y1 = b->y1 + DP_SIFT_ROUNDING;
+    const float x0 = b->x0 - DP_CLASSIFY_ROUNDING, y0 = b->y0 - DP_CLASSIFY_ROUNDING,
+                x1 = b->x1 + DP_CLASSIFY_ROUNDING, y1 = b->y1 + DP_CLASSIFY_ROUNDING;
     const float px0 = floorf(x0), py0 = floorf(y0), px1 = floorf(x1), py1 = floorf(y1);
     if (px1 - px0 > 1 || py1 - py0 > 1) return true;
     const bool single = s->samples == 1;
@@ -90,10 +90,10 @@ static bool holds_sample(const box *b, const dp_sampling *s) {
 /* Does the box touch one of the pixels? */
 static bool holds_pixel(const box *b, const dp_chunk_view *v, const uint64_t *pixels) {
     const float w = (float)(v->tiles_x * DP_TILE - 1), h = (float)(v->tiles_y * DP_TILE - 1);
-    const uint32_t x0 = (uint32_t)dp_minf(dp_maxf(b->x0 - DP_SIFT_ROUNDING, 0), w),
-                   x1 = (uint32_t)dp_minf(dp_maxf(b->x1 + DP_SIFT_ROUNDING, 0), w);
-    const uint32_t y0 = (uint32_t)dp_minf(dp_maxf(b->y0 - DP_SIFT_ROUNDING, 0), h),
-                   y1 = (uint32_t)dp_minf(dp_maxf(b->y1 + DP_SIFT_ROUNDING, 0), h);
+    const uint32_t x0 = (uint32_t)dp_minf(dp_maxf(b->x0 - DP_CLASSIFY_ROUNDING, 0), w),
+                   x1 = (uint32_t)dp_minf(dp_maxf(b->x1 + DP_CLASSIFY_ROUNDING, 0), w);
+    const uint32_t y0 = (uint32_t)dp_minf(dp_maxf(b->y0 - DP_CLASSIFY_ROUNDING, 0), h),
+                   y1 = (uint32_t)dp_minf(dp_maxf(b->y1 + DP_CLASSIFY_ROUNDING, 0), h);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t tile = x0 / DP_TILE; tile <= x1 / DP_TILE; tile++) {
             const uint64_t row =
@@ -133,8 +133,8 @@ bool dp_edge_may_be_seen(const float *p, const float *q, const dp_view *view) {
     return !is_outside(&at, view);
 }
 
-static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *triangles,
-                          const dp_chunk_view *view, dp_stats *stats) {
+static void classify_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *triangles,
+                              const dp_chunk_view *view, dp_stats *stats) {
     float corners[9];
     int any, all;
     dp_triangle_corners(triangles, t, corners);
@@ -163,16 +163,16 @@ static void sift_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *trian
     if (any || holds_sample(&at, &view->sampling)) chunk->state[t] |= DP_TRIANGLE_COVERS;
 }
 
-void dp_chunk_sift(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view,
-                   dp_stats *stats) {
+void dp_chunk_classify(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view,
+                       dp_stats *stats) {
     chunk->count = triangles->count;
     chunk->unsure_count = 0;
     if (view->wanted)
         view->kernels->touch(chunk, triangles, view);
     else
-        view->kernels->sift(chunk, triangles, view);
+        view->kernels->classify(chunk, triangles, view);
     for (uint32_t i = 0; i < chunk->unsure_count; i++)
-        sift_triangle(chunk, chunk->unsure[i], triangles, view, stats);
+        classify_triangle(chunk, chunk->unsure[i], triangles, view, stats);
 }
 
 /* ------- maps of pixels ------- */
