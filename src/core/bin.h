@@ -56,9 +56,9 @@ void dp_bins_free(dp_bins *bins, const dp_allocator *memory);
 /* Memory that stays, bytes. */
 uint64_t dp_bins_bytes(const dp_bins *bins);
 
-/* Asks for what a walk over a tile's chunks will read when it comes to those after chunk `c`: it
+/* Prefetches what a walk over a tile's chunks will read when it comes to those after chunk `c`: it
  * lies scattered. */
-static inline void dp_bins_ask(const dp_bins *bins, uint32_t tile, uint32_t c) {
+static inline void dp_bins_prefetch(const dp_bins *bins, uint32_t tile, uint32_t c) {
     const dp_bin_chunk *const chunks = bins->chunks;
     if (c + 8 < bins->chunk_count) __builtin_prefetch(&chunks[c + 8].offsets[tile]);
     if (c + 4 < bins->chunk_count)

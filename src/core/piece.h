@@ -19,7 +19,7 @@ typedef struct dp_piece {
 
 typedef struct dp_tile_pieces {
     uint32_t worker; /* whose list */
-    bool bare;       /* no polygon touches the tile; its depth samples are not set */
+    bool empty;      /* no polygon touches the tile; its depth samples are not set */
     size_t first, count;
 } dp_tile_pieces;
 

@@ -41,9 +41,9 @@ void dp_draw_tile(dp_finder *f, dp_printer *printer, uint32_t index) {
     dp_tile_pieces *const out = &frame->tile_pieces[index];
     out->first = first;
     out->count = 0;
-    out->bare = dp_bins_tile_count(&frame->polygon_bins, index) == 0;
-    if (out->bare) {
-        dp_tile_bare_surface(&f->tile);
+    out->empty = dp_bins_tile_count(&frame->polygon_bins, index) == 0;
+    if (out->empty) {
+        dp_tile_empty_surface(&f->tile);
         return;
     }
     for (size_t i = 0; i < frame->tile_samples; i++) f->tile.depth[i] = DP_DEPTH_EMPTY;

@@ -262,15 +262,15 @@ static uint32_t take_entries(const dp_finder *w, uint32_t *number,
     uint32_t count = 0;
     while (count < DP_FOLDS && (*number = dp_edge_table_next(w, *number)) != UINT32_MAX) {
         const dp_edge_entry e = dp_edge_table_entry(w, (*number)++);
-        dp_ask_for_corners(polygons, w->tile.polygons[e.a].id);
-        if (e.b != UINT32_MAX) dp_ask_for_corners(polygons, w->tile.polygons[e.b].id);
+        dp_prefetch_corners(polygons, w->tile.polygons[e.a].id);
+        if (e.b != UINT32_MAX) dp_prefetch_corners(polygons, w->tile.polygons[e.b].id);
         entries[count++] = e;
     }
     for (uint32_t i = 0; i < count; i++) {
         dp_edge_entry *const e = &entries[i];
         dp_edge_ends(w, (dp_edge_place){e->a, e->edge_a}, &e->va, &e->vb);
-        dp_ask_for_positions(polygons, w->tile.polygons[e->a].id);
-        if (e->b != UINT32_MAX) dp_ask_for_positions(polygons, w->tile.polygons[e->b].id);
+        dp_prefetch_positions(polygons, w->tile.polygons[e->a].id);
+        if (e->b != UINT32_MAX) dp_prefetch_positions(polygons, w->tile.polygons[e->b].id);
     }
     return count;
 }

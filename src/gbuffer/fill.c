@@ -329,7 +329,7 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *w, dp_normals normals) {
     uint64_t *const mask = g->mask + (size_t)w->index * DP_TILE;
     const uint32_t width = g->width - w->tile_x < DP_TILE ? g->width - w->tile_x : DP_TILE;
     const uint32_t height = g->height - w->tile_y < DP_TILE ? g->height - w->tile_y : DP_TILE;
-    const bool bare = w->frame->tile_pieces[w->index].bare,
+    const bool empty = w->frame->tile_pieces[w->index].empty,
                facets = normals == DP_NORMALS_FACET || !g->normals;
     const dp_fill f = {.g = g,
                        .w = w,
@@ -338,8 +338,8 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *w, dp_normals normals) {
                        .step = (float)(1 / w->frame->view.focal)};
     memset(mask, 0, DP_TILE * sizeof *mask);
     memset(g->shared + (size_t)w->index * DP_TILE, 0, DP_TILE * sizeof *mask);
-    if (bare && g->clean[w->index]) return; /* it still holds background */
-    if (!bare) fill_rows(&f, width, height);
-    for (uint32_t y = 0; bare && y < height; y++) fill_background(g, row_place(&f, y), width);
-    g->clean[w->index] = bare; /* the margin beside it is not yet */
+    if (empty && g->clean[w->index]) return; /* it still holds background */
+    if (!empty) fill_rows(&f, width, height);
+    for (uint32_t y = 0; empty && y < height; y++) fill_background(g, row_place(&f, y), width);
+    g->clean[w->index] = empty; /* the margin beside it is not yet */
 }

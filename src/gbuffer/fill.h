@@ -47,11 +47,11 @@ typedef struct dp_fillers {
     uint32_t lanes; /* floats per vector */
     /* Four samples per pixel: which polygon each pixel shows, or that it is mixed. */
     void (*pick)(const dp_fill *f, dp_fill_row *r);
-    /* Then, of columns [x0, x1), one after the other, and some rows apart: what is asked for ahead
+    /* Then, of columns [x0, x1), one after the other, and some rows apart: what is prefetched
      * has come until it is needed. */
     void (*find)(const dp_fill *f,
-                 dp_fill_row *r); /* polygons of the frame; asks for their corners */
-    void (*touch)(const dp_fill *f, const dp_fill_row *r); /* asks for the corners' normals */
+                 dp_fill_row *r); /* polygons of the frame; prefetches their corners */
+    void (*touch)(const dp_fill *f, const dp_fill_row *r); /* prefetches the corners' normals */
     void (*collect)(const dp_fill *f, dp_fill_row *r);     /* what polygons give; which are odd */
     /* To the G-buffer; `pixel`: the place of the tile's first column. */
     void (*finish)(const dp_fill *f, const dp_fill_row *r, size_t pixel);

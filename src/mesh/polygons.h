@@ -68,13 +68,13 @@ static inline uint32_t dp_corner_vertex(const dp_polygons *polygons, uint32_t co
     return polygons->corners ? polygons->corners[corner] : corner;
 }
 
-/* Polygons are looked at in no order of memory: these ask for the vertex numbers of a polygon's
+/* Polygons are looked at in no order of memory: these prefetch the vertex numbers of a polygon's
  * first three corners, and for their positions, ahead of the time when they are read. */
-static inline void dp_ask_for_corners(const dp_polygons *polygons, uint32_t polygon) {
+static inline void dp_prefetch_corners(const dp_polygons *polygons, uint32_t polygon) {
     if (polygons->corners)
         __builtin_prefetch(&polygons->corners[dp_first_corner(polygons, polygon)]);
 }
-static inline void dp_ask_for_positions(const dp_polygons *polygons, uint32_t polygon) {
+static inline void dp_prefetch_positions(const dp_polygons *polygons, uint32_t polygon) {
     const uint32_t first = dp_first_corner(polygons, polygon);
     for (uint32_t i = 0; i < 3; i++)
         __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));

@@ -125,7 +125,7 @@ static bool collect_ids(dp_tile *w, uint32_t *count, uint32_t *back_count) {
     *count = *back_count = 0;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
         const dp_bin_chunk *const chunk = &bins->chunks[c];
-        dp_bins_ask(bins, w->index, c);
+        dp_bins_prefetch(bins, w->index, c);
         const uint32_t first = chunk->offsets[w->index], n = chunk->offsets[w->index + 1] - first;
         dp_raster_kernels_for(w->frame->lanes)
             ->part(chunk->entries + first, n, w->ids, count, w->backs, back_count);

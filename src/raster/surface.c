@@ -130,7 +130,7 @@ void dp_tile_surface(dp_tile *w) {
 }
 
 /* No polygon touches the tile: paper. */
-void dp_tile_bare_surface(dp_tile *w) {
+void dp_tile_empty_surface(dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);
     const dp_color paper = w->frame->styles[0].paper;

@@ -159,7 +159,7 @@ void dp_tile_find_farthest(dp_tile *tile);     /* cull.c */
 void dp_tile_faces(dp_tile *tile);             /* cull.c; … some back faces */
 bool dp_tile_see(dp_tile *tile, bool culling); /* cull.c: lists what is not hidden, or all */
 void dp_tile_surface(dp_tile *tile);           /* surface.c */
-void dp_tile_bare_surface(dp_tile *tile);
+void dp_tile_empty_surface(dp_tile *tile);
 
 /* Culling: how far behind the surface is well behind it, pixel sizes. */
 #define DP_CULL_SLACK 6

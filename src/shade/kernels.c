@@ -57,11 +57,11 @@ static void pack(const dp_shade_run *run, uint32_t *words) {
 
 const dp_shaders DP_KERNEL_TABLE(dp_shaders) = {
     .lanes = DP_LANES,
-    .looks = {[DP_SHADING_LAMBERT] = lambert,
-              [DP_SHADING_GOOCH] = gooch,
-              [DP_SHADING_TOON] = toon,
-              [DP_SHADING_HATCH] = hatch,
-              [DP_SHADING_HALFTONE] = hatch},
+    .styles = {[DP_SHADING_LAMBERT] = lambert,
+               [DP_SHADING_GOOCH] = gooch,
+               [DP_SHADING_TOON] = toon,
+               [DP_SHADING_HATCH] = hatch,
+               [DP_SHADING_HALFTONE] = hatch},
     .highlight = highlight,
     .paint = paint,
     .pack = pack,

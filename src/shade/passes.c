@@ -253,8 +253,8 @@ static void put_mirror(const dp_shade_store *s, const dp_shade_run *run) {
 
 static void shade_tile(dp_shade_store *s, uint32_t tile) {
     const dp_shading shading = s->setup.shade.shading;
-    dp_shade_operator *const look =
-        shading == DP_SHADING_PENCIL ? dp_shade_pencil : s->shaders->looks[shading];
+    dp_shade_operator *const style =
+        shading == DP_SHADING_PENCIL ? dp_shade_pencil : s->shaders->styles[shading];
     const dp_gbuffer *const g = &s->gbuffer;
     const uint32_t first = tile / g->tiles_x * DP_TILE;
     for (uint32_t row = 0; row < DP_TILE && first + row < g->height; row++) {
@@ -263,7 +263,7 @@ static void shade_tile(dp_shade_store *s, uint32_t tile) {
         if (!dp_gbuffer_span(g, tile, row, &x0, &x1)) continue;
         x0 -= x0 % DP_TILE % DP_GBUFFER_STRIP;
         begin_run(s, first + row, x0, x1, &run);
-        if (look) look(&s->setup, &run);
+        if (style) style(&s->setup, &run);
         end_run(s, &run);
         if (s->mirrored) put_mirror(s, &run);
     }

@@ -1,4 +1,4 @@
-/* Shading: from the G-buffer to colours, one operator per look; and the passes that put all
+/* Shading: from the G-buffer to colours, one operator per style; and the passes that put all
  * together. */
 #ifndef DP_SHADE_SHADE_H
 #define DP_SHADE_SHADE_H
@@ -72,10 +72,10 @@ typedef struct dp_smooth_run {
 /* The operators, compiled for several kinds of processors (rows_….c); all give the same bits. They
  * work in whole strips (DP_GBUFFER_STRIP): so far rows and arrays of a run are read. */
 typedef struct dp_shaders {
-    uint32_t lanes;                             /* floats per vector */
-    dp_shade_operator *looks[DP_SHADING_COUNT]; /* NULL: stays as it is, or is not one of these */
+    uint32_t lanes;                              /* floats per vector */
+    dp_shade_operator *styles[DP_SHADING_COUNT]; /* NULL: stays as it is, or is not one of these */
     dp_shade_operator
-        *highlight; /* Phong's, (r·v)^50 times strength, added towards white; part of the looks */
+        *highlight; /* Phong's, (r·v)^50 times strength, added towards white; part of the styles */
     void (*paint)(const float rgba[4], dp_shade_run *run);  /* all in one colour */
     void (*pack)(const dp_shade_run *run, uint32_t *words); /* as pixels of four bytes; [DP_TILE] */
     void (*smooth)(const dp_smooth_run *run,

@@ -245,7 +245,7 @@ void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) 
                      .worker = worker,
                      .style = &frame->styles[0].stroke,
                      .outlines_outside = dp_lies_outside(frame),
-                     .depth = frame->tile_pieces[tile].bare
+                     .depth = frame->tile_pieces[tile].empty
                                   ? NULL
                                   : frame->depth + (size_t)tile * frame->tile_samples,
                      .x0 = x0,

@@ -125,7 +125,7 @@ static void find_rows(const tile_ink *ink, const dp_stroke *s, uint32_t *y0, uin
 /* Asks for the samples under a stroke, of which most are short: so many pixels of each row, as far
  * apart as a line of the cache at four samples a pixel. They lie scattered, and long ago they were
  * drawn. */
-static void ask_for_samples(const tile_ink *ink, const dp_stroke *s) {
+static void prefetch_samples(const tile_ink *ink, const dp_stroke *s) {
     enum { APART = 4, MOST = 4 };
     uint32_t y0, y1;
     find_rows(ink, s, &y0, &y1);
@@ -170,8 +170,8 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
         if (!pixels) continue;
         if (target->rgba)
             dp_sink_kernels_for(ink->frame->lanes)
-                ->lay(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
-                      ink->x1 - ink->x0, coverage, pixels, color);
+                ->blend(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
+                        ink->x1 - ink->x0, coverage, pixels, color);
         for (uint64_t bits = target->line_class ? pixels : 0; bits; bits &= bits - 1) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);
             if (coverage[px] >= 0.5f)
@@ -195,7 +195,7 @@ bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, si
     return true;
 }
 
-/* So many strokes ahead they, and the samples under them, are asked for. */
+/* So many strokes ahead they, and the samples under them, are prefetched. */
 enum { LATER = 12, SOON = 4 };
 
 /* Puts the tile's strokes in the order of their classes, each class's as they came: `first` is
@@ -226,7 +226,7 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
     for (size_t i = 0; i < count; i++) {
         const dp_stroke *const s = &ink->frame->strokes[strokes[i]];
         if (i + SOON < count && ink->hides)
-            ask_for_samples(ink, &ink->frame->strokes[strokes[i + SOON]]);
+            prefetch_samples(ink, &ink->frame->strokes[strokes[i + SOON]]);
         if (i && s->color != color) flush(ink, line, color);
         color = s->color;
         cover(ink, s);
@@ -244,11 +244,11 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
     if (!count) return;
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
-    const bool bare = frame->tile_pieces[tile].bare;
+    const bool empty = frame->tile_pieces[tile].empty;
     const tile_ink ink = {.frame = frame,
                           .worker = worker,
-                          .depth = bare ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
-                          .hides = !bare && frame->lines & DP_SILHOUETTE,
+                          .depth = empty ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
+                          .hides = !empty && frame->lines & DP_SILHOUETTE,
                           .x0 = x0,
                           .y0 = y0,
                           .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,

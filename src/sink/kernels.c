@@ -7,5 +7,5 @@
 
 const dp_sink_kernels DP_KERNEL_TABLE(dp_sink_kernels) = {
     .cover = cover,
-    .lay = lay,
+    .blend = blend,
 };

@@ -16,8 +16,8 @@ typedef struct dp_sink_kernels {
     void (*cover)(const struct dp_frame *frame, const struct dp_stroke *stroke,
                   const struct dp_ink_patch *patch, struct dp_ink_worker *worker);
     /* Lays ink over pixels of a row of a tile, of which `width` lie in the picture (cover.inc). */
-    void (*lay)(uint8_t *row, uint32_t width, const float *coverage, uint64_t pixels,
-                dp_color color);
+    void (*blend)(uint8_t *row, uint32_t width, const float *coverage, uint64_t pixels,
+                  dp_color color);
 } dp_sink_kernels;
 
 DP_KERNEL_TABLES(dp_sink_kernels);

@@ -311,7 +311,7 @@ static bool settle(dp_pending *kept) {
     return rebuild(kept, kept->count, 0);
 }
 
-enum { AHEAD = 16 /* triangles whose slots are asked for before the first is looked at */ };
+enum { AHEAD = 16 /* triangles whose slots are prefetched before the first is looked at */ };
 
 static void join_some(dp_pending *kept, dp_pending_triangle *triangles, size_t count) {
     uint32_t hashes[AHEAD][3] = {{0}};

@@ -225,18 +225,18 @@ static bool hidden(const ref_truth *truth, size_t at, double depth, double px) {
 }
 
 static void measure_masks(const ref_truth *truth, const masks *mask, double px, score *out) {
-    size_t ideal = 0, bare = 0, cracked = 0;
+    size_t ideal = 0, empty = 0, cracked = 0;
     for (size_t i = 0; i < (size_t)truth->width * truth->height; i++) {
         out->ink += (double)mask->ink[i];
         if (!mask->near[i]) out->stray += (double)mask->ink[i];
         if (mask->ideal[i] == 0) continue;
         ideal++;
         if (mask->ink[i] >= (float)BARE) continue;
-        bare++;
+        empty++;
         cracked += !hidden(truth, i, (double)mask->ideal[i], px);
     }
     out->precision = out->ink > 0 ? 1 - out->stray / out->ink : 1;
-    out->uncovered = ideal > 0 ? (double)bare / (double)ideal : 0;
+    out->uncovered = ideal > 0 ? (double)empty / (double)ideal : 0;
     out->cracks = ideal > 0 ? (double)cracked / (double)ideal : 0;
 }
 

@@ -49,9 +49,9 @@ static void test_a_soup_has_the_same_neighbours_as_an_indexed_mesh(void **state)
     for (int i = 0; i < 12; i++) memcpy(soup[i], p[t[i]], sizeof *soup);
     soup[0][0] = -0.0f; /* the same place */
     uint32_t a[24], b[24];
-    const dp_batch indexed = batch_of(p[0], 4, t, 4), bare = batch_of(soup[0], 12, NULL, 4);
+    const dp_batch indexed = batch_of(p[0], 4, t, 4), empty = batch_of(soup[0], 12, NULL, 4);
     assert_int_equal(dp_adjacency_indices(&indexed, NULL, a, NULL), DP_OK);
-    assert_int_equal(dp_adjacency_indices(&bare, NULL, b, NULL), DP_OK);
+    assert_int_equal(dp_adjacency_indices(&empty, NULL, b, NULL), DP_OK);
     for (int i = 0; i < 24; i++) assert_int_equal(a[i], t[b[i]]);
     expect_six(a, (const uint32_t[6]){0, 3, 2, 3, 1, 3});
 }

@@ -13,8 +13,8 @@ static void plain_files_are_read(void **state) {
     assert_trace("OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2", TRACE);
     assert_trace("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 3 2\n3 0 1 2\n",
                  "(0 0 0)(1 0 0)(1 1 0)(0 1 0)\n" TRACE);
-    static const char bare[] = "3 1 0\n" TRIANGLE;
-    assert_string_equal(trace_bytes(bare, sizeof bare - 1, "a.off", DP_FORMAT_AUTO), TRACE);
+    static const char empty[] = "3 1 0\n" TRIANGLE;
+    assert_string_equal(trace_bytes(empty, sizeof empty - 1, "a.off", DP_FORMAT_AUTO), TRACE);
 }
 
 static void comments_are_passed_over(void **state) {

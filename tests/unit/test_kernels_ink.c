@@ -140,7 +140,7 @@ static void layings_agree(void **state) {
             if (pixels >> i & 1) dp_blend(truth + 4 * (size_t)i, color, coverage[i]);
         for (uint32_t i = 0; i < count; i++) {
             memcpy(row, under, sizeof under);
-            dp_sink_kernels_for(list[i].lanes)->lay(row, width, coverage, pixels, color);
+            dp_sink_kernels_for(list[i].lanes)->blend(row, width, coverage, pixels, color);
             assert_memory_equal(row, truth, sizeof truth);
         }
     }

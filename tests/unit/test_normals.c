@@ -134,13 +134,13 @@ static void soups_and_threads_make_no_difference(void **state) {
                               .indices = corners,
                               .corner_count = CORNERS,
                               .polygon_count = CORNERS / 3};
-    const dp_batch bare = {.positions = soup[0],
-                           .vertex_count = CORNERS,
-                           .corner_count = CORNERS,
-                           .polygon_count = CORNERS / 3};
+    const dp_batch empty = {.positions = soup[0],
+                            .vertex_count = CORNERS,
+                            .corner_count = CORNERS,
+                            .polygon_count = CORNERS / 3};
     maker one = begin(1), many = begin(7);
     make(&one, &indexed, 30);
-    make(&many, &bare, 30);
+    make(&many, &empty, 30);
     int creases = 0;
     for (size_t c = 0; c < CORNERS; c++) {
         assert_memory_equal(normal_of(&one, c), normal_of(&many, c), 12);

@@ -251,10 +251,10 @@ static void what_lies_askew_is_refused(void **state) {
             assert_int_equal(dp_adjacency_indices(&bad[i], NULL, six, NULL), DP_ERR_ARGUMENT);
     }
     /* an array that is not there has no stride */
-    dp_batch bare = quad_batch();
+    dp_batch empty = quad_batch();
     dp_source *source = NULL;
-    bare.normals.stride = 7;
-    assert_int_equal(dp_source_from_arrays(&bare, NULL, &source, NULL), DP_OK);
+    empty.normals.stride = 7;
+    assert_int_equal(dp_source_from_arrays(&empty, NULL, &source, NULL), DP_OK);
     dp_source_destroy(source);
 }
 

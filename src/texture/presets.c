@@ -94,15 +94,15 @@ static float dots(float u, float v, uint32_t seed) {
     return 1 - ramp(0.92f, 1.0f, sqrtf(x * x + y * y));
 }
 
-typedef struct look {
+typedef struct preset {
     const char *name, *about;
     rule *make;
     uint32_t width, height; /* px */
     float taper, jitter, overshoot;
     uint32_t repeats;
-} look;
+} preset;
 
-static const look looks[] = {
+static const preset presets[] = {
     {"pencil", "graphite on grained paper, a little off the line", pencil, 512, 32, 10, 0.6f, 4, 1},
     {"brush", "bristles that run dry, thinning out at both ends", brush, 512, 64, 60, 0.5f, 0, 1},
     {"charcoal", "coarse and crumbling, without a clear rim", charcoal, 512, 64, 14, 0.8f, 3, 1},
@@ -110,25 +110,27 @@ static const look looks[] = {
     {"dashes", "dashes of five widths, three widths apart", dashes, 256, 32, 0, 0, 0, 1},
     {"dots", "round dots, one every two widths", dots, 128, 64, 0, 0, 0, 1},
 };
-enum { LOOKS = sizeof looks / sizeof *looks };
+enum { PRESETS = sizeof presets / sizeof *presets };
 
-uint32_t dp_texture_count(void) { return LOOKS; }
-const char *dp_texture_name(uint32_t index) { return index < LOOKS ? looks[index].name : NULL; }
-const char *dp_texture_about(uint32_t index) { return index < LOOKS ? looks[index].about : NULL; }
+uint32_t dp_texture_count(void) { return PRESETS; }
+const char *dp_texture_name(uint32_t index) { return index < PRESETS ? presets[index].name : NULL; }
+const char *dp_texture_about(uint32_t index) {
+    return index < PRESETS ? presets[index].about : NULL;
+}
 
 /* NULL, and says so, for a name that is none. */
-static const look *find(const char *name, dp_diag *diag) {
+static const preset *find(const char *name, dp_diag *diag) {
     char known[128] = "";
-    for (uint32_t i = 0; i < LOOKS; i++) {
-        if (name && !strcmp(name, looks[i].name)) return &looks[i];
-        strcat(strcat(known, i ? ", " : ""), looks[i].name);
+    for (uint32_t i = 0; i < PRESETS; i++) {
+        if (name && !strcmp(name, presets[i].name)) return &presets[i];
+        strcat(strcat(known, i ? ", " : ""), presets[i].name);
     }
     dp_fail(diag, DP_ERR_ARGUMENT, "\"%s\" is no stroke; there are %s", name ? name : "", known);
     return NULL;
 }
 
 dp_result dp_stroke_look(const char *name, dp_stroke_style *style, dp_diag *diag) {
-    const look *const l = find(name, diag);
+    const preset *const l = find(name, diag);
     if (!l || !style) return DP_ERR_ARGUMENT;
     style->taper = l->taper, style->jitter = l->jitter, style->overshoot = l->overshoot,
     style->repeats = l->repeats;
@@ -139,7 +141,7 @@ dp_result dp_texture_named(const char *name, uint32_t seed, const dp_allocator *
                            dp_texture **out, dp_diag *diag) {
     if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_texture_named: out is NULL");
     *out = NULL;
-    const look *const l = find(name, diag);
+    const preset *const l = find(name, diag);
     if (!l) return DP_ERR_ARGUMENT;
     const dp_allocator memory = dp_allocator_resolve(allocator);
     uint8_t *const pixels = dp_alloc_zeroed(&memory, (size_t)2 * l->width * l->height);
