@@ -9,14 +9,14 @@
 typedef struct dp_edge_list {
     uint32_t *polygon, *edge; /* tile polygon; number of the corner that the edge starts from */
     uint32_t *from;           /* that corner's key */
-    uint32_t *name;           /* exclusive or of the keys of both ends */
-    size_t polygon_cap, edge_cap, from_cap, name_cap;
+    uint32_t *key;            /* exclusive or of the keys of both ends */
+    size_t polygon_cap, edge_cap, from_cap, key_cap;
     uint32_t count;
 } dp_edge_list;
 
 enum { DP_EDGES_ROOM = 16 };
 
-/* A slot of the tile's table of edges (edge_table.c): an edge's name, and above it which of the
+/* A slot of the tile's table of edges (edge_table.c): an edge's key, and above it which of the
  * list met there. 0: the slot is free; else 1 + an edge that is alone, or DP_SLOT_PAIR + number of
  * a pair, and DP_SLOT_MORE. */
 typedef uint64_t dp_edge_slot;

@@ -1,8 +1,8 @@
 /* The edge table of a tile: which two polygons meet at an edge, found while the tile is drawn.
  *
  * Every polygon that touches an edge within the tile is in the tile's bin, so an edge's polygons
- * always meet here, without adjacency (docs/architecture.md). Edges are named by the keys of their
- * ends' positions: an index buffer, split vertices and a bare soup give the same names. Keys are
+ * always meet here, without adjacency (docs/architecture.md). Edges have keys made of the keys of their
+ * ends' positions: an index buffer, split vertices and a bare soup give the same keys. These are
  * hashes; before an edge becomes a line the positions themselves are compared. Of those that make
  * no line that is not asked: two neighbours of one vertex whose keys are equal would have to meet,
  * which one mesh of a million triangles in a thousand has.
@@ -26,8 +26,8 @@
 
 #include <string.h>
 
-dp_edge_place dp_edge_place_of(const dp_finder *w, uint32_t number) {
-    return (dp_edge_place){w->table.edges.polygon[number], w->table.edges.edge[number]};
+dp_half_edge dp_half_edge_of(const dp_finder *w, uint32_t number) {
+    return (dp_half_edge){w->table.edges.polygon[number], w->table.edges.edge[number]};
 }
 
 static bool same_position(const dp_polygons *polygons, uint32_t a, uint32_t b) {
@@ -41,7 +41,7 @@ typedef struct ends {
     uint32_t va, vb; /* vertices */
 } ends;
 
-static ends ends_of(const dp_finder *w, dp_edge_place at) {
+static ends ends_of(const dp_finder *w, dp_half_edge at) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     const uint32_t id = w->tile.polygons[at.polygon].id;
     const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);
@@ -49,12 +49,12 @@ static ends ends_of(const dp_finder *w, dp_edge_place at) {
                   dp_corner_vertex(polygons, first + (at.edge + 1 == n ? 0 : at.edge + 1))};
 }
 
-void dp_edge_ends(const dp_finder *w, dp_edge_place edge, uint32_t *va, uint32_t *vb) {
+void dp_edge_ends(const dp_finder *w, dp_half_edge edge, uint32_t *va, uint32_t *vb) {
     const ends e = ends_of(w, edge);
     *va = e.va, *vb = e.vb;
 }
 
-bool dp_edge_runs_between(const dp_finder *w, dp_edge_place edge, uint32_t va, uint32_t vb) {
+bool dp_edge_runs_between(const dp_finder *w, dp_half_edge edge, uint32_t va, uint32_t vb) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     const ends e = ends_of(w, edge);
     return (same_position(polygons, e.va, va) && same_position(polygons, e.vb, vb)) ||
@@ -83,7 +83,7 @@ void dp_edge_list_polygon(dp_finder *w, uint32_t index) {
             ka != kb || !same_position(polygons, dp_corner_vertex(polygons, first + i),
                                        dp_corner_vertex(polygons, first + next));
         list->polygon[at] = index, list->edge[at] = i;
-        list->from[at] = ka, list->name[at] = ka ^ kb;
+        list->from[at] = ka, list->key[at] = ka ^ kb;
         list->count +=
             real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(&w->tile, p, i);
         ka = kb;
@@ -97,7 +97,7 @@ static bool reserve_list(dp_finder *w, size_t edges) {
            DP_TILE_RESERVE(&w->tile, w, table.edges.polygon, table.edges.polygon_cap, edges) &&
            DP_TILE_RESERVE(&w->tile, w, table.edges.edge, table.edges.edge_cap, edges) &&
            DP_TILE_RESERVE(&w->tile, w, table.edges.from, table.edges.from_cap, edges) &&
-           DP_TILE_RESERVE(&w->tile, w, table.edges.name, table.edges.name_cap, edges) &&
+           DP_TILE_RESERVE(&w->tile, w, table.edges.key, table.edges.key_cap, edges) &&
            DP_TILE_RESERVE(&w->tile, &w->tile, unsure, unsure_cap,
                            (size_t)w->tile.seen_count + DP_EDGES_ROOM);
 }
@@ -133,16 +133,16 @@ static bool make_list(dp_finder *w) {
         for (uint32_t i = 0; i < w->tile.seen_count; i++) dp_edge_list_polygon(w, w->tile.seen[i]);
     }
     for (uint32_t i = 0; i < DP_EDGES_ROOM; i++)
-        list->from[list->count + i] = list->name[list->count + i] = 0;
+        list->from[list->count + i] = list->key[list->count + i] = 0;
     return true;
 }
 
 /* ------- entering ------- */
 
-/* Made of the sum of both ends' keys, as the name is of their exclusive or: the same from either
+/* Made of the sum of both ends' keys, as the key is of their exclusive or: the same from either
  * end. */
-static inline uint32_t place_of(uint32_t from, uint32_t name, uint32_t slots) {
-    const uint32_t sum = from + (from ^ name);
+static inline uint32_t slot_of(uint32_t from, uint32_t key, uint32_t slots) {
+    const uint32_t sum = from + (from ^ key);
     return (uint32_t)((uint64_t)(sum * 0x9e3779b1u) * slots >> 32);
 }
 
@@ -154,8 +154,8 @@ static uint32_t first_of(const dp_finder *w, uint32_t met) {
 }
 
 static bool is_same_edge(const dp_edge_list *list, uint32_t a, uint32_t b) {
-    return list->name[a] == list->name[b] &&
-           (list->from[a] == list->from[b] || list->from[a] == (list->from[b] ^ list->name[b]));
+    return list->key[a] == list->key[b] &&
+           (list->from[a] == list->from[b] || list->from[a] == (list->from[b] ^ list->key[b]));
 }
 
 /* A third or later polygon at an edge. */
@@ -176,32 +176,32 @@ static void add_meeting(dp_finder *w, uint32_t slot, uint32_t number) {
  * it. */
 #define OPAQUE(value) __asm__("" : "+r"(value))
 
-/* Of names so much is compared at first: all of it, or so little that most tables are filled
+/* Of keys so much is compared at first: all of it, or so little that most tables are filled
  * again. */
 static const uint32_t COMPARED = DP_TUNED(UINT32_MAX, 15);
 
 /* Is the slot taken by another edge? */
-static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot, uint32_t name) {
+static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot, uint32_t key) {
     uint32_t other =
-        (uint32_t)(met_at(slot) != 0) & (uint32_t)((((uint32_t)slot ^ name) & COMPARED) != 0);
+        (uint32_t)(met_at(slot) != 0) & (uint32_t)((((uint32_t)slot ^ key) & COMPARED) != 0);
     OPAQUE(other);
     return other;
 }
 
-/* The first look for an edge: at the slot that is its place and, where another edge has that, at
+/* The first look for an edge: at the slot that its key points to and, where another edge has that, at
  * the next. */
 static inline __attribute__((always_inline)) uint32_t
-first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t from, uint32_t name) {
-    const uint32_t s = place_of(from, name, count);
-    return s + is_other(slots[s], name); /* the last slot is nobody's place */
+first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t from, uint32_t key) {
+    const uint32_t s = slot_of(from, key, count);
+    return s + is_other(slots[s], key); /* the last slot is nobody's first slot */
 }
 
 /* The slot of edge `number`, or a free one, from `s` on. Unless `exact` it may be that of another
- * edge of equal name. */
+ * edge of equal key. */
 static inline __attribute__((always_inline)) uint32_t
 find_slot(const dp_finder *w, const dp_edge_slot *slots, uint32_t count, uint32_t s,
-          uint32_t number, uint32_t name, const bool exact) {
-    while (is_other(slots[s], name) ||
+          uint32_t number, uint32_t key, const bool exact) {
+    while (is_other(slots[s], key) ||
            (exact && slots[s] &&
             !is_same_edge(&w->table.edges, first_of(w, met_at(slots[s])), number)))
         s = s == count ? 0 : s + 1;
@@ -216,17 +216,17 @@ enum { AHEAD = 8 };
  * comes. */
 static inline __attribute__((always_inline)) void enter_all(dp_finder *w, const bool exact) {
     const dp_edge_list *const list = &w->table.edges;
-    const uint32_t *const starts = list->from, *const names = list->name, count = list->count,
+    const uint32_t *const starts = list->from, *const keys = list->key, count = list->count,
                           last = w->table.slot_count - 1;
     dp_edge_slot *const slots = w->table.slots;
     uint32_t *const first = w->table.pair_first, *const second = w->table.pair_second, pairs = 0;
     for (uint32_t start = 0; start < count; start += AHEAD) {
         uint32_t look[AHEAD];
         for (uint32_t k = 0; k < AHEAD; k++)
-            look[k] = first_slot(slots, last, starts[start + k], names[start + k]);
+            look[k] = first_slot(slots, last, starts[start + k], keys[start + k]);
         for (uint32_t k = 0; k < AHEAD && start + k < count; k++) {
-            const uint32_t i = start + k, name = names[i];
-            const uint32_t at = find_slot(w, slots, last, look[k], i, name, exact),
+            const uint32_t i = start + k, key = keys[i];
+            const uint32_t at = find_slot(w, slots, last, look[k], i, key, exact),
                            met = met_at(slots[at]);
             if (met & DP_SLOT_PAIR) {
                 add_meeting(w, at, i);
@@ -237,7 +237,7 @@ static inline __attribute__((always_inline)) void enter_all(dp_finder *w, const 
             first[pairs] = met - 1, second[pairs] = i;
             const uint32_t paired = DP_SLOT_PAIR | pairs,
                            meets = paired ^ ((paired ^ (i + 1)) & (0 - is_free));
-            slots[at] = name | (dp_edge_slot)meets << 32;
+            slots[at] = key | (dp_edge_slot)meets << 32;
             pairs += 1 - is_free;
         }
     }
@@ -313,19 +313,19 @@ uint32_t dp_edge_table_next(const dp_finder *w, uint32_t number) {
 
 dp_edge_entry dp_edge_table_entry(const dp_finder *w, uint32_t number) {
     const dp_edge_list *const list = &w->table.edges;
-    const dp_edge_place a = dp_edge_place_of(w, number);
-    const uint32_t name = list->name[number], last = w->table.slot_count - 1;
+    const dp_half_edge a = dp_half_edge_of(w, number);
+    const uint32_t key = list->key[number], last = w->table.slot_count - 1;
     const uint32_t at =
         find_slot(w, w->table.slots, last,
-                  first_slot(w->table.slots, last, list->from[number], name), number, name, true);
+                  first_slot(w->table.slots, last, list->from[number], key), number, key, true);
     const uint32_t met = met_at(w->table.slots[at]);
     dp_edge_entry out = {.a = a.polygon, .b = UINT32_MAX, .edge_a = a.edge};
     if (!(met & DP_SLOT_PAIR)) return out;
     const uint32_t second = w->table.pair_second[met & DP_SLOT_NUMBER];
-    const dp_edge_place b = dp_edge_place_of(w, second);
+    const dp_half_edge b = dp_half_edge_of(w, second);
     out.b = b.polygon, out.edge_b = b.edge;
     out.more = met & DP_SLOT_MORE ? w->table.slot_meetings[at] : 0;
-    out.opposed = list->from[second] == (list->from[number] ^ list->name[number]);
+    out.opposed = list->from[second] == (list->from[number] ^ list->key[number]);
     return out;
 }
 
@@ -354,7 +354,7 @@ uint64_t dp_one_rings_bytes(const dp_one_rings *rings) {
 static const dp_array store_arrays[] = {DP_ARRAY(dp_edge_store, edges.polygon, edges.polygon_cap),
                                         DP_ARRAY(dp_edge_store, edges.edge, edges.edge_cap),
                                         DP_ARRAY(dp_edge_store, edges.from, edges.from_cap),
-                                        DP_ARRAY(dp_edge_store, edges.name, edges.name_cap),
+                                        DP_ARRAY(dp_edge_store, edges.key, edges.key_cap),
                                         DP_ARRAY(dp_edge_store, slots, slots_cap),
                                         DP_ARRAY(dp_edge_store, marks, marks_cap),
                                         DP_ARRAY(dp_edge_store, pair_first, pair_first_cap),

@@ -5,9 +5,9 @@
 #include "find/finder.h"
 
 /* An edge of a polygon of the tile. */
-typedef struct dp_edge_place {
+typedef struct dp_half_edge {
     uint32_t polygon, edge; /* tile polygon; number of the corner that the edge starts from */
-} dp_edge_place;
+} dp_half_edge;
 
 /* An edge taken from the table. */
 typedef struct dp_edge_entry {
@@ -33,8 +33,8 @@ dp_edge_entry dp_edge_table_entry(const dp_finder *worker, uint32_t number);
 
 /* Whose edge a number is; its vertices, in that polygon's direction; and does it run between these
  * vertices, one way or the other? */
-dp_edge_place dp_edge_place_of(const dp_finder *worker, uint32_t number);
-void dp_edge_ends(const dp_finder *worker, dp_edge_place edge, uint32_t *va, uint32_t *vb);
-bool dp_edge_runs_between(const dp_finder *worker, dp_edge_place edge, uint32_t va, uint32_t vb);
+dp_half_edge dp_half_edge_of(const dp_finder *worker, uint32_t number);
+void dp_edge_ends(const dp_finder *worker, dp_half_edge edge, uint32_t *va, uint32_t *vb);
+bool dp_edge_runs_between(const dp_finder *worker, dp_half_edge edge, uint32_t va, uint32_t vb);
 
 #endif

@@ -89,10 +89,10 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
 
 /* Keys are hashes of positions (edge_table.c): is this the edge of all that met? */
 static bool is_shared(const dp_finder *w, const dp_edge_entry *e) {
-    bool shared = dp_edge_runs_between(w, (dp_edge_place){e->b, e->edge_b}, e->va, e->vb);
+    bool shared = dp_edge_runs_between(w, (dp_half_edge){e->b, e->edge_b}, e->va, e->vb);
     for (uint32_t i = e->more; i && shared; i = w->table.meetings[i - 1].next)
-        shared = dp_edge_runs_between(w, dp_edge_place_of(w, w->table.meetings[i - 1].number),
-                                      e->va, e->vb);
+        shared = dp_edge_runs_between(w, dp_half_edge_of(w, w->table.meetings[i - 1].number), e->va,
+                                      e->vb);
     return shared;
 }
 
@@ -183,7 +183,7 @@ static dp_edge_entry owned_by_faces(const dp_finder *w, const incident_face *p,
                        .edge_a = a->edge,
                        .b = b ? b->polygon : UINT32_MAX,
                        .edge_b = b ? b->edge : 0};
-    dp_edge_ends(w, (dp_edge_place){e.a, e.edge_a}, &e.va, &e.vb);
+    dp_edge_ends(w, (dp_half_edge){e.a, e.edge_a}, &e.va, &e.vb);
     return e;
 }
 
@@ -201,7 +201,7 @@ static void resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     offer_incident_face(w, best, count, make_incident_face(w, &s, e->a, e->edge_a));
     offer_incident_face(w, best, count, make_incident_face(w, &s, e->b, e->edge_b));
     for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
-        const dp_edge_place at = dp_edge_place_of(w, w->table.meetings[i - 1].number);
+        const dp_half_edge at = dp_half_edge_of(w, w->table.meetings[i - 1].number);
         offer_incident_face(w, best, count, make_incident_face(w, &s, at.polygon, at.edge));
     }
     if (!count[0] || !count[1]) {
@@ -237,7 +237,7 @@ static void leave_all_of(dp_finder *w, const dp_edge_entry *e) {
     leave(w, e->a, e->edge_a);
     leave(w, e->b, e->edge_b);
     for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
-        const dp_edge_place at = dp_edge_place_of(w, w->table.meetings[i - 1].number);
+        const dp_half_edge at = dp_half_edge_of(w, w->table.meetings[i - 1].number);
         leave(w, at.polygon, at.edge);
     }
 }
@@ -268,7 +268,7 @@ static uint32_t take_entries(const dp_finder *w, uint32_t *number,
     }
     for (uint32_t i = 0; i < count; i++) {
         dp_edge_entry *const e = &entries[i];
-        dp_edge_ends(w, (dp_edge_place){e->a, e->edge_a}, &e->va, &e->vb);
+        dp_edge_ends(w, (dp_half_edge){e->a, e->edge_a}, &e->va, &e->vb);
         dp_prefetch_positions(polygons, w->tile.polygons[e->a].id);
         if (e->b != UINT32_MAX) dp_prefetch_positions(polygons, w->tile.polygons[e->b].id);
     }

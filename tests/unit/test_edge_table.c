@@ -144,8 +144,7 @@ static uint32_t count_spokes(scene *s) {
     s->worker.tile.polygon_count = s->count;
     assert_true(dp_tile_see(&s->worker.tile, false) && dp_edge_table_list(&s->worker));
     for (uint32_t i = 0; i < list->count; i++)
-        spokes +=
-            list->from[i] == spread_key(0) || (list->from[i] ^ list->name[i]) == spread_key(0);
+        spokes += list->from[i] == spread_key(0) || (list->from[i] ^ list->key[i]) == spread_key(0);
     return spokes;
 }
 
