@@ -194,14 +194,14 @@ static void check(const dp_chunk_view *view, const char *what) {
     }
 }
 
-static void sifts_agree(void **state) {
+static void kernels_agree(void **state) {
     static const uint32_t samples[] = {1, 4, 8, 16};
     (void)state;
     for (int k = 0; k < 8; k++) {
         picture p;
         make_picture(&p, k % 2, samples[k / 2]);
         p.chunk.wanted = NULL;
-        check(&p.chunk, "sift");
+        check(&p.chunk, "classify");
         free_picture(&p);
     }
 }
@@ -252,7 +252,7 @@ static int set_up(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sifts_agree),
+        cmocka_unit_test(kernels_agree),
         cmocka_unit_test(touches_agree),
         cmocka_unit_test(equal_edges_have_equal_keys),
     };

@@ -221,7 +221,7 @@ static bool bounds_meet(const dp_intersecting *intersecting, uint32_t a, uint32_
 
 /* Triangles with corners in whole numbers, so that bounds touch and corners lie in planes now and
  * then; every fifth one's plane is not told. */
-static void fill_crowd(float *members, uint32_t *keys, uint32_t *seed) {
+static void fill_members(float *members, uint32_t *keys, uint32_t *seed) {
     for (uint32_t i = 0; i < 3 * CROWD_STRIDE; i++) keys[i] = next_random(seed) % 12;
     for (uint32_t i = 0; i < CROWD; i++) {
         float at[3], *const of = members + i;
@@ -247,7 +247,7 @@ static void meetings_agree(void **state) {
     static uint32_t met[CROWD_STRIDE], keys[3 * CROWD_STRIDE];
     (void)state;
     uint32_t seed = 9, neighbours = 0, beside = 0, crossing = 0;
-    fill_crowd(members, keys, &seed);
+    fill_members(members, keys, &seed);
     const dp_intersecting intersecting = {
         .members = members, .keys = keys, .met = met, .count = CROWD, .stride = CROWD_STRIDE};
     dp_width list[DP_WIDTHS_MOST];

@@ -49,7 +49,7 @@ static void lambert_is_the_cosine(void **state) {
     (void)state;
     bench b;
     begin(&b);
-    plain->looks[DP_SHADING_LAMBERT](&b.setup, &b.run);
+    plain->styles[DP_SHADING_LAMBERT](&b.setup, &b.run);
     assert_color(&b, 0, 0.8, 0.4, 0.2);
     assert_color(&b, 1, 0.8 * 0.3, 0.4 * 0.3, 0.2 * 0.3);
     assert_color(&b, 2, 0.8 * 0.3, 0.4 * 0.3, 0.2 * 0.3);
@@ -62,7 +62,7 @@ static void gooch_is_cool_to_warm(void **state) {
     begin(&b);
     b.setup.shade.gooch_blue = 0.4f, b.setup.shade.gooch_yellow = 0.3f;
     b.setup.shade.gooch_alpha = 0.25f, b.setup.shade.gooch_beta = 0.5f;
-    plain->looks[DP_SHADING_GOOCH](&b.setup, &b.run);
+    plain->styles[DP_SHADING_GOOCH](&b.setup, &b.run);
     assert_color(&b, 0, 0.3 + 0.4, 0.3 + 0.2, 0.1);
     assert_color(&b, 2, 0.2, 0.1, 0.4 + 0.05);
     assert_color(&b, 1, (0.7 + 0.2) / 2, (0.5 + 0.1) / 2, (0.1 + 0.45) / 2);
@@ -70,7 +70,7 @@ static void gooch_is_cool_to_warm(void **state) {
     b.setup.shade.gooch_blue = 0.4f, b.setup.shade.gooch_yellow = 0.3f;
     b.setup.shade.gooch_alpha = 0.25f, b.setup.shade.gooch_beta = 0.5f;
     b.setup.shade.gooch_plain = true;
-    plain->looks[DP_SHADING_GOOCH](&b.setup, &b.run);
+    plain->styles[DP_SHADING_GOOCH](&b.setup, &b.run);
     assert_color(&b, 0, 0.3 + 0.25, 0.3 + 0.25, 0.25);
 }
 
@@ -92,14 +92,14 @@ static void toon_looks_up_the_nearest_shade(void **state) {
     bench b;
     begin(&b);
     b.setup.shades = shades[0], b.setup.shade_count = 4;
-    plain->looks[DP_SHADING_TOON](&b.setup, &b.run);
+    plain->styles[DP_SHADING_TOON](&b.setup, &b.run);
     assert_color(&b, 0, 0.8, 0.4, 0.2);
     assert_color(&b, 1, 0.8 * 0.4, 0.4 * 0.4, 0.2 * 0.4); /* a half begins the third quarter */
     assert_color(&b, 2, 0, 0, 0);
     begin(&b); /* across the light, but for the rounding of a normal */
     b.setup.shades = shades[0], b.setup.shade_count = 4;
     b.nz[0] = 1e-6f, b.nz[1] = 0, b.nz[2] = -1e-6f;
-    plain->looks[DP_SHADING_TOON](&b.setup, &b.run);
+    plain->styles[DP_SHADING_TOON](&b.setup, &b.run);
     for (int i = 0; i < N; i++) assert_color(&b, i, 0.8 * 0.4, 0.4 * 0.4, 0.2 * 0.4);
 }
 
@@ -114,7 +114,7 @@ static void hatching_is_a_smooth_threshold(void **state) {
         b.setup.shade.stroke_scale = 1;
         b.setup.strokes = (dp_strokes_texture){values, 2, 2};
         b.setup.ink[0] = 0.1f;
-        plain->looks[DP_SHADING_HATCH](&b.setup, &b.run);
+        plain->styles[DP_SHADING_HATCH](&b.setup, &b.run);
         const double tones[N] = {1.1776, 0.1976, 0.08}, priority = levels[level] / 255.0;
         for (int i = 0; i < N; i++) {
             const double ink = priority > 0 ? fmin(fmax(0.5 + 5 * (priority - tones[i]), 0), 1) : 0;
@@ -190,7 +190,7 @@ static void look_at(const dp_shaders *shaders, int look, bool object, bool textu
                          .y = 11,
                          .n = n};
     shaders->paint((const float[4]){0.9f, 0.5f, 0.1f, 1}, &run);
-    if (shaders->looks[look]) shaders->looks[look](&setup, &run);
+    if (shaders->styles[look]) shaders->styles[look](&setup, &run);
     shaders->pack(&run, words);
 }
 
