@@ -78,12 +78,21 @@ static int write_picture(const tool_settings *s, const drawing *d) {
     return result ? report_failure(NULL, &diag) : 0;
 }
 
+static int write_trace(const tool_settings *s, const drawing *d) {
+    dp_diag diag = {0};
+    if (!s->outputs[OUTPUT_TRACE]) return 0;
+    interrupt_hold();
+    const dp_result result = dp_io_write_trace(s->outputs[OUTPUT_TRACE], d->context, &diag);
+    interrupt_release();
+    return result ? report_failure(NULL, &diag) : 0;
+}
+
 static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_dropped(&d->stats);
     if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
     if (s->stats == STATS_JSON)
-        print_stats_json(strcmp(s->output, "-") ? stdout : stderr, &d->stats, &d->target);
+        print_stats_json(!s->output || strcmp(s->output, "-") ? stdout : stderr, &d->stats, &d->target);
 }
 
 static int run(const tool_settings *s, drawing *d) {
@@ -92,14 +101,17 @@ static int run(const tool_settings *s, drawing *d) {
     if (!code) code = measure_model(s, d->source, &extent);
     if (!code) code = draw(s, d, &extent);
     if (!code) code = planes_write(s, &d->target);
-    if (!code) code = write_picture(s, d);
+    if (!code) code = write_trace(s, d);
+    if (!code && s->output) code = write_picture(s, d);
     if (!code) print_stats(s, d);
     return code;
 }
 
 int command_draw(const tool_settings *s) {
-    if (!check_ending(s->output)) return EXIT_USAGE;
-    if (!output_possible(s->output)) return EXIT_FAILED;
+    const char *const trace = s->outputs[OUTPUT_TRACE];
+    if (s->output && !check_ending(s->output)) return EXIT_USAGE;
+    if (s->output && !output_possible(s->output)) return EXIT_FAILED;
+    if (trace && !output_possible(trace)) return EXIT_FAILED;
     drawing d = {0};
     const int code = run(s, &d);
     dp_context_destroy(d.context);

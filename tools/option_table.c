@@ -11,7 +11,7 @@
 #define EVERY      (DRAW | INFO | MAKE | BENCH)
 #define AT(member) offsetof(tool_settings, member)
 
-const char *const plane_names[PLANE_COUNT] = {"edge-map", "normals", "depth", "id"};
+const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth", "id", "trace"};
 
 const char *const group_names[GROUP_COUNT] = {
     "Picture", "Camera",  "Lines", "Strokes", "Surface", "Edge map", "How lines are found",
@@ -23,7 +23,8 @@ const option option_table[] = {
      "Where the result goes: FILE.png for a drawing; FILE.ply, .stl or .obj for a model. An old file "
      "stays until the new one is whole. - is standard output (a PNG, or a PLY). NAME=FILE.png, once for each "
      "NAME, writes what shading and edges are made from beside the drawing: edge-map (inner edges in RGB, "
-     "profile edges in A), normals, depth, id."},
+     "profile edges in A), normals, depth, id. trace=FILE writes the visible lines as text: chains of segments, "
+     "with their edges and what ends them."},
     {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
      "A look: options that go together; those on the command line change it."},

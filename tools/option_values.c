@@ -151,34 +151,35 @@ static bool store_plane(const option *o, const char *value, tool_settings *setti
     return wrong_usage("--%s: the normal is zero; give one like 0,1,0", o->name);
 }
 
-/* A word before "=" that is no plane's name is rather a slip than the beginning of a file's
+/* A word before "=" that is no such name is rather a slip than the beginning of a file's
  * name. */
-static bool unknown_plane(const char *value, size_t length) {
+static bool unknown_output(const char *value, size_t length) {
     char name[64];
     int best = 0;
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1),
              value);
-    for (int k = 1; k < PLANE_COUNT; k++)
-        if (spelling_distance(name, plane_names[k]) < spelling_distance(name, plane_names[best]))
+    for (int k = 1; k < OUTPUT_COUNT; k++)
+        if (spelling_distance(name, output_names[k]) < spelling_distance(name, output_names[best]))
             best = k;
     return wrong_usage("--output: \"%s\" is nothing that can be written; did you mean %s? A file "
                        "of that name is ./%s",
-                       name, plane_names[best], value);
+                       name, output_names[best], value);
 }
 
-/* NAME=FILE for a plane, else a file. */
+/* NAME=FILE for what has a name, else a file. */
 static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
-    for (int k = 0; value[length] && k < PLANE_COUNT; k++) {
-        if (strlen(plane_names[k]) != length || strncmp(plane_names[k], value, length)) continue;
+    for (int k = 0; value[length] && k < OUTPUT_COUNT; k++) {
+        if (strlen(output_names[k]) != length || strncmp(output_names[k], value, length)) continue;
         if (!value[length + 1])
-            return wrong_usage("--output %s: a file is missing; give %sFILE.png", value, value);
-        settings->planes[k] = value + length + 1;
+            return wrong_usage("--output %s: a file is missing; give %sFILE%s", value, value,
+                               k < PLANE_COUNT ? ".png" : "");
+        settings->outputs[k] = value + length + 1;
         settings->wants_edge_map |= k == PLANE_EDGE_MAP;
         return true;
     }
     if (value[length] && length && strspn(value, "abcdefghijklmnopqrstuvwxyz-") == length)
-        return unknown_plane(value, length);
+        return unknown_output(value, length);
     settings->output = value;
     return true;
 }

@@ -140,7 +140,8 @@ static bool check_present(const tool_settings *s) {
         return wrong_usage("no %s given; usage: drypoint %s%s%s",
                            s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,
                            text->arguments);
-    if (!s->output && (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
+    const bool traces = s->command == COMMAND_DRAW && s->outputs[OUTPUT_TRACE];
+    if (!s->output && !traces && (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
         return wrong_usage("no output given; add -o %s",
                            s->command == COMMAND_DRAW ? "OUT.png" : "OUT.ply");
     return true;

@@ -28,15 +28,17 @@ enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
 enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
 
-/* What --output NAME=FILE can name. */
+/* What --output NAME=FILE can name: planes of the G-buffer as pictures, and the lines as text. */
 typedef enum output_plane {
     PLANE_EDGE_MAP = 0,
     PLANE_NORMALS,
     PLANE_DEPTH,
     PLANE_ID,
-    PLANE_COUNT
+    PLANE_COUNT,
+    OUTPUT_TRACE = PLANE_COUNT,
+    OUTPUT_COUNT
 } output_plane;
-extern const char *const plane_names[PLANE_COUNT];
+extern const char *const output_names[OUTPUT_COUNT];
 
 /* Everything the command line can say; zero is "not said". */
 typedef struct tool_settings {
@@ -93,7 +95,7 @@ typedef struct tool_settings {
     bool has_mirror, has_mirror_offset;
     double mirror_size, mirror_fade, mirror_tint_share;
     dp_color mirror_tint;
-    const char *planes[PLANE_COUNT]; /* files */
+    const char *outputs[OUTPUT_COUNT]; /* files */
     bool wants_edge_map;
 
     stats_kind stats;

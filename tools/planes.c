@@ -24,11 +24,11 @@ static void put_plane(dp_target *t, output_plane plane, void *block) {
 
 int planes_prepare(const tool_settings *s, dp_target *t) {
     for (int k = 0; k < PLANE_COUNT; k++) {
-        if (!s->planes[k]) continue;
-        if (!output_possible(s->planes[k])) return EXIT_FAILED;
+        if (!s->outputs[k]) continue;
+        if (!output_possible(s->outputs[k])) return EXIT_FAILED;
         void *const block = calloc((size_t)t->width * t->height, plane_size[k]);
         if (!block) {
-            wrong_usage("out of memory for the %s; give a smaller --size", plane_names[k]);
+            wrong_usage("out of memory for the %s; give a smaller --size", output_names[k]);
             return EXIT_FAILED;
         }
         put_plane(t, (output_plane)k, block);
@@ -97,17 +97,17 @@ int planes_write(const tool_settings *s, const dp_target *t) {
     const size_t n = (size_t)t->width * t->height;
     int code = 0;
     for (int k = 0; k < PLANE_COUNT && !code; k++) {
-        if (!s->planes[k]) continue;
+        if (!s->outputs[k]) continue;
         uint8_t *const rgba = calloc(n, 4);
         if (!rgba) {
-            wrong_usage("out of memory for the %s; give a smaller --size", plane_names[k]);
+            wrong_usage("out of memory for the %s; give a smaller --size", output_names[k]);
             return EXIT_FAILED;
         }
         if (k == PLANE_EDGE_MAP) memcpy(rgba, t->edge_map, 4 * n);
         if (k == PLANE_NORMALS) draw_normals(t, n, rgba);
         if (k == PLANE_DEPTH) draw_distance(t, n, rgba);
         if (k == PLANE_ID) draw_ids(t, n, rgba);
-        code = write_plane(s->planes[k], rgba, t);
+        code = write_plane(s->outputs[k], rgba, t);
         free(rgba);
     }
     return code;

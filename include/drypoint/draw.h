@@ -96,6 +96,14 @@ typedef struct dp_target {
 DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *style, const dp_target *target, dp_diag *diag);
 
+/* What ends a segment. */
+typedef enum dp_line_end {
+    DP_END_VERTEX = 0, /* a vertex of its edge */
+    DP_END_CROSSING,   /* of an intersection: one of the two polygons ends there */
+    DP_END_HIDDEN,     /* a nearer polygon hides it from there on */
+    DP_END_PICTURE     /* the picture's edge, or the near or the far plane */
+} dp_line_end;
+
 /* A visible piece of a feature line, as found by the last dp_draw with DP_INK_STROKES. */
 typedef struct dp_segment {
     dp_line line;
@@ -105,12 +113,23 @@ typedef struct dp_segment {
     uint64_t polygon; /* of the source, counted from 0 over all its batches */
     uint64_t other;   /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
     uint32_t edge;    /* from corner `edge` to the next; UINT32_MAX for an intersection */
+    uint32_t group;   /* of the polygon; 0 where the source has no groups */
+    dp_line_end end[2];    /* at a and at b */
+    uint64_t hider[2]; /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
+                          that hide the line right behind its end; UINT64_MAX: not known, as where
+                          the source is streamed */
+    uint32_t level;   /* how many surfaces hide it; 0: it is visible */
+    uint32_t chain;   /* segments that are drawn in one go have one number, from 0 on … */
+    uint32_t place;   /* … and are numbered in the order in which they follow each other */
+    bool reversed;    /* in its chain it is drawn from b to a */
     float width;      /* px */
     dp_color color;
 } dp_segment;
 
-/* Borrowed: valid until the next call that draws, or the context's end. */
-DP_API const dp_segment *dp_segments(const dp_context *context, size_t *count);
+/* The segments, in an order that depends neither on tiles nor on threads; chains are made when it is
+ * first asked for them after a drawing. Borrowed: valid until the next call that draws, or the
+ * context's end. NULL and 0 when there are none, or memory is out. */
+DP_API const dp_segment *dp_segments(dp_context *context, size_t *count);
 
 /* Stages of a frame, in order. */
 typedef enum dp_stage {

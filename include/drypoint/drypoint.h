@@ -9,6 +9,7 @@
 #include <drypoint/immediate.h>
 #include <drypoint/shade.h>
 #include <drypoint/shapes.h>
+#include <drypoint/sink.h>
 #include <drypoint/source.h>
 #include <drypoint/strokes.h>
 #include <drypoint/style.h>

@@ -5,6 +5,7 @@
 #ifndef DRYPOINT_IO_H
 #define DRYPOINT_IO_H
 
+#include <drypoint/sink.h>
 #include <drypoint/source.h>
 #include <drypoint/strokes.h>
 
@@ -41,6 +42,10 @@ typedef struct dp_io_picture {
 } dp_io_picture;
 
 DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag);
+
+/* Writes the lines of the last dp_draw as text (dp_trace), with the same care; "-" is standard output.
+ * DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
+DP_API dp_result dp_io_write_trace(const char *path, dp_context *context, dp_diag *diag);
 
 /* A stroke texture from a PNG of any kind, at most 8192 px wide and high; what of it is ink:
  * dp_texture_create. DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */

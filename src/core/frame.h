@@ -65,9 +65,6 @@ typedef struct dp_frame {
     struct dp_tile_pieces *tile_pieces; /* by tile: core/piece.h */
     size_t depth_cap, tile_pieces_cap, facing_cap, outlined_cap;
 
-    dp_segment *segments;
-    struct dp_stroke *strokes; /* one per segment, strokes/stroke.h */
-    size_t segment_count;
     struct dp_stylized
         *stylized; /* instead of strokes, where lines are stylized: strokes/stylized.h */
     size_t stylized_count;

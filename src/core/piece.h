@@ -9,6 +9,8 @@ typedef struct dp_piece {
     uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
     uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
     uint32_t k0, k1, n; /* sample points */
+    uint32_t hider[2];  /* what hides the sample point before k0, and that at k1: a polygon, or
+                           DP_HIDER_… */
     uint32_t geometry;  /* as of its candidate (dp_segment_geometry) … */
     uint32_t worker;    /* … of this worker: set where pieces are joined */
     uint8_t line;       /* dp_line */
@@ -16,6 +18,10 @@ typedef struct dp_piece {
 } dp_piece;
 
 #define DP_CROSSING UINT32_MAX
+
+/* At the end of a piece there is no hidden sample point: the spine ends, or leaves the picture; or it
+ * is not known which polygon hides it. */
+enum { DP_HIDER_NONE = -1, DP_HIDER_PICTURE = -2, DP_HIDER_UNKNOWN = -3 };
 
 typedef struct dp_tile_pieces {
     uint32_t worker; /* whose list */

@@ -8,8 +8,7 @@
 #include "find/finder.h"
 #include "printed/quads.h"
 #include "shade/shade.h"
-#include "strokes/stylized.h"
-#include "strokes/stroke.h"
+#include "sink/raster.h"
 
 typedef struct dp_recording dp_recording; /* immediate.c */
 
@@ -24,11 +23,11 @@ struct dp_context {
 
     size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
     dp_polygon_store polygons;
-    dp_stroke_store strokes;
+    dp_drawing drawing; /* the lines of the last picture */
+    bool drawn;         /* there is one */
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
-    dp_stylized_store stylized;
     struct {
         dp_normal_store normals; /* of the reflected scene */
         uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
@@ -39,7 +38,7 @@ struct dp_context {
     dp_finder *finders;         /* [workers] */
     dp_printer *printers;       /* [workers] */
     dp_found *found;            /* [workers] */
-    dp_ink_worker *ink_workers; /* [workers] */
+    dp_raster raster;           /* what the sink that inks keeps */
     dp_frame frame;
     dp_adjacency adjacency; /* of the last source that asked for it */
 

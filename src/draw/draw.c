@@ -17,6 +17,7 @@
 #include "core/facing.h"
 #include "printed/fins.h"
 #include "features/silhouette_edge.h"
+#include "sink/sink.h"
 #include "stream/stream.h"
 
 #include <string.h>
@@ -63,10 +64,9 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
         c->finders = dp_alloc_zeroed(&memory, c->workers * sizeof *c->finders);
         c->printers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->printers);
         c->found = dp_alloc_zeroed(&memory, c->workers * sizeof *c->found);
-        c->ink_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->ink_workers);
     }
     if (!c->threads || !c->bin_workers || !c->finders || !c->printers || !c->found ||
-        !c->ink_workers) {
+        !dp_raster_init(&c->raster, c->workers, &memory)) {
         dp_context_destroy(c);
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
     }
@@ -83,24 +83,20 @@ void dp_context_destroy(dp_context *c) {
         if (c->finders) dp_finder_free(&c->finders[i]);
         if (c->printers) dp_printer_free(&c->printers[i], &memory);
         if (c->found) dp_found_free(&c->found[i], &memory);
-        if (c->ink_workers) dp_free(&memory, c->ink_workers[i].strokes);
-        if (c->ink_workers) dp_free(&memory, c->ink_workers[i].sorted);
     }
     dp_free(&memory, c->bin_workers);
     dp_free(&memory, c->finders);
     dp_free(&memory, c->printers);
     dp_free(&memory, c->found);
-    dp_free(&memory, c->ink_workers);
+    dp_raster_free(&c->raster, &memory);
     dp_polygon_store_free(&c->polygons, &memory);
-    dp_stroke_store_free(&c->strokes, &memory);
+    dp_drawing_free(&c->drawing, &memory);
     dp_normal_store_free(&c->normals, &memory);
     dp_shade_store_free(&c->shade, &memory);
-    dp_stylized_store_free(&c->stylized, &memory);
     dp_normal_store_free(&c->mirror.normals, &memory);
     dp_free(&memory, c->mirror.rgba);
     dp_free(&memory, c->mirror.distance);
     dp_frame_free(&c->frame, &memory);
-    dp_bins_free(&c->frame.stroke_bins, &memory);
     dp_adjacency_free(&c->adjacency, &memory);
     dp_recording_free(c);
     dp_free(&memory, c);
@@ -163,7 +159,7 @@ static void begin_view(dp_frame *f) {
 static bool begin_workers(dp_context *c) {
     for (uint32_t i = 0; i < c->workers; i++) {
         c->bin_workers[i].stats = (dp_stats){0};
-        c->bin_workers[i].failed = c->ink_workers[i].failed = false;
+        c->bin_workers[i].failed = false;
         if (!dp_finder_init(&c->finders[i], &c->frame, &c->found[i])) return false;
     }
     return true;
@@ -209,25 +205,19 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_shade_pass(&c->shade, c->shade_pass, index);
 }
 
-static void ink_tile(void *arg, uint32_t index, uint32_t worker) {
-    dp_context *const c = arg;
-    (dp_is_stylized(&c->frame) ? dp_brush_tile : dp_ink_tile)(&c->frame, &c->ink_workers[worker],
-                                                              index);
-}
-
 /* Progress when a stage is over; what is read in parts ends at DP_STREAMED instead. */
 static const double BINNED = 0.1, FOUND = 0.8, SHADED = 0.85;
 
 /* A part of a long loop, so that progress can be told between the parts. */
 typedef struct part {
-    dp_context *context;
     dp_task *task;
+    void *arg;
     uint32_t first;
 } part;
 
 static void part_task(void *arg, uint32_t index, uint32_t worker) {
     const part *const p = arg;
-    p->task(p->context, p->first + index, worker);
+    p->task(p->arg, p->first + index, worker);
 }
 
 dp_result dp_tell_progress(const dp_context *c, double fraction, dp_diag *diag) {
@@ -240,11 +230,12 @@ dp_result dp_tell_progress(const dp_context *c, double fraction, dp_diag *diag) 
 }
 
 /* Progress runs from `from` to `to`. */
-static dp_result for_tiles(dp_context *c, dp_task *task, double from, double to, dp_diag *diag) {
+static dp_result for_tiles(dp_context *c, dp_task *task, void *arg, double from, double to,
+                           dp_diag *diag) {
     const uint32_t tiles = c->frame.tiles_x * c->frame.tiles_y;
     const uint32_t step = c->progress && tiles > 64 ? (tiles + 15) / 16 : tiles;
     for (uint32_t first = 0; first < tiles; first += step) {
-        part p = {c, task, first};
+        part p = {task, arg, first};
         dp_parallel(c->threads, tiles - first < step ? tiles - first : step, part_task, &p);
         const double done = tiles - first > step ? (double)(first + step) / tiles : 1;
         const dp_result result =
@@ -282,17 +273,13 @@ static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
 /* All that stays from frame to frame, but for the small change. */
 static uint64_t scratch_bytes(const dp_context *c) {
     const dp_polygon_store *const p = &c->polygons;
-    uint64_t sum = sizeof *c + dp_frame_bytes(&c->frame) + dp_adjacency_bytes(&c->adjacency) +
-                   dp_bins_bytes(&c->frame.stroke_bins);
+    uint64_t sum = sizeof *c + dp_frame_bytes(&c->frame) + dp_adjacency_bytes(&c->adjacency);
     sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap +
            2 * p->groups_cap;
-    sum += c->strokes.pieces_cap * sizeof(dp_piece) + c->strokes.segments_cap * sizeof(dp_segment) +
-           c->strokes.strokes_cap * sizeof(dp_stroke) +
-           c->stylized.stylized_cap * sizeof(dp_stylized);
+    sum += dp_drawing_bytes(&c->drawing) + dp_raster_bytes(&c->raster);
     for (uint32_t i = 0; i < c->workers; i++)
         sum += dp_finder_bytes(&c->finders[i]) + dp_printer_bytes(&c->printers[i]) +
-               dp_found_bytes(&c->found[i]) + sizeof *c->finders + sizeof *c->printers +
-               sizeof *c->ink_workers;
+               dp_found_bytes(&c->found[i]) + sizeof *c->finders + sizeof *c->printers;
     return sum;
 }
 
@@ -419,7 +406,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
     if (!begin_paint(c)) return out_of_memory(diag);
-    if ((result = for_tiles(c, find_tile, BINNED, FOUND, diag))) return result;
+    if ((result = for_tiles(c, find_tile, c, BINNED, FOUND, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->finders[i].tile.failed) return out_of_memory(diag);
         add_counts(&c->stats, &c->finders[i].tile.stats);
@@ -436,19 +423,29 @@ static dp_result shade(dp_context *c, dp_diag *diag) {
         const double share = (SHADED - FOUND) / DP_SHADE_PASSES, from = FOUND + pass * share;
         if (!dp_shade_pass_runs(&c->shade, pass)) continue;
         c->shade_pass = pass;
-        const dp_result result = for_tiles(c, shade_tile, from, from + share, diag);
+        const dp_result result = for_tiles(c, shade_tile, c, from, from + share, diag);
         if (result) return result;
         dp_shade_pass_ends(&c->shade, pass);
     }
     return DP_OK;
 }
 
-/* Segments; then strokes, or stylized strokes. */
-static bool make_strokes(dp_context *c) {
-    dp_frame *const f = &c->frame;
-    if (!dp_make_segments(f, c->found, &c->strokes)) return false;
-    if (!dp_is_stylized(f)) return dp_bin_strokes(f);
-    return dp_stylize(f, c->strokes.pieces, &c->stylized) && dp_bin_stylized(f);
+/* The last loop over tiles, as the raster sink runs it. */
+typedef struct last_loop {
+    dp_context *context;
+    double from;
+} last_loop;
+
+static dp_result for_last_tiles(void *user, dp_task *task, void *arg, dp_diag *diag) {
+    const last_loop *const l = user;
+    return for_tiles(l->context, task, arg, l->from, 1, diag);
+}
+
+static dp_result ink(dp_context *c, double from, dp_diag *diag) {
+    last_loop loop = {c, from};
+    dp_inking inking = {&c->frame, &c->drawing, &c->raster, for_last_tiles, &loop};
+    const dp_sink sink = dp_raster_sink(&inking);
+    return dp_hand_over(&c->frame, &c->drawing, &sink, diag);
 }
 
 static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream,
@@ -459,14 +456,13 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, stream, &since, diag);
     if (result) return result;
-    if (!make_strokes(c)) return out_of_memory(diag);
-    c->stats.segments = c->frame.segment_count;
+    if (!dp_make_segments(&c->frame, c->found, &c->drawing) || !dp_stylize(&c->frame, &c->drawing))
+        return out_of_memory(diag);
+    c->stats.segments = c->drawing.count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
     if ((result = shade(c, diag))) return result;
     lap(&c->stats, DP_STAGE_SHADE, &since);
-    if ((result = for_tiles(c, ink_tile, *stream ? DP_STREAMED : SHADED, 1, diag))) return result;
-    for (uint32_t i = 0; i < c->workers; i++)
-        if (c->ink_workers[i].failed) return out_of_memory(diag);
+    if ((result = ink(c, *stream ? DP_STREAMED : SHADED, diag))) return result;
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
     c->stats.bytes = scratch_bytes(c);
@@ -485,7 +481,9 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
                          dp_diag *diag) {
     dp_frame *const f = &c->frame;
     c->stats = (dp_stats){0};
-    f->segment_count = 0;
+    c->drawn = false;
+    c->drawing.count = 0;
+    c->drawing.chained = false;
     f->painted_later = false;
     f->ink_layer = NULL;
     f->adjacency = NULL;
@@ -501,7 +499,8 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
     if (!result) begin_view(f);
     if (!result) result = draw(c, source, diag);
-    if (result) f->segment_count = 0;
+    if (result) c->drawing.count = 0;
+    c->drawn = !result;
     f->styles = NULL; /* borrowed for this call only */
     return result;
 }
@@ -518,9 +517,24 @@ dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camer
     return dp_draw_groups(context, source, camera, &resolved, 1, target, diag);
 }
 
-const dp_segment *dp_segments(const dp_context *context, size_t *count) {
-    if (count) *count = context ? context->frame.segment_count : 0;
-    return context ? context->frame.segments : NULL;
+const dp_segment *dp_segments(dp_context *context, size_t *count) {
+    const bool any = context && context->drawn && context->drawing.count &&
+                     dp_chain_drawing(&context->frame, &context->drawing);
+    if (count) *count = any ? context->drawing.count : 0;
+    return any ? context->drawing.segments : NULL;
+}
+
+dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag) {
+    if (!context || !sink) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: context or sink is NULL");
+    if (!context->drawn) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: nothing has been drawn");
+    return dp_hand_over(&context->frame, &context->drawing, sink, diag);
+}
+
+dp_result dp_trace(dp_context *context, dp_text_writer *write, void *user, dp_diag *diag) {
+    if (!write) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_trace: write is NULL");
+    dp_tracing tracing = {.write = write, .user = user};
+    const dp_sink sink = dp_trace_sink(&tracing);
+    return dp_send(context, &sink, diag);
 }
 
 void dp_stats_of(const dp_context *context, dp_stats *stats) {

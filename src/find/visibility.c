@@ -187,9 +187,65 @@ static bool make_groups(dp_finder *w) {
     return true;
 }
 
+/* ------- pieces and what hides their ends ------- */
+
+/* A run of visible sample points, as numbers of the candidate's, and one of its ends. */
+typedef struct run_end {
+    uint32_t point;  /* the visible one at the end, as a probe */
+    uint32_t inward; /* the next one within the run; the same where there is none */
+    uint32_t beyond; /* the next one outside; UINT32_MAX where it is another tile's */
+} run_end;
+
+/* Where the sample point beyond an end lies, and what it takes to hide it: its own limit is infinite
+ * since it is hidden, and so it follows from the run's. */
+static void point_beyond(const dp_probes *p, const run_end *e, float *x, float *y, float *limit) {
+    const bool known = e->beyond != UINT32_MAX;
+    *x = known ? p->x[e->beyond] : 2 * p->x[e->point] - p->x[e->inward];
+    *y = known ? p->y[e->beyond] : 2 * p->y[e->point] - p->y[e->inward];
+    *limit = 2 * p->limit[e->point] - p->limit[e->inward];
+}
+
+static bool hides_point(const dp_tile *t, const dp_candidate *c, uint32_t index, float x, float y,
+                        float limit) {
+    const dp_tile_polygon *const p = &t->polygons[index];
+    return p->id != c->a && p->id != c->b && dp_is_surface(t, p) &&
+           dp_minf(dp_plane_at(p, x, y), p->nearest) > limit && dp_tile_covers(t, p, x, y);
+}
+
+/* The one that won a sample of the point's pixel, mostly; else the first of all. */
+static uint32_t find_hider(const dp_tile *t, const dp_candidate *c, float x, float y, float limit) {
+    if (x >= 0 && y >= 0 && x < DP_TILE && y < DP_TILE) {
+        const uint32_t *const winner = t->winner + dp_pixel_lane(&t->sampling, (uint32_t)x, (uint32_t)y);
+        for (uint32_t i = 0; i < t->sampling.samples; i++)
+            if (winner[i] != UINT32_MAX && hides_point(t, c, winner[i], x, y, limit))
+                return t->polygons[winner[i]].id;
+    }
+    const dp_find_kernels *const kernels = dp_find_kernels_for(t->frame->lanes);
+    const uint32_t px = (uint32_t)dp_maxf(0, dp_minf(x, DP_TILE - 1)),
+                   py = (uint32_t)dp_maxf(0, dp_minf(y, DP_TILE - 1));
+    for (uint32_t i = kernels->next_at(t, 0, px, py); i < t->seen_count;
+         i = kernels->next_at(t, i + 1, px, py))
+        if (hides_point(t, c, t->seen[i], x, y, limit)) return t->polygons[t->seen[i]].id;
+    return (uint32_t)DP_HIDER_UNKNOWN;
+}
+
+static uint32_t hider_at(const dp_finder *w, const dp_candidate *c, const run_end *e) {
+    const dp_view *const view = &w->tile.frame->view;
+    float x, y, limit;
+    point_beyond(&w->lines.probes, e, &x, &y, &limit);
+    const double at_x = (double)x + w->tile.tile_x, at_y = (double)y + w->tile.tile_y;
+    if (at_x < 0 || at_y < 0 || at_x >= view->width || at_y >= view->height)
+        return (uint32_t)DP_HIDER_PICTURE;
+    return w->lines.streamed ? (uint32_t)DP_HIDER_UNKNOWN : find_hider(&w->tile, c, x, y, limit);
+}
+
 static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
     if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1))
         return;
+    const uint32_t first = c->probe + (k0 - c->k0), last = c->probe + (k1 - 1 - c->k0);
+    const run_end start = {first, first < last ? first + 1 : first,
+                           k0 > c->k0 ? first - 1 : UINT32_MAX};
+    const run_end end = {last, first < last ? last - 1 : last, k1 < c->k1 ? last + 1 : UINT32_MAX};
     w->found->pieces[w->found->piece_count++] =
         (dp_piece){.a = c->a,
                    .b = c->b,
@@ -197,6 +253,8 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                    .k0 = k0,
                    .k1 = k1,
                    .n = c->n,
+                   .hider = {k0 > 0 ? hider_at(w, c, &start) : (uint32_t)DP_HIDER_NONE,
+                             k1 < c->n ? hider_at(w, c, &end) : (uint32_t)DP_HIDER_NONE},
                    .geometry = c->geometry,
                    .line = c->line,
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};

@@ -65,6 +65,7 @@ typedef struct dp_line_store {
     dp_candidate *candidates;
     dp_probes probes;
     const uint32_t (*owners)[2]; /* the candidates' own polygons; NULL: as the candidates say */
+    bool streamed; /* the tile does not hold the polygons that have hidden the sample points */
     dp_probe_groups groups;
     size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap;
     uint32_t candidate_count, probe_count;

@@ -56,10 +56,14 @@ static void find_plane_normal(dp_tile *w) {
     }
 }
 
-void dp_tile_open(dp_tile *w, uint32_t index) {
+void dp_tile_place(dp_tile *w, uint32_t index) {
     w->index = index;
     w->tile_x = index % w->frame->tiles_x * DP_TILE;
     w->tile_y = index / w->frame->tiles_x * DP_TILE;
+}
+
+void dp_tile_open(dp_tile *w, uint32_t index) {
+    dp_tile_place(w, index);
     w->depth = w->frame->depth + (size_t)index * w->frame->tile_samples;
     memset(w->winner, 0xff, w->frame->tile_samples * sizeof *w->winner);
     memset(w->candidate_pixels, 0, sizeof w->candidate_pixels);

@@ -150,6 +150,9 @@ bool dp_tile_init(dp_tile *tile, const dp_frame *frame);
 void dp_tile_free(dp_tile *tile);
 uint64_t dp_tile_bytes(const dp_tile *tile);
 
+/* Says which tile it is, and where. */
+void dp_tile_place(dp_tile *tile, uint32_t index);
+
 /* Takes up tile number `index`: nothing has won a sample; its depth stays as it is (tile.c). */
 void dp_tile_open(dp_tile *tile, uint32_t index);
 

@@ -5,10 +5,10 @@
  * over each other one by one, classes in the order of plain strokes. Coverage is that of plain
  * strokes (ink.c) times the texture's ink.
  *
- * Marks that lie outside (extruded silhouettes, Hermosilla and Vázquez 2010, 2.3) have v = 0 on the
+ * Parts that lie outside (extruded silhouettes, Hermosilla and Vázquez 2010, 2.3) have v = 0 on the
  * spine and 1 at their width outside. Between two of them lies a sector around their common point,
  * so that there are no gaps at any width. */
-#include "strokes/stylized.h"
+#include "sink/raster.h"
 
 #include "core/blend.h"
 #include "texture/texture.h"
@@ -20,6 +20,7 @@
 
 typedef struct brush {
     const dp_frame *frame;
+    const dp_stylized *stylized; /* of the drawing */
     dp_ink_worker *worker;
     const float *depth; /* the tile's samples; NULL: there is no surface */
     uint32_t x0, y0, x1, y1;
@@ -30,16 +31,12 @@ typedef struct brush {
 /* Texels with less ink are discarded. */
 static float least_ink(const dp_stylized *m) { return m->outside ? 0.1f : 1.0f / 512; }
 
-static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
-    const dp_frame *const frame = arg;
+void dp_place_stylized(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects,
+                       uint32_t worker) {
+    const dp_inking *const k = arg;
     (void)worker;
     for (uint32_t i = 0; i < count; i++)
-        rects[i] = dp_stroke_rect(&frame->stylized[first + i].stroke);
-}
-
-bool dp_bin_stylized(dp_frame *frame) {
-    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->stylized_count, frame->tiles_x,
-                        frame->tiles_y, place, NULL, frame, frame->threads, frame->memory);
+        rects[i] = dp_stroke_rect(&k->drawing->stylized.stylized[first + i].stroke);
 }
 
 /* Where a pixel lies on a part. */
@@ -222,7 +219,7 @@ static void ink_layer(const brush *b, const uint32_t *stylized, size_t count, dp
     bool any = false;
     uint32_t chain = 0;
     for (size_t i = 0; i < count; i++) {
-        const dp_stylized *const m = &b->frame->stylized[stylized[i]];
+        const dp_stylized *const m = &b->stylized[stylized[i]];
         if (m->stroke.line != line) continue;
         if (any && m->chain != chain) flush(b, line);
         chain = m->chain;
@@ -232,9 +229,10 @@ static void ink_layer(const brush *b, const uint32_t *stylized, size_t count, dp
     if (any) flush(b, line);
 }
 
-void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
+void dp_ink_stylized(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
+    const dp_frame *const frame = k->frame;
     size_t count;
-    if (!dp_fetch_strokes(frame, worker, tile, &count)) {
+    if (!dp_fetch_strokes(k, worker, tile, &count)) {
         worker->failed = true;
         return;
     }
@@ -242,6 +240,7 @@ void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) 
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
     const brush b = {.frame = frame,
+                     .stylized = k->drawing->stylized.stylized,
                      .worker = worker,
                      .style = &frame->styles[0].stroke,
                      .outlines_outside = dp_lies_outside(frame),

@@ -10,17 +10,13 @@
  * planes of the polygons that meet at the spine does, as a rounded outline does. It is cut so where
  * outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
  * looks like a defect, and strokes end round. */
-#include "strokes/stroke.h"
+#include "sink/raster.h"
 
 #include "sink/kernels.h"
 #include "core/blend.h"
 #include "raster/samples.h"
 
 #include <string.h>
-
-/* From the bottom up: where lines cross, outlines lie over creases. */
-const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
-                                          DP_LINE_BORDER, DP_LINE_SILHOUETTE};
 
 dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
     const float r = s->half_width + 1;
@@ -35,10 +31,11 @@ dp_tile_rect dp_stroke_rect(const dp_stroke *s) {
                           0};
 }
 
-static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects, uint32_t worker) {
-    const dp_frame *const frame = arg;
+void dp_place_strokes(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects,
+                      uint32_t worker) {
+    const dp_inking *const k = arg;
     (void)worker;
-    for (uint32_t i = 0; i < count; i++) rects[i] = dp_stroke_rect(&frame->strokes[first + i]);
+    for (uint32_t i = 0; i < count; i++) rects[i] = dp_stroke_rect(&k->drawing->strokes[first + i]);
 }
 
 static float distance_to(const dp_stroke *s, float x, float y, float *t) {
@@ -50,9 +47,10 @@ static float distance_to(const dp_stroke *s, float x, float y, float *t) {
     return sqrtf(dx * dx + dy * dy);
 }
 
-static bool touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker) {
-    const dp_frame *const frame = arg;
-    const dp_stroke *const s = &frame->strokes[index];
+bool dp_stroke_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y,
+                       uint32_t worker) {
+    const dp_inking *const k = arg;
+    const dp_stroke *const s = &k->drawing->strokes[index];
     (void)worker;
     float t;
     const float half = DP_TILE * 0.5f;
@@ -61,13 +59,9 @@ static bool touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, u
     return d <= half * 1.4143f + s->half_width + 1;
 }
 
-bool dp_bin_strokes(dp_frame *frame) {
-    return dp_bins_fill(&frame->stroke_bins, (uint32_t)frame->segment_count, frame->tiles_x,
-                        frame->tiles_y, place, touches, frame, frame->threads, frame->memory);
-}
-
 typedef struct tile_ink {
     const dp_frame *frame;
+    const dp_stroke *strokes; /* of the drawing */
     dp_ink_worker *worker;
     const float *depth; /* the tile's samples; NULL: there is no surface */
     bool hides;         /* strokes are cut where the surface hides them */
@@ -181,10 +175,10 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
     }
 }
 
-bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *w, uint32_t tile, size_t *count) {
-    const dp_bins *const bins = &frame->stroke_bins;
+bool dp_fetch_strokes(const dp_inking *k, dp_ink_worker *w, uint32_t tile, size_t *count) {
+    const dp_bins *const bins = &k->raster->bins;
     *count = 0;
-    if (!dp_reserve(frame->memory, &w->strokes, &w->strokes_cap, dp_bins_tile_count(bins, tile),
+    if (!dp_reserve(k->frame->memory, &w->strokes, &w->strokes_cap, dp_bins_tile_count(bins, tile),
                     sizeof *w->strokes))
         return false;
     for (uint32_t c = 0; c < bins->chunk_count; c++) {
@@ -200,23 +194,24 @@ enum { LATER = 12, SOON = 4 };
 
 /* Puts the tile's strokes in the order of their classes, each class's as they came: `first` is
  * where each begins, by dp_line. */
-static bool sort_strokes(const dp_frame *frame, dp_ink_worker *w, size_t count,
+static bool sort_strokes(const dp_inking *k, dp_ink_worker *w, size_t count,
                          size_t first[DP_LINE_COUNT + 1]) {
-    if (!dp_reserve(frame->memory, &w->sorted, &w->sorted_cap, count, sizeof *w->sorted))
+    if (!dp_reserve(k->frame->memory, &w->sorted, &w->sorted_cap, count, sizeof *w->sorted))
         return false;
+    const dp_stroke *const strokes = k->drawing->strokes;
     size_t next[DP_LINE_COUNT] = {0}, sum = 0;
     for (size_t i = 0; i < count; i++) {
-        if (i + LATER < count) __builtin_prefetch(&frame->strokes[w->strokes[i + LATER]]);
-        next[frame->strokes[w->strokes[i]].line]++;
+        if (i + LATER < count) __builtin_prefetch(&strokes[w->strokes[i + LATER]]);
+        next[strokes[w->strokes[i]].line]++;
     }
-    for (int k = 0; k < DP_LINE_COUNT; k++) {
-        const size_t n = next[k];
-        first[k] = next[k] = sum;
+    for (int i = 0; i < DP_LINE_COUNT; i++) {
+        const size_t n = next[i];
+        first[i] = next[i] = sum;
         sum += n;
     }
     first[DP_LINE_COUNT] = sum;
     for (size_t i = 0; i < count; i++)
-        w->sorted[next[frame->strokes[w->strokes[i]].line]++] = w->strokes[i];
+        w->sorted[next[strokes[w->strokes[i]].line]++] = w->strokes[i];
     return true;
 }
 
@@ -224,9 +219,9 @@ static bool sort_strokes(const dp_frame *frame, dp_ink_worker *w, size_t count,
 static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count, dp_line line) {
     dp_color color = 0;
     for (size_t i = 0; i < count; i++) {
-        const dp_stroke *const s = &ink->frame->strokes[strokes[i]];
+        const dp_stroke *const s = &ink->strokes[strokes[i]];
         if (i + SOON < count && ink->hides)
-            prefetch_samples(ink, &ink->frame->strokes[strokes[i + SOON]]);
+            prefetch_samples(ink, &ink->strokes[strokes[i + SOON]]);
         if (i && s->color != color) flush(ink, line, color);
         color = s->color;
         cover(ink, s);
@@ -234,10 +229,11 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
     if (count) flush(ink, line, color);
 }
 
-void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
+void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
+    const dp_frame *const frame = k->frame;
     size_t count, first[DP_LINE_COUNT + 1];
-    if (!dp_fetch_strokes(frame, worker, tile, &count) ||
-        !sort_strokes(frame, worker, count, first)) {
+    if (!dp_fetch_strokes(k, worker, tile, &count) ||
+        !sort_strokes(k, worker, count, first)) {
         worker->failed = true;
         return;
     }
@@ -246,6 +242,7 @@ void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile) {
     const dp_target *const target = &frame->target;
     const bool empty = frame->tile_pieces[tile].empty;
     const tile_ink ink = {.frame = frame,
+                          .strokes = k->drawing->strokes,
                           .worker = worker,
                           .depth = empty ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
                           .hides = !empty && frame->lines & DP_SILHOUETTE,

@@ -2,6 +2,7 @@
 #include "sink/kernels.h"
 
 #include "base/lanes.h"
+#include "sink/raster.h"
 
 #include "sink/cover.inc"
 

@@ -329,6 +329,8 @@ static void collect_tile(void *arg, uint32_t tile, uint32_t worker) {
     if (!s->lines[tile].candidate_count) return;
     dp_stream_settle_fans(s, &s->lines[tile]);
     swap_lines(w, &s->lines[tile]);
+    dp_tile_place(&w->tile, tile);
+    w->lines.streamed = true;
     dp_collect_pieces(w);
     swap_lines(w, &s->lines[tile]);
     out->count = w->found->piece_count - out->first;

@@ -22,12 +22,23 @@ typedef struct chaining {
     size_t slot_count;
 } chaining;
 
+/* Two ends over a gap. */
+typedef struct dp_bridge {
+    float distance;
+    uint32_t e, f;
+} bridge;
+
+static const dp_array arrays[] = {DP_ARRAY(dp_chain_store, links, links_cap),
+                                  DP_ARRAY(dp_chain_store, chains, chains_cap),
+                                  DP_ARRAY(dp_chain_store, scratch, scratch_cap),
+                                  DP_ARRAY(dp_chain_store, bridges, bridges_cap)};
+
 void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory) {
-    dp_free(memory, store->links);
-    dp_free(memory, store->chains);
-    dp_free(memory, store->scratch);
-    dp_free(memory, store->bridges);
-    *store = (dp_chain_store){0};
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_chain_store_bytes(const dp_chain_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
 }
 
 static dp_point end_point(const chaining *c, uint32_t end) {
@@ -104,10 +115,6 @@ static void partner_node(const chaining *c, uint32_t first) {
 
 /* ------- over gaps ------- */
 
-typedef struct dp_bridge {
-    float distance;
-    uint32_t e, f;
-} bridge;
 
 static int by_distance(const void *left, const void *right) {
     const bridge *const l = left, *const r = right;

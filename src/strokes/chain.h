@@ -42,5 +42,6 @@ typedef struct dp_chain_rule {
 bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule,
                     const dp_allocator *memory, dp_chain_store *store);
 void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory);
+uint64_t dp_chain_store_bytes(const dp_chain_store *store);
 
 #endif

@@ -5,9 +5,8 @@
  * edge and joined. All others are segments as they are. What the tile knew of a piece's edge when
  * it found it (its segment geometry) need not be found again; ends and planes are made of that, many segments
  * at once. The order (tile by tile, then the joined ones by polygon) does not depend on threads. */
-#include "strokes/stylized.h"
+#include "strokes/drawing.h"
 #include "strokes/segment_batch.h"
-#include "strokes/stroke.h"
 
 #include "base/hostile.h"
 #include "strokes/kernels.h"
@@ -18,17 +17,25 @@
 
 enum { BLOCK = DP_TUNED(128, 7) };
 
-void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory) {
-    dp_free(memory, store->pieces);
-    dp_free(memory, store->segments);
-    dp_free(memory, store->strokes);
-    *store = (dp_stroke_store){0};
+static const dp_array arrays[] = {DP_ARRAY(dp_drawing, pieces, pieces_cap),
+                                  DP_ARRAY(dp_drawing, segments, segments_cap),
+                                  DP_ARRAY(dp_drawing, strokes, strokes_cap),
+                                  DP_ARRAY(dp_drawing, sides, sides_cap)};
+
+void dp_drawing_free(dp_drawing *drawing, const dp_allocator *memory) {
+    dp_arrays_free(memory, drawing, DP_ARRAYS(arrays));
+    dp_chain_store_free(&drawing->chains, memory);
+    dp_stylized_store_free(&drawing->stylized, memory);
+}
+
+uint64_t dp_drawing_bytes(const dp_drawing *drawing) {
+    return dp_arrays_bytes(drawing, DP_ARRAYS(arrays)) + dp_chain_store_bytes(&drawing->chains) +
+           dp_stylized_store_bytes(&drawing->stylized);
 }
 
 static int ascending(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
 
-static int by_edge(const void *left, const void *right) {
-    const dp_piece *const l = left, *const r = right;
+int dp_piece_order(const dp_piece *l, const dp_piece *r) {
     if (l->a != r->a) return ascending(l->a, r->a);
     if (l->edge != r->edge) return ascending(l->edge, r->edge);
     if (l->b != r->b) return ascending(l->b, r->b);
@@ -36,13 +43,15 @@ static int by_edge(const void *left, const void *right) {
     return ascending(l->k0, r->k0);
 }
 
+static int by_edge(const void *left, const void *right) { return dp_piece_order(left, right); }
+
 static bool continues(const dp_piece *p, const dp_piece *q) {
     return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line &&
            p->k1 == q->k0;
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
-static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_stroke_store *store,
+static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_drawing *store,
                         size_t *count) {
     const uint32_t tiles = frame->tiles_x * frame->tiles_y;
     size_t total = 0, closed = 0, open;
@@ -65,13 +74,13 @@ static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_stroke_
         dp_sort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
     size_t last = closed;
     for (size_t i = closed; i < total; i++) {
-        if (i > closed && continues(&store->pieces[last - 1], &store->pieces[i]))
+        if (i > closed && continues(&store->pieces[last - 1], &store->pieces[i])) {
             store->pieces[last - 1].k1 = store->pieces[i].k1;
-        else
+            store->pieces[last - 1].hider[1] = store->pieces[i].hider[1];
+        } else {
             store->pieces[last++] = store->pieces[i];
+        }
     }
-    /* chains begin and run by the order of their segments, which must not depend on tiles */
-    if (dp_is_stylized(frame) && last) dp_sort(store->pieces, last, sizeof *store->pieces, by_edge);
     *count = last;
     return true;
 }
@@ -111,9 +120,9 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
 }
 
 typedef struct job {
-    dp_frame *frame;
+    const dp_frame *frame;
     const dp_found *found;
-    const dp_stroke_store *store;
+    dp_drawing *store;
 } job;
 
 static void put_geometry(const job *j, const dp_piece *piece, dp_segment_batch *out, uint32_t i) {
@@ -148,6 +157,29 @@ static dp_point take_end(const dp_segment_batch *made, uint32_t i, int k, float 
     return p;
 }
 
+/* Does the near or the far plane cut a spine there? */
+static bool lies_on_plane(const dp_view *view, const float world[3]) {
+    const dp_clip_point c = dp_to_clip(view, dp_v3f(world));
+    return fabs(fabs(c.z) - c.w) <= 1e-5 * fabs(c.w);
+}
+
+/* Why a piece ends where it does. A spine that the near or far plane has cut ends there. */
+static void take_line_end(const dp_frame *frame, const dp_piece *piece, int k, dp_segment *out) {
+    const int32_t hider = (int32_t)piece->hider[k];
+    out->hider[k] = UINT64_MAX;
+    if (hider == DP_HIDER_PICTURE) {
+        out->end[k] = DP_END_PICTURE;
+    } else if (hider == DP_HIDER_NONE) {
+        const float *const world = k ? out->world_b : out->world_a;
+        out->end[k] = lies_on_plane(&frame->view, world) ? DP_END_PICTURE
+                      : piece->edge == DP_CROSSING       ? DP_END_CROSSING
+                                                         : DP_END_VERTEX;
+    } else {
+        out->end[k] = DP_END_HIDDEN;
+        if (hider != DP_HIDER_UNKNOWN) out->hider[k] = source_number(frame, piece->hider[k]);
+    }
+}
+
 static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_segment_batch *made,
                          uint32_t i, dp_segment *segment, dp_stroke *stroke) {
     const dp_line_style *const line = &dp_polygon_style(frame, piece->a)->line[piece->line];
@@ -155,10 +187,14 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
     segment->polygon = source_number(frame, piece->a);
     segment->other = source_number(frame, piece->b);
     segment->edge = piece->edge;
+    segment->group = frame->polygons.groups ? frame->polygons.groups[piece->a] : 0;
+    segment->level = segment->chain = segment->place = 0;
+    segment->reversed = false;
     segment->width = line->width;
     segment->color = line->color;
     stroke->a = take_end(made, i, 0, segment->a, segment->world_a);
     stroke->b = take_end(made, i, 1, segment->b, segment->world_b);
+    for (int k = 0; k < 2; k++) take_line_end(frame, piece, k, segment);
     stroke->half_width = line->width / 2;
     stroke->color = line->color;
     stroke->line = piece->line;
@@ -167,8 +203,8 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
 
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
-    const dp_stroke_store *const store = j->store;
-    const size_t first = (size_t)index * BLOCK, count = j->frame->segment_count;
+    dp_drawing *const store = j->store;
+    const size_t first = (size_t)index * BLOCK, count = j->store->count;
     const size_t end = first + BLOCK < count ? first + BLOCK : count;
     dp_segment_batch batch = {0};
     (void)worker;
@@ -182,7 +218,7 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
-bool dp_make_segments(dp_frame *frame, const dp_found *found, dp_stroke_store *store) {
+bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_drawing *store) {
     size_t count;
     if (!join_pieces(frame, found, store, &count)) return false;
     if (count > UINT32_MAX ||
@@ -191,9 +227,11 @@ bool dp_make_segments(dp_frame *frame, const dp_found *found, dp_stroke_store *s
         !dp_reserve(frame->memory, &store->strokes, &store->strokes_cap, count,
                     sizeof *store->strokes))
         return false;
-    frame->segments = store->segments;
-    frame->strokes = store->strokes;
-    frame->segment_count = count;
+    store->count = count;
+    store->chained = false;
+    store->stylizes = dp_is_stylized(frame);
+    store->paper = frame->styles[0].paper;
+    store->surface = frame->styles[0].surface;
     job j = {frame, found, store};
     dp_parallel(frame->threads, (uint32_t)(count / BLOCK + (count % BLOCK != 0)), make_block, &j);
     return true;

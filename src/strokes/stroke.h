@@ -3,7 +3,6 @@
 #define DP_STROKES_STROKE_H
 
 #include "core/frame.h"
-#include "core/piece.h"
 
 /* A capsule on the screen: all points within half_width of the spine. */
 typedef struct dp_stroke {
@@ -38,56 +37,5 @@ static inline float dp_stroke_limit(const dp_frame *frame, const dp_stroke *s, f
     }
     return limit;
 }
-
-/* Pixels of a tile beside a stroke, at most DP_PATCH columns and rows. */
-enum { DP_PATCH = 8 };
-typedef struct dp_ink_patch {
-    uint32_t tile_x, tile_y; /* px of the tile's corner */
-    uint32_t x0, y0, x1, y1; /* in the tile; from the first to before the last */
-    const float *depth;      /* the tile's samples, which hide; NULL: nothing does */
-} dp_ink_patch;
-
-/* Joins the tiles' pieces and makes frame->segments and frame->strokes (context->owned arrays);
- * `store` keeps their memory. */
-typedef struct dp_stroke_store {
-    dp_piece *pieces;
-    dp_segment *segments;
-    dp_stroke *strokes;
-    size_t pieces_cap, segments_cap, strokes_cap;
-} dp_stroke_store;
-
-void dp_stroke_store_free(dp_stroke_store *store, const dp_allocator *memory);
-
-/* `found`: by worker. False when memory is out. */
-bool dp_make_segments(dp_frame *frame, const dp_found *found, dp_stroke_store *store);
-
-/* Strokes to tiles. False when memory is out. */
-bool dp_bin_strokes(dp_frame *frame);
-
-/* From the bottom up: the order in which classes are laid over each other. */
-extern const dp_line dp_layers[DP_LINE_COUNT];
-
-/* Tiles that a stroke reaches. */
-dp_tile_rect dp_stroke_rect(const dp_stroke *stroke);
-
-/* Inks one tile over what the target holds already. */
-typedef struct dp_ink_worker {
-    float coverage[64 * 64];
-    uint64_t row[64];       /* pixels of `coverage` that are set */
-    float nearest[64 * 64]; /* brush.c: px from the spine; colour */
-    dp_color color[64 * 64];
-    uint32_t *strokes, *sorted; /* of the tile: as they come; ink.c: by class */
-    size_t strokes_cap, sorted_cap;
-    bool failed;
-} dp_ink_worker;
-/* Which strokes a tile holds, into worker->strokes. False when memory is out. */
-bool dp_fetch_strokes(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile, size_t *count);
-
-/* Share of the samples of pixel (x, y) that do not hide the stroke, `distance` px beside its
- * spine's point t. `tile_depth`: the samples of the tile at (x0, y0); NULL: there is no surface. */
-float dp_visible_share(const dp_frame *frame, const float *tile_depth, uint32_t x0, uint32_t y0,
-                       const dp_stroke *stroke, uint32_t x, uint32_t y, float t, float distance);
-
-void dp_ink_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile);
 
 #endif

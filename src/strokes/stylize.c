@@ -9,17 +9,14 @@
  * Errors, as of a hand, are noise over the arc length, seeded by the style's seed, the repeat, and the
  * polygon at which the chain begins: nothing depends on threads or on what else is in the
  * picture. */
-#include "strokes/stylized.h"
+#include "strokes/drawing.h"
 
 #include "features/silhouette_edge.h"
 #include "core/outline.h"
 #include "texture/texture.h"
 
 enum { SMOOTHINGS = 3 };
-static const float GAP =
-    4; /* px; smaller holes in an outline are rounding, or a fold of a single triangle */
 static const float CORNER = 0.77f; /* cosine: sharper turns than 40 degrees are meant, and stay */
-static const float TURN = -0.7f;   /* chains do not go on at turns above 135 degrees */
 static const float BREAK = 0.34f;  /* at corners of more than 70 degrees the pen is lifted */
 static const float SWELL = 0.4f;   /* px of width per px of an extruded outline's length */
 static const float CORE = 0.6f; /* px, half the width of the edges themselves under extruded ink */
@@ -31,13 +28,16 @@ typedef struct dp_path_point {
     uint32_t segment; /* that follows */
 } path_point;
 
-void dp_stylized_store_free(dp_stylized_store *s, const dp_allocator *memory) {
-    dp_chain_store_free(&s->chains, memory);
-    dp_free(memory, s->stylized);
-    dp_free(memory, s->points);
-    dp_free(memory, s->sides);
-    dp_free(memory, s->lights);
-    *s = (dp_stylized_store){0};
+static const dp_array arrays[] = {DP_ARRAY(dp_stylized_store, stylized, stylized_cap),
+                                  DP_ARRAY(dp_stylized_store, points, points_cap),
+                                  DP_ARRAY(dp_stylized_store, lights, lights_cap)};
+
+void dp_stylized_store_free(dp_stylized_store *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_stylized_store_bytes(const dp_stylized_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
 }
 
 bool dp_lies_outside(const dp_frame *f) { return f->adjacency && f->styles[0].ink == DP_INK_QUADS; }
@@ -70,13 +70,12 @@ static float noise(float t, uint32_t seed) {
 /* ------- one chain's points ------- */
 
 typedef struct stylizer {
-    dp_frame *frame;
+    const dp_frame *frame;
+    const dp_drawing *drawing;
     dp_stylized_store *store;
-    const dp_piece *pieces;
     const dp_stroke_style *style;
     bool outside;            /* the line that is being drawn lies beside its spine */
     float nearest, farthest; /* distances of all lines */
-    double nearest_depth;    /* d of the nearest */
 } stylizer;
 
 /* A part of a chain between two corners at which the pen is lifted; or the whole. */
@@ -90,11 +89,11 @@ typedef struct run {
 static const dp_link *link_at(const run *r, uint32_t i) {
     return &r->links[(r->first + i) % r->total];
 }
-static dp_point link_start(const dp_frame *f, const dp_link *l) {
-    return l->reversed ? f->strokes[l->segment].b : f->strokes[l->segment].a;
+static dp_point link_start(const stylizer *h, const dp_link *l) {
+    return l->reversed ? h->drawing->strokes[l->segment].b : h->drawing->strokes[l->segment].a;
 }
-static dp_point link_end(const dp_frame *f, const dp_link *l) {
-    return l->reversed ? f->strokes[l->segment].a : f->strokes[l->segment].b;
+static dp_point link_end(const stylizer *h, const dp_link *l) {
+    return l->reversed ? h->drawing->strokes[l->segment].a : h->drawing->strokes[l->segment].b;
 }
 
 static bool add_point(stylizer *h, size_t *n, dp_point p, uint32_t segment) {
@@ -113,12 +112,11 @@ static float cosine(float ax, float ay, float bx, float by) {
 /* Points along the chain, each at least `spacing` from the last and no further than that within a
  * segment: what zigzags within that distance does so no more. Where long segments meet always. */
 static bool take_points(stylizer *h, const run *chain, float spacing, size_t *n) {
-    const dp_frame *const f = h->frame;
     dp_point last = {0, 0, 0};
     *n = 0;
     for (uint32_t i = 0; i < chain->count; i++) {
         const dp_link *const link = link_at(chain, i);
-        const dp_point p = link_start(f, link), q = link_end(f, link);
+        const dp_point p = link_start(h, link), q = link_end(h, link);
         const float dx = q.x - p.x, dy = q.y - p.y, step = dp_hypotf(dx, dy),
                     from_last = dp_hypotf(p.x - last.x, p.y - last.y);
         if (i == 0 || from_last >= (step > 2 * spacing ? spacing / 4 : spacing)) {
@@ -133,7 +131,7 @@ static bool take_points(stylizer *h, const run *chain, float spacing, size_t *n)
         }
     }
     const dp_link *const end = link_at(chain, chain->count - 1);
-    const dp_point q = link_end(f, end);
+    const dp_point q = link_end(h, end);
     /* the end itself: moves what is too close to it onto it */
     if (*n > 1 && dp_hypotf(q.x - last.x, q.y - last.y) < spacing / 2) --*n;
     return add_point(h, n, q, end->segment);
@@ -207,13 +205,11 @@ static float light_of(const dp_frame *f, const dp_piece *piece) {
 }
 
 static void find_distances(stylizer *h) {
-    h->nearest = INFINITY, h->farthest = -INFINITY, h->nearest_depth = (double)DP_DEPTH_EMPTY;
-    for (size_t i = 0; i < h->frame->segment_count; i++) {
-        const float a = h->frame->segments[i].a[2], b = h->frame->segments[i].b[2];
+    h->nearest = INFINITY, h->farthest = -INFINITY;
+    for (size_t i = 0; i < h->drawing->count; i++) {
+        const float a = h->drawing->segments[i].a[2], b = h->drawing->segments[i].b[2];
         h->nearest = dp_minf(h->nearest, dp_minf(a, b)),
         h->farthest = dp_maxf(h->farthest, dp_maxf(a, b));
-        h->nearest_depth = dp_max(
-            h->nearest_depth, (double)dp_maxf(h->frame->strokes[i].a.d, h->frame->strokes[i].b.d));
     }
 }
 
@@ -291,7 +287,7 @@ static bool add_parts(stylizer *h, const run *chain, size_t n, float length, uin
                     sizeof *s->stylized))
         return false;
     const dp_link *const head = link_at(chain, 0);
-    const dp_stroke *const first = &h->frame->strokes[head->segment];
+    const dp_stroke *const first = &h->drawing->strokes[head->segment];
     const float full =
         h->outside ? outside_width(2 * first->half_width, length) : first->half_width;
     const float per_px = repeats_per_px(h, 2 * first->half_width, length, chain->closed);
@@ -300,11 +296,11 @@ static bool add_parts(stylizer *h, const run *chain, size_t n, float length, uin
     const bool polar = h->style->texture && h->style->u == DP_STROKE_POLAR;
     const float turns = polar ? dp_polar_repeats(h->frame, h->style, 2 * first->half_width) : 0;
     const float side =
-        h->outside ? (float)(s->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
+        h->outside ? (float)(h->drawing->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
     for (size_t i = 0; i + 1 < n; i++) {
         const bool closed = chain->closed;
         dp_stylized *const m = &s->stylized[s->count++];
-        *m = (dp_stylized){.stroke = h->frame->strokes[p[i].segment],
+        *m = (dp_stylized){.stroke = h->drawing->strokes[p[i].segment],
                            .chain = id,
                            .outside = h->outside,
                            .ends = i + 2 == n && !chain->closed};
@@ -327,7 +323,7 @@ static bool add_parts(stylizer *h, const run *chain, size_t n, float length, uin
 static float raw_length(const stylizer *h, const run *r) {
     float sum = 0;
     for (uint32_t i = 0; i < r->count; i++) {
-        const dp_stroke *const k = &h->frame->strokes[link_at(r, i)->segment];
+        const dp_stroke *const k = &h->drawing->strokes[link_at(r, i)->segment];
         sum += dp_hypotf(k->b.x - k->a.x, k->b.y - k->a.y);
     }
     return sum;
@@ -349,12 +345,12 @@ static bool add_core(stylizer *h, const run *r, size_t first_part, uint32_t id) 
     for (uint32_t i = 0; i < r->count && total > 0; i++) {
         const dp_link *const l = link_at(r, i);
         dp_stylized *const m = &s->stylized[s->count++];
-        *m = (dp_stylized){.stroke = h->frame->strokes[l->segment],
+        *m = (dp_stylized){.stroke = h->drawing->strokes[l->segment],
                            .chain = id,
                            .outside = true,
                            .core = true,
                            .half = {CORE, CORE}};
-        m->stroke.a = link_start(h->frame, l), m->stroke.b = link_end(h->frame, l);
+        m->stroke.a = link_start(h, l), m->stroke.b = link_end(h, l);
         m->stroke.half_width = CORE;
         m->length = dp_hypotf(m->stroke.b.x - m->stroke.a.x, m->stroke.b.y - m->stroke.a.y);
         m->arc[0] = from + (to - from) * (arc / total);
@@ -367,10 +363,10 @@ static bool add_core(stylizer *h, const run *r, size_t first_part, uint32_t id) 
 static bool draw_run(stylizer *h, const run *chain, uint32_t repeat, uint32_t *id) {
     const dp_stroke_style *const s = h->style;
     const dp_link *const head = link_at(chain, 0);
-    const dp_piece *const piece = &h->pieces[head->segment];
+    const dp_piece *const piece = &h->drawing->pieces[head->segment];
     const uint32_t seed = hash(hash(s->seed * 8 + repeat, piece->a), piece->edge * 4 + piece->line);
     const float spacing =
-        dp_minf(dp_maxf(h->frame->strokes[head->segment].half_width, 1.5f), h->outside ? 4 : 5);
+        dp_minf(dp_maxf(h->drawing->strokes[head->segment].half_width, 1.5f), h->outside ? 4 : 5);
     const float quarter =
         dp_maxf(raw_length(h, chain) / 4, 0.25f); /* a small ring is more than a point */
     size_t n;
@@ -396,9 +392,9 @@ static bool draw_run(stylizer *h, const run *chain, uint32_t repeat, uint32_t *i
  * What is short may zigzag as it likes. */
 static bool is_cut(const stylizer *h, const run *r, uint32_t i) {
     const dp_link *const l = link_at(r, i + r->total - 1), *const m = link_at(r, i);
-    const dp_point a = link_start(h->frame, l), b = link_end(h->frame, l),
-                   c = link_start(h->frame, m), d = link_end(h->frame, m);
-    const float least = 4 + 2 * h->frame->strokes[m->segment].half_width;
+    const dp_point a = link_start(h, l), b = link_end(h, l),
+                   c = link_start(h, m), d = link_end(h, m);
+    const float least = 4 + 2 * h->drawing->strokes[m->segment].half_width;
     if (dp_hypotf(b.x - a.x, b.y - a.y) < least || dp_hypotf(d.x - c.x, d.y - c.y) < least)
         return false;
     return cosine(b.x - a.x, b.y - a.y, d.x - c.x, d.y - c.y) < BREAK;
@@ -406,8 +402,8 @@ static bool is_cut(const stylizer *h, const run *r, uint32_t i) {
 
 /* A chain's runs, each as often as the style says. */
 static bool draw_chain(stylizer *h, const dp_chain *chain, uint32_t *id) {
-    h->outside = h->store->sides[h->store->chains.links[chain->first].segment];
-    run r = {.links = h->store->chains.links + chain->first,
+    h->outside = h->drawing->sides[h->drawing->chains.links[chain->first].segment];
+    run r = {.links = h->drawing->chains.links + chain->first,
              .total = chain->count,
              .count = chain->count,
              .closed = chain->closed};
@@ -425,53 +421,30 @@ static bool draw_chain(stylizer *h, const dp_chain *chain, uint32_t *id) {
     return true;
 }
 
-/* Which side of an extruded line is outside, for chains to keep to. */
-static int8_t side_of(const stylizer *h, size_t i) {
-    const dp_stroke *const k = &h->frame->strokes[i];
-    double out[2] = {0, 0};
-    if (!dp_lies_outside(h->frame) || !(1u << k->line & DP_OUTLINES)) return 0;
-    dp_find_outside(h->frame, h->pieces[i].a, (dp_pointd){k->a.x, k->a.y, 0},
-                    (dp_pointd){k->b.x, k->b.y, 0}, out);
-    return (k->b.x - k->a.x) * out[1] - (k->b.y - k->a.y) * out[0] < 0 ? -1 : 1;
-}
-
-/* Sides; and how lit lines are. */
-static bool look_at_segments(stylizer *h) {
-    dp_frame *const f = h->frame;
+/* How lit lines are. */
+static bool find_lights(stylizer *h) {
     dp_stylized_store *const s = h->store;
-    if (!dp_reserve(f->memory, &s->sides, &s->sides_cap, f->segment_count, sizeof *s->sides) ||
-        !dp_reserve(f->memory, &s->lights, &s->lights_cap, f->segment_count, sizeof *s->lights))
+    if (!(h->style->light > 0)) return true;
+    if (!dp_reserve(h->frame->memory, &s->lights, &s->lights_cap, h->drawing->count,
+                    sizeof *s->lights))
         return false;
-    for (size_t i = 0; i < f->segment_count; i++) {
-        s->sides[i] = side_of(h, i);
-        if (h->style->light > 0) s->lights[i] = light_of(f, &h->pieces[i]);
-    }
+    for (size_t i = 0; i < h->drawing->count; i++)
+        s->lights[i] = light_of(h->frame, &h->drawing->pieces[i]);
     return true;
 }
 
-/* Thin extruded lines must not run over what no edge does. */
-static float gap_outside(const dp_frame *f) {
-    return dp_minf(GAP, f->styles[0].line[DP_LINE_SILHOUETTE].width / 4);
-}
-
-bool dp_stylize(dp_frame *frame, const dp_piece *pieces, dp_stylized_store *store) {
-    stylizer h = {
-        .frame = frame, .store = store, .pieces = pieces, .style = &frame->styles[0].stroke};
+bool dp_stylize(const dp_frame *frame, dp_drawing *drawing) {
+    dp_stylized_store *const store = &drawing->stylized;
+    stylizer h = {.frame = frame,
+                  .drawing = drawing,
+                  .store = store,
+                  .style = &frame->styles[0].stroke};
     store->count = 0;
-    if (!look_at_segments(&h)) return false;
+    if (!drawing->stylizes) return true;
+    if (!dp_chain_drawing(frame, drawing) || !find_lights(&h)) return false;
     find_distances(&h);
-    const dp_chain_rule rule = {.sharpest = TURN,
-                                .side = store->sides,
-                                .gap = GAP,
-                                .side_gap = gap_outside(frame),
-                                .step = (float)dp_depth_step(&frame->view, h.nearest_depth, 30)};
-    if (!dp_make_chains(frame->strokes, (uint32_t)frame->segment_count, &rule, frame->memory,
-                        &store->chains))
-        return false;
     uint32_t id = 0;
-    for (uint32_t c = 0; c < store->chains.chain_count; c++)
-        if (!draw_chain(&h, &store->chains.chains[c], &id)) return false;
-    frame->stylized = store->stylized;
-    frame->stylized_count = store->count;
+    for (uint32_t c = 0; c < drawing->chains.chain_count; c++)
+        if (!draw_chain(&h, &drawing->chains.chains[c], &id)) return false;
     return store->count < UINT32_MAX;
 }

@@ -21,12 +21,10 @@ typedef struct dp_stylized {
 } dp_stylized;
 
 typedef struct dp_stylized_store {
-    dp_chain_store chains;
     dp_stylized *stylized;
     struct dp_path_point *points; /* stylize.c: of one chain */
-    int8_t *sides;
     float *lights;
-    size_t stylized_cap, points_cap, sides_cap, lights_cap, count;
+    size_t stylized_cap, points_cap, lights_cap, count;
 } dp_stylized_store;
 
 /* Are lines stylized rather than as plain strokes? */
@@ -34,13 +32,7 @@ bool dp_is_stylized(const dp_frame *frame);
 /* Do outlines lie beside their spines, on the outside, as extruded silhouettes do? */
 bool dp_lies_outside(const dp_frame *frame);
 
-/* Fills frame->stylized from frame->strokes and the pieces they were made of. False when memory is
- * out. */
-bool dp_stylize(dp_frame *frame, const dp_piece *pieces, dp_stylized_store *store);
 void dp_stylized_store_free(dp_stylized_store *store, const dp_allocator *memory);
-
-/* Stylized strokes to tiles (brush.c); a tile's stylized strokes over what the target holds. */
-bool dp_bin_stylized(dp_frame *frame);
-void dp_brush_tile(const dp_frame *frame, dp_ink_worker *worker, uint32_t tile);
+uint64_t dp_stylized_store_bytes(const dp_stylized_store *store);
 
 #endif

@@ -3,7 +3,7 @@
 #include "sink/kernels.h"
 #include "core/blend.h"
 #include "core/frame.h"
-#include "strokes/stroke.h"
+#include "sink/raster.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,0 +1,90 @@
+/* drypoint/sink.h: where a drawing goes: a table of functions that takes it stroke by stroke.
+ *
+ * dp_draw inks its strokes into the target's pixels. Afterwards the same drawing can be handed to any
+ * number of other sinks, the application's own among them:
+ *
+ *     static dp_result count(void *user, const dp_chain_stroke *stroke, dp_diag *diag) {
+ *         *(size_t *)user += stroke->count;
+ *         return DP_OK;
+ *     }
+ *     size_t segments = 0;
+ *     dp_draw(context, source, &camera, NULL, &target, &diag);
+ *     dp_send(context, &(dp_sink){.user = &segments, .stroke = count}, &diag);
+ */
+#ifndef DRYPOINT_SINK_H
+#define DRYPOINT_SINK_H
+
+#include <drypoint/draw.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is drawn on, and how much there is to come. */
+typedef struct dp_sheet {
+    uint32_t width, height;  /* px */
+    dp_color paper, surface; /* of the first style */
+    size_t strokes, segments;
+} dp_sheet;
+
+/* A chain of segments of one class and colour, drawn without lifting the pen. Consecutive segments
+ * meet at one point; those of stylized strokes (strokes.h) may leave a gap of a few px, over which
+ * the stroke runs. */
+typedef struct dp_chain_stroke {
+    dp_line line;
+    uint32_t chain; /* as in dp_segment */
+    uint32_t group; /* of the first segment */
+    uint32_t level; /* how many surfaces hide it; 0: it is visible */
+    float width;    /* px, the whole line */
+    dp_color color;
+    bool closed;                        /* the last segment ends where the first begins */
+    const dp_segment *const *segments;  /* [count] in the order in which they follow each other;
+                                           one that is `reversed` is drawn from b to a */
+    size_t count;
+} dp_chain_stroke;
+
+/* What a drawing is handed to. Any function may be NULL. They are called in this order, from the
+ * thread that sends: begin, surface, then for each class that has strokes, from the bottom up
+ * (valleys, intersections, ridges, borders, silhouettes), layer and its strokes, then end. What is
+ * pointed to is borrowed until the function returns. A result other than DP_OK ends the drawing; its
+ * reason goes into `diag`, which may be NULL. */
+typedef struct dp_sink {
+    void *user;
+    dp_result (*begin)(void *user, const dp_sheet *sheet, dp_diag *diag);
+    /* What lies below all lines: the planes of the last dp_draw's target, which are the caller's. */
+    dp_result (*surface)(void *user, const dp_target *target, dp_diag *diag);
+    dp_result (*layer)(void *user, dp_line line, dp_diag *diag);
+    dp_result (*stroke)(void *user, const dp_chain_stroke *stroke, dp_diag *diag);
+    /* Called whenever begin has succeeded, or was NULL. `so_far`: what stopped the drawing, or DP_OK.
+     * Its own result is that of the whole unless something stopped it before. */
+    dp_result (*end)(void *user, dp_result so_far, dp_diag *diag);
+} dp_sink;
+
+/* Hands the lines of the last dp_draw to a sink. Strokes come in an order that does not depend on
+ * threads. Drawings with DP_INK_QUADS have no strokes. DP_ERR_ARGUMENT (nothing has been drawn),
+ * DP_ERR_MEMORY, and whatever the sink returns. */
+DP_API dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag);
+
+/* Text, written piece by piece; a result other than DP_OK ends it. */
+typedef dp_result dp_text_writer(void *user, const char *text, size_t size, dp_diag *diag);
+
+/* Hands the lines of the last dp_draw to a writer as text, one line for every end of a segment:
+ *
+ *     drypoint trace 1
+ *     picture 320 240 paper #ffffffff surface #ffffffff
+ *     layer silhouette
+ *     stroke 0 group 0 level 0 width 2 color #000000ff
+ *     from 102.5 88.25 4.125 vertex
+ *     to 110.375 90 4.125 edge 17 2 other 18
+ *     to 131 97.5 4.0625 edge 18 0 other 22 hidden by 40
+ *     end 1 strokes 2 segments
+ *
+ * Places are px on the screen and the distance along the line of sight; the edge is polygon and
+ * corner of the source, or `crossing` for an intersection. Ends are `vertex`, `crossing`, `picture`
+ * or `hidden`, by a polygon where it is known. */
+DP_API dp_result dp_trace(dp_context *context, dp_text_writer *write, void *user, dp_diag *diag);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
