@@ -1,10 +1,16 @@
-/* A tile's candidates by adjacency, instead of by the tile's own table of edges (edges.c).
+/* A tile's candidates from the mesh's adjacency, instead of from the tile's edge table (edges.c).
  *
- * Each polygon of the tile asks what its edges are. Outlines come from the front-facing side, as in
- * Listing 2.1 of Hermosilla and Vázquez 2010; creases from the polygon that comes first in the
- * source. The edge's owner is that one for every class, as in the table, so that segments are the
- * same from both. Edges whose neighbours share no corner with them are open here: a border, where
- * the table would look for what lies across. */
+ *    for each polygon of the tile that is not hidden
+ *        for each of its edges near the tile
+ *            outline?  front face beside a back face or nothing (frame->outlined)
+ *            crease?   the first of two polygons in the source adds it
+ *
+ * Outlines are detected as in (Hermosilla and Vázquez 2010, Listing 2.1), from the front-facing
+ * side. The polygon that comes first in the source owns the edge, whatever its class, as in the
+ * table; so both ways make the same segments.
+ *
+ * Not handled: neighbours that share no corner with an edge. The edge is then a border; the table
+ * would look for what lies across (emerge.c). */
 #include "core/facing.h"
 
 #include "mesh/adjacency.h"
@@ -13,7 +19,7 @@
 
 typedef struct shared_edge {
     uint32_t a, b;           /* owner; partner or UINT32_MAX */
-    uint32_t edge_a, edge_b; /* corner number within the polygon */
+    uint32_t edge_a, edge_b; /* corner numbers within the polygons */
     bool flipped;
 } shared_edge;
 
@@ -49,8 +55,7 @@ static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 n
         &spine, NULL);
 }
 
-/* The normals as the eye sees them: of two polygons that are wound differently one is turned
- * round. */
+/* The fold as the eye sees it: if the polygons are wound differently, one normal is reversed. */
 static dp_fold fold_of(const dp_frame *frame, const shared_edge *e, bool turned) {
     return dp_fold_seen(frame, e->a, !turned, e->b, turned == e->flipped, e->edge_b);
 }
@@ -66,7 +71,8 @@ static void add_outline(dp_finder *w, const shared_edge *e, dp_line line) {
     add_line(w, e, line, normal);
 }
 
-/* Two fronts, or two polygons wound differently that both show the eye the same side. */
+/* A crease lies between two front faces, or between two polygons of different winding that show the
+ * eye the same side. */
 static void add_crease(dp_finder *w, uint32_t polygon, uint32_t corner) {
     const dp_frame *const f = w->tile.frame;
     if (!dp_is_across(f->adjacency->across[corner])) return;
@@ -80,7 +86,7 @@ static void add_crease(dp_finder *w, uint32_t polygon, uint32_t corner) {
     if (line >= 0) add_line(w, &e, (dp_line)line, fold.normal);
 }
 
-/* A hidden polygon is not asked: it lies well behind the surface with all its edges. */
+/* Only for polygons that are not hidden: a hidden one has all its edges well behind the surface. */
 static void add_polygon(dp_finder *w, const dp_tile_polygon *p, bool creases) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);

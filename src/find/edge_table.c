@@ -1,23 +1,31 @@
-/* The edge table of a tile: which two polygons meet at an edge, found while the tile is drawn.
+/* The edge table of a tile: which polygons meet at an edge, found while the tile is drawn.
  *
- * Every polygon that touches an edge within the tile is in the tile's bin, so an edge's polygons
- * always meet here, without adjacency (docs/architecture.md). Edges have keys made of the keys of their
- * ends' positions: an index buffer, split vertices and a bare soup give the same keys. These are
- * hashes; before an edge becomes a line the positions themselves are compared. Of those that make
- * no line that is not asked: two neighbours of one vertex whose keys are equal would have to meet,
- * which one mesh of a million triangles in a thousand has.
+ *    list     half-edges of seen polygons, except those at flat vertices (one_rings.inc, edges.inc)
+ *    fill     each half-edge looks up its edge's slot:
+ *               free        it waits there, alone
+ *               one there   the two are a pair
+ *               two there   it is a meeting: a third or later polygon
+ *    flatten  unmark pairs too flat for a line (edges.inc);
+ *             if a pair's half-edges are of two edges: fill again, comparing whole keys
+ *    unmark   half-edges that stayed alone and are hidden (edges.inc)
+ *    take     what is still marked, in the order of the list (edges.c)
  *
- * Most edges of a fine mesh end at a vertex around which all is flat, and are never entered
- * (find/one-rings.inc).
+ * Every polygon that touches an edge within the tile is in the tile's bin, so all of an edge's
+ * polygons meet here, without adjacency. An edge's key is the xor of its ends' keys, which are
+ * hashes of positions: an index buffer, split vertices and a polygon soup give the same keys.
+ * Before an edge becomes a line, positions are compared. They are not compared for edges found
+ * flat: that goes wrong only if two neighbours of one vertex have equal keys, as in one mesh of a
+ * million triangles in a thousand.
  *
- * Data structure: a list of edges (find/edges.inc), and open addressing of 8 bytes a slot, of
- * which 4 are what two keys have in common; where the slot lies stands for the rest. So two edges
- * may be taken for one, in one tile of a million; whoever looks at a pair sees that, and the table
- * is filled again with the keys themselves compared. Edges that met are pairs, told flat by many at
- * once; a byte per listed edge tells whether it may be a line, so that what is found does not
- * depend on the hash. Invariant: at most two of three slots are used. Hidden polygons stay away:
- * their edges are hidden themselves, and a seen polygon that lacks one at its edge finds that too.
- * Not resolved here: edges whose neighbours share no corner with them (emerge.c). */
+ * Data structure: the list, and a hash table with open addressing. A slot has 8 bytes: the key, and
+ * what met there; a key's sum, which chooses the slot, is not stored. So two edges can be taken for
+ * one, in one tile of a million; `flatten` sees that in the pair. A byte per half-edge marks what
+ * may be a line, so results do not depend on the hash. Invariant: at most two of three slots are
+ * used.
+ *
+ * Hidden polygons are not listed: their edges are hidden too, and a seen polygon whose partner is
+ * hidden just keeps an unpaired edge. Not handled: neighbours that share no corner with the edge
+ * (emerge.c). */
 #include "find/edge_table.h"
 
 #include "base/elementary.h"
@@ -63,7 +71,8 @@ bool dp_edge_runs_between(const dp_finder *w, dp_half_edge edge, uint32_t va, ui
 
 /* ------- listing ------- */
 
-/* Keys come from the tile's points where these are the corners, else from the vertices. */
+/* The key of corner i: from the tile's points where these are the corners (not clipped), else from
+ * the frame's vertices. */
 static uint32_t key_of(const dp_finder *w, const dp_tile_polygon *p, uint32_t i, uint32_t first) {
     if (!(p->flags & DP_POLYGON_CLIPPED)) return w->tile.points[p->point + i].key;
     return w->tile.frame->vertices[dp_corner_vertex(&w->tile.frame->polygons, first + i)].key;
@@ -102,8 +111,8 @@ static bool reserve_list(dp_finder *w, size_t edges) {
                            (size_t)w->tile.seen_count + DP_EDGES_ROOM);
 }
 
-/* Of one-rings there are so many times as many as seen triangles, which have half as many vertices,
- * or more; half as many where they are far. */
+/* One-rings for each seen triangle. There are about half as many vertices as triangles, or more.
+ * The number is halved when the one-rings do not fit the cache. */
 static const uint32_t RINGS = DP_TUNED(2, 1);
 
 static bool reserve_rings(dp_finder *w) {
@@ -139,8 +148,8 @@ static bool make_list(dp_finder *w) {
 
 /* ------- entering ------- */
 
-/* Made of the sum of both ends' keys, as the key is of their exclusive or: the same from either
- * end. */
+/* A hash of the sum of both ends' keys: the same from either end, and independent of the edge's
+ * key, which is their xor. */
 static inline uint32_t slot_of(uint32_t from, uint32_t key, uint32_t slots) {
     const uint32_t sum = from + (from ^ key);
     return (uint32_t)((uint64_t)(sum * 0x9e3779b1u) * slots >> 32);
@@ -148,7 +157,7 @@ static inline uint32_t slot_of(uint32_t from, uint32_t key, uint32_t slots) {
 
 static inline uint32_t met_at(dp_edge_slot slot) { return (uint32_t)(slot >> 32); }
 
-/* The edge of the list that came first to a slot. */
+/* The half-edge that came first to a slot. */
 static uint32_t first_of(const dp_finder *w, uint32_t met) {
     return met & DP_SLOT_PAIR ? w->table.pair_first[met & DP_SLOT_NUMBER] : met - 1;
 }
@@ -172,15 +181,15 @@ static void add_meeting(dp_finder *w, uint32_t slot, uint32_t number) {
     w->table.slots[slot] |= (dp_edge_slot)DP_SLOT_MORE << 32;
 }
 
-/* Compilers know nothing of the value, so that they make no branches of what is computed from
- * it. */
+/* Hides a value from the compiler, so that it does not turn what is computed from it into a
+ * branch. */
 #define OPAQUE(value) __asm__("" : "+r"(value))
 
-/* Of keys so much is compared at first: all of it, or so little that most tables are filled
- * again. */
+/* At first only these bits of the keys are compared: all of them, or, in the hostile build, so few
+ * that most tables must be filled again. */
 static const uint32_t COMPARED = DP_TUNED(UINT32_MAX, 15);
 
-/* Is the slot taken by another edge? */
+/* Does another edge have the slot? */
 static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot, uint32_t key) {
     uint32_t other =
         (uint32_t)(met_at(slot) != 0) & (uint32_t)((((uint32_t)slot ^ key) & COMPARED) != 0);
@@ -188,16 +197,15 @@ static inline __attribute__((always_inline)) uint32_t is_other(dp_edge_slot slot
     return other;
 }
 
-/* The first look for an edge: at the slot that its key points to and, where another edge has that, at
- * the next. */
+/* Where the search for an edge begins: at its own slot, or at the next if another edge has that. */
 static inline __attribute__((always_inline)) uint32_t
 first_slot(const dp_edge_slot *slots, uint32_t count, uint32_t from, uint32_t key) {
     const uint32_t s = slot_of(from, key, count);
-    return s + is_other(slots[s], key); /* the last slot is nobody's first slot */
+    return s + is_other(slots[s], key); /* the last slot is no edge's own, so s + 1 exists */
 }
 
-/* The slot of edge `number`, or a free one, from `s` on. Unless `exact` it may be that of another
- * edge of equal key. */
+/* From slot s on, the slot of half-edge `number` or a free one. Unless `exact`, it may belong to
+ * another edge whose key agrees in the compared bits. */
 static inline __attribute__((always_inline)) uint32_t
 find_slot(const dp_finder *w, const dp_edge_slot *slots, uint32_t count, uint32_t s,
           uint32_t number, uint32_t key, const bool exact) {
@@ -210,9 +218,9 @@ find_slot(const dp_finder *w, const dp_edge_slot *slots, uint32_t count, uint32_
 
 enum { AHEAD = 8 };
 
-/* Enters all edges of the list: each takes a slot or meets the one that is there. Which of
- * the two it is cannot be foreseen, so no branch asks: both are written, selected. Some are looked
- * for before the first of them is entered: where it comes to lie, they find out when their turn
+/* Enters all half-edges of the list. Whether one is the first or the second at its edge cannot be
+ * predicted, so both results are computed and one is selected, without a branch. Slots are looked
+ * up AHEAD half-edges at a time; what these enter in the meantime, find_slot sees when their turn
  * comes. */
 static inline __attribute__((always_inline)) void enter_all(dp_finder *w, const bool exact) {
     const dp_edge_list *const list = &w->table.edges;
@@ -262,7 +270,7 @@ static bool clear_table(dp_finder *w) {
     return true;
 }
 
-/* Meetings are few, and seldom of another edge. */
+/* Is every meeting at its own edge? Meetings are few, so this is checked one by one. */
 static bool are_meetings_sound(const dp_finder *w) {
     for (uint32_t i = 0; i < w->table.meeting_count; i++)
         if (!is_same_edge(&w->table.edges, w->table.meetings[i].first, w->table.meetings[i].number))
@@ -331,7 +339,8 @@ dp_edge_entry dp_edge_table_entry(const dp_finder *w, uint32_t number) {
 
 /* ------- memory ------- */
 
-/* Both normals may be off by DP_ROUGH_ANGLE; a little more is for rounding. */
+/* A box of normals this small makes no fold. Each normal may be off by DP_ROUGH_ANGLE; half a
+ * degree more is for rounding. */
 void dp_one_rings_init(dp_one_rings *rings, float flat_cosine) {
     rings->spread = 0;
     if (flat_cosine > 1) return;

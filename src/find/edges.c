@@ -1,9 +1,15 @@
-/* A tile's lines along edges: what the table of edges holds is resolved into folds, outlines and
- * unpaired edges.
+/* Lines along edges: what the edge table of a tile holds becomes candidates or is left to emerge.
  *
- * Nearly all edges are flat, which the table tells (edge_table.c); here come those that may be
- * lines. Two polygons make a ridge, a valley or a silhouette; more than two, or winding that
- * disagrees, are looked at as the eye sees them; one alone is left to emerge (emerge.c). */
+ *    for each marked edge of the table, DP_FOLDS at a time
+ *        one polygon                          leave it to emerge (emerge.c)
+ *        keys agree, positions do not         leave the edge of each polygon to emerge
+ *        more than two, or winding disagrees  resolve_fan: what the eye sees decides
+ *        front and back                       silhouette
+ *        front and front                      ridge or valley, by the dihedral angle (core/fold.c)
+ *
+ * Dihedral angles are those of (Raskar 2001, 2.2). Nearly all edges are flat and never come here
+ * (edge_table.c). Invariant: the polygon that comes first in the source owns the edge, in every
+ * tile, so tiles agree on its spine. */
 #include "find/kernels.h"
 #include "raster/kernels.h"
 #include "core/fold.h"
@@ -19,7 +25,7 @@ static void leave(dp_finder *w, uint32_t polygon, uint32_t edge) {
     w->emergence.unpaired[w->emergence.unpaired_count++] = (dp_unpaired_edge){polygon, edge};
 }
 
-/* The polygon that came first in the source owns the edge, in every tile. */
+/* The edge as owned by the polygon that comes first in the source. */
 static dp_edge_entry owned_by_first(const dp_finder *w, const dp_edge_entry *e) {
     if (w->tile.polygons[e->a].id < w->tile.polygons[e->b].id) return *e;
     const bool opposed = e->opposed;
@@ -37,7 +43,7 @@ static bool draws(const dp_finder *w, const dp_edge_entry *e, dp_line line) {
     return dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id)->lines & (1u << line);
 }
 
-/* A line of class `line` along an edge of polygon a. */
+/* Adds a line of class `line` along an edge of polygon a. */
 static void add_spine(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
                       const dp_vec3 normals[2]) {
     dp_add_candidate(
@@ -50,7 +56,7 @@ static void add_spine(dp_finder *w, const dp_edge_entry *e, dp_line line, const 
         spine, normals);
 }
 
-/* The same facing along `normal`. */
+/* Makes the spine, lifted along `normal`, and adds the line. */
 static void add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     dp_spine spine;
@@ -66,7 +72,7 @@ static void add_fold(dp_finder *w, const dp_edge_entry *e, const dp_fold *fold) 
     if (line >= 0) add_line(w, e, (dp_line)line, fold->normal);
 }
 
-/* Normals, list and table. */
+/* Makes normals, the list and the table. */
 static bool prepare(dp_finder *w) {
     const bool triangles = !w->tile.frame->polygons.firsts;
     if ((!triangles && !dp_tile_exact_normals(&w->tile)) || !dp_edge_table_list(w)) return false;
@@ -87,7 +93,7 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
         add_line(w, e, DP_LINE_SILHOUETTE, fold.normal);
 }
 
-/* Keys are hashes of positions (edge_table.c): is this the edge of all that met? */
+/* Keys are hashes of positions (edge_table.c): do all that met here really share this edge? */
 static bool is_shared(const dp_finder *w, const dp_edge_entry *e) {
     bool shared = dp_edge_runs_between(w, (dp_half_edge){e->b, e->edge_b}, e->va, e->vb);
     for (uint32_t i = e->more; i && shared; i = w->table.meetings[i - 1].next)
@@ -98,8 +104,8 @@ static bool is_shared(const dp_finder *w, const dp_edge_entry *e) {
 
 /* ------- pairs of triangles, many at once ------- */
 
-/* Puts edge i of a batch there if it is one of two triangles, and lets the first in the source own
- * it. */
+/* Puts edge i into the batch if it lies between two triangles; returns whether it does. The polygon
+ * that comes first in the source then owns it. */
 static bool put_pair(const dp_finder *w, dp_edge_entry *e, dp_fold_batch *f, uint32_t i) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     if (polygons->firsts || e->b == UINT32_MAX || e->more || !e->opposed || !is_shared(w, e))
@@ -136,8 +142,8 @@ static void resolve_put(dp_finder *w, const dp_edge_entry *e, const dp_fold_batc
 
 /* ------- fans ------- */
 
-/* A polygon at an edge as the eye sees it: on which side of the edge it lies on the screen, and how
- * fast it comes nearer going away from the edge. */
+/* A polygon at an edge, as seen on the screen: the side of the edge it lies on, and its depth away
+ * from the edge. */
 typedef struct incident_face {
     uint32_t polygon, edge;
     bool front;
@@ -163,7 +169,7 @@ static incident_face make_incident_face(const dp_finder *w, const dp_spine *s, u
     return f;
 }
 
-/* Keeps the incident face that is nearest to the eye on its side; of those in one place, the first in the
+/* Keeps the face that is nearest to the eye on its side; of coplanar ones, the first in the
  * source. */
 static void offer_incident_face(const dp_finder *w, incident_face best[2], uint32_t count[2],
                                 incident_face f) {
@@ -174,7 +180,7 @@ static void offer_incident_face(const dp_finder *w, incident_face best[2], uint3
     if (!count[side]++ || f.rise > had.rise || is_earlier) best[side] = f;
 }
 
-/* The edge as these two have it, the first in the source first; `q` may be none. */
+/* The edge of these two faces, owned by the first in the source; `q` may be NULL. */
 static dp_edge_entry owned_by_faces(const dp_finder *w, const incident_face *p,
                                     const incident_face *q) {
     const bool swap = q && w->tile.polygons[q->polygon].id < w->tile.polygons[p->polygon].id;
@@ -187,9 +193,9 @@ static dp_edge_entry owned_by_faces(const dp_finder *w, const incident_face *p,
     return e;
 }
 
-/* Edges where the winding disagrees or more than two polygons meet: what the eye sees decides. The
- * nearest polygon on either side of the edge hides the others; the two make the line that two
- * polygons would make there, and when all lie on one side the edge is an outline. */
+/* An edge where more than two polygons meet or the winding disagrees. The nearest polygon on each
+ * side of the edge hides the others there. The two nearest make the line that two polygons would
+ * make; if all polygons lie on one side, the edge is an outline. */
 static void resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     dp_spine s;
     const dp_polygons *const polygons = &w->tile.frame->polygons;
@@ -220,7 +226,7 @@ static void resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     add_fold(w, &owned, &fold);
 }
 
-/* Every edge of every polygon is left to emerge (dp_style.edge_table_off). */
+/* Leaves every edge of every polygon to emerge (dp_style.edge_table_off). */
 static void leave_all(dp_finder *w) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     for (uint32_t i = 0; i < w->tile.polygon_count && !w->tile.failed; i++) {
@@ -254,8 +260,7 @@ static void resolve(dp_finder *w, const dp_edge_entry *e) {
     }
 }
 
-/* Takes up to DP_FOLDS edges from the table from `*number` on, and has their polygons fetched
- * meanwhile. */
+/* Takes up to DP_FOLDS edges from the table, from `*number` on, and prefetches their polygons. */
 static uint32_t take_entries(const dp_finder *w, uint32_t *number,
                              dp_edge_entry entries[DP_FOLDS]) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;

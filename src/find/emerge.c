@@ -1,26 +1,37 @@
 /* Edges that the table cannot resolve: what lies across them is looked up on the screen.
  *
- * An edge that only one polygon has is a border; or its neighbours share no corner with it:
- * T-junctions, cracks, parts that touch. In the paper the added quads tell these apart, as a
- * neighbour hides or traps them right beside the edge (Raskar 2001, 2.2, 2.3). Here the neighbour
- * is looked for where the quads would lie, a little to either side of the edge, among the polygons
- * whose plane passes through the edge at that place; what is found is classified exactly. So a fold
- * shows by the same thresholds as anywhere else, and an edge with nothing across is a border.
+ *    for each unpaired edge, for each sample point of its spine in or beside the tile
+ *        place three lookups: NEAR and FAR px across the edge, NEAR px on its own side
+ *    for each polygon, for each lookup in its pixels
+ *        if its plane passes through the edge there: keep the nearest that covers the lookup
+ *    for each sample point
+ *        own side covered by a nearer polygon   no line: that polygon's edge makes it
+ *        something found across                 fold: ridge, valley or flat (core/fold.c)
+ *        nothing across, something behind       silhouette
+ *        nothing at all                         border
+ *    runs of points with the same line and neighbour become candidates
  *
- * Data structure: lookups in lists by pixel, three to a sample point of the spine. Not handled: a
- * crack wider than FAR px on the screen (it is drawn as two borders). */
+ * An edge with one polygon is a border, or its neighbours share no corner with it: T-junctions,
+ * cracks, parts that touch. With (Raskar 2001, 2.2 and 2.3) the added quads tell these apart, as a
+ * neighbour hides or traps them right beside the edge. Here the neighbour is looked up where the
+ * quads would lie, and then classified exactly, so folds appear by the same thresholds as
+ * elsewhere.
+ *
+ * Data structure: lookups in linked lists by pixel. Invariant: an edge's lookups are consecutive,
+ * LOOKUPS for each sample point. Not handled: cracks wider than FAR px on the screen (they become
+ * two borders). */
 #include "core/fold.h"
 #include "find/finder.h"
 
 #include <string.h>
 
-/* How far beside the edge a neighbour is looked for, px: close enough to meet the smallest triangle
- * first, then far enough to look over a crack. */
+/* How far from the edge a neighbour is looked up, px: first close enough to hit the smallest
+ * triangle, then far enough to reach across a crack. */
 static const float NEAR = 0.001f, FAR = 0.05f;
 
-/* A plane passes through the edge when it misses it by less than this in depth, in pixel sizes, or
- * on the screen, in px: corners are placed to float32 precision, which a plane seen edge-on
- * multiplies. */
+/* How far a plane may miss the edge and still pass through it: TOUCHING pixel sizes in depth, and
+ * PLACED px on the screen. The latter is the error of float32 corners, which a plane seen nearly
+ * edge-on multiplies. */
 static const double TOUCHING = 0.02;
 static const float PLACED = 0.002f;
 
@@ -29,9 +40,9 @@ enum { LOOKUPS = 3 }; /* near across, far across, near on its own side */
 typedef struct dp_lookup {
     float x, y;       /* where */
     float ex, ey, ed; /* the point of the edge */
-    float tolerance;  /* of depth there */
-    uint32_t own;     /* tile polygon that is not looked for */
-    uint32_t found;   /* tile polygon, nearest at (x, y); UINT32_MAX: none */
+    float tolerance;  /* of depth, at the point of the edge */
+    uint32_t own;     /* tile polygon to ignore: the edge's own */
+    uint32_t found;   /* nearest tile polygon at (x, y); UINT32_MAX: none */
     float depth;      /* its depth at (x, y) */
     uint32_t next;
 } dp_lookup;
@@ -41,8 +52,8 @@ typedef struct emerging {
     uint32_t id;  /* frame polygon */
     dp_vec3 a, b; /* ends, world space */
     dp_spine spine;
-    uint32_t k0, k1; /* sample points in the tile or right beside it */
-    uint32_t first;  /* lookup */
+    uint32_t k0, k1; /* sample points [k0, k1) in the tile or right beside it */
+    uint32_t first;  /* index of the first lookup */
 } emerging;
 
 static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
@@ -68,7 +79,7 @@ static bool near_tile(dp_pointd p) {
            p.y <= DP_TILE + DP_BESIDE;
 }
 
-/* Sample points in and around the tile are consecutive: the tile is convex. */
+/* Sample points in and beside the tile are consecutive, as the tile is convex. */
 static bool find_range(const dp_finder *w, emerging *e) {
     e->k0 = 0, e->k1 = e->spine.n;
     while (e->k0 < e->k1 && !near_tile(edge_point(w, &e->spine, e->k0))) e->k0++;
@@ -76,8 +87,8 @@ static bool find_range(const dp_finder *w, emerging *e) {
     return e->k0 < e->k1;
 }
 
-/* Unit vector on the screen across the edge, away from the polygon: it is wound counter-clockwise
- * seen from its front, and the screen's y runs down. */
+/* Unit vector across the edge on the screen, pointing away from the polygon. Polygons are wound
+ * counter-clockwise as seen from their front, and the screen's y points down. */
 static void outward(const dp_finder *w, const emerging *e, float out[2]) {
     const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
                  length = dp_hypot(ex, ey);
@@ -138,10 +149,10 @@ static void look(dp_finder *w) {
     }
 }
 
-/* What was found at one sample point. */
+/* What a sample point turned out to be. */
 typedef struct finding {
     int line;           /* dp_line, or -1: no line */
-    uint32_t neighbour; /* tile polygon or UINT32_MAX */
+    uint32_t neighbour; /* tile polygon, or UINT32_MAX */
     dp_vec3 normal;
 } finding;
 
@@ -165,7 +176,7 @@ static finding fold_finding(const dp_finder *w, const emerging *e, uint32_t acro
     return f;
 }
 
-/* Near an end of the edge, polygons that only share its corner lie within FAR of it too. */
+/* Near its ends, polygons that only share a corner with the edge come within FAR of it. */
 static bool is_near_end(const emerging *e, uint32_t k) { return k < 2 || k + 2 >= e->spine.n; }
 
 static finding judge(const dp_finder *w, const emerging *e, uint32_t k) {
@@ -176,8 +187,7 @@ static finding judge(const dp_finder *w, const emerging *e, uint32_t k) {
     const dp_lookup *const own = &l[2];
     const bool covered =
         behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
-    if (covered)
-        return (finding){-1, behind, {0, 0, 0}}; /* another polygon at this edge is in front */
+    if (covered) return (finding){-1, behind, {0, 0, 0}}; /* a nearer polygon has this edge too */
     if (across == UINT32_MAX) {
         const bool both_back = behind != UINT32_MAX &&
                                !((p->flags | w->tile.polygons[behind].flags) & DP_POLYGON_FRONT);
@@ -206,8 +216,9 @@ static bool is_same(const finding *a, const finding *b) {
     return a->line == b->line && a->neighbour == b->neighbour;
 }
 
-/* One sample point alone, between two that agree or at the edge's end, is where something merely
- * passes through the edge or touches its corner: it goes with its neighbours. */
+/* A single sample point that differs from two neighbours that agree, or from its neighbour at the
+ * edge's end: something merely passes through the edge or touches its corner there. It follows
+ * them. */
 static finding settle(const emerging *e, uint32_t k, const finding *before, const finding *here,
                       const finding *after) {
     if (e->spine.n < 3) return *here;
@@ -216,7 +227,7 @@ static finding settle(const emerging *e, uint32_t k, const finding *before, cons
     return is_same(before, after) ? *before : *here;
 }
 
-/* Runs of sample points with the same line and neighbour become candidates. */
+/* Adds a candidate for each run of sample points with the same line and neighbour. */
 static void add_lines(dp_finder *w, const emerging *e) {
     finding last = {-1, UINT32_MAX, {0, 0, 0}}, before, here = judge(w, e, e->k0), after = here;
     uint32_t start = e->k0;

@@ -1,5 +1,5 @@
-/* What a worker finds in its tile: edges, lines, sample points, visible pieces. Each stage's
- * scratch is declared beside its functions; here they are put together. */
+/* What a worker needs to find the lines of its tile: edges, candidates, sample points, visible
+ * pieces. Each stage declares its own scratch; here they are put together. */
 #ifndef DP_FIND_FINDER_H
 #define DP_FIND_FINDER_H
 
@@ -21,7 +21,7 @@ typedef struct dp_finder {
     dp_found *found; /* of all the worker's tiles in this frame */
 } dp_finder;
 
-/* As dp_tile_…; `found` is the caller's (finder.c). */
+/* Like dp_tile_…; `found` belongs to the caller (finder.c). */
 bool dp_finder_init(dp_finder *finder, const dp_frame *frame, dp_found *found);
 void dp_finder_free(dp_finder *finder);
 uint64_t dp_finder_bytes(const dp_finder *finder);
@@ -29,23 +29,26 @@ void dp_finder_open(dp_finder *finder, uint32_t index);
 
 /* The stages, each in its own file. */
 void dp_find_edges(dp_finder *finder);          /* edges.c */
-void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: instead, by adjacency */
+void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: from adjacency instead of the
+                                                   table */
 void dp_find_emergent(dp_finder *finder);       /* emerge.c */
 void dp_find_intersections(dp_finder *finder);  /* intersect.c */
-void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two */
-void dp_hide_points(dp_finder *finder);         /* the tile's seen polygons hide sample points */
-void dp_collect_pieces(dp_finder *finder);      /* runs of visible sample points become pieces */
+void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two in turn */
+void dp_hide_points(dp_finder *finder);         /* hides sample points behind the tile's seen
+                                                   polygons */
+void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visible sample points */
 
-/* Adds a candidate and its probes in this tile, of those with numbers [k0, k1); n, probe, segment geometry and
- * the final k0, k1 are filled here (visibility.c). `normals`: of its polygons, a's and b's (a's, if
- * there is none), or NULL where they are not at hand. */
+/* Adds a candidate, and its sample points in this tile with numbers in [k0, k1). Fills in n, probe,
+ * geometry and the final k0, k1 (visibility.c). `normals`: of polygons a and b (a's twice if there
+ * is no b); NULL if not at hand. */
 void dp_add_candidate(dp_finder *finder, dp_candidate candidate, const dp_spine *spine,
                       const dp_vec3 normals[2]);
 
-/* Appends a polygon's edges to the list, which has room (edge_table.c). */
+/* Appends a polygon's half-edges to the list, which has room for them (edge_table.c). */
 void dp_edge_list_polygon(dp_finder *finder, uint32_t polygon);
 
-/* Does the edge that starts at this corner bound the polygon, or split it? */
+/* Does the edge that starts at this corner bound the polygon? False: it only splits a larger
+ * one. */
 static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
     return !polygons->edge_flags || polygons->edge_flags[c];
 }

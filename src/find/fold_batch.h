@@ -1,4 +1,4 @@
-/* Edges where two triangles meet, taken many at once (find/folds.inc, edges.c). */
+/* A batch of edges, each between two triangles (find/folds.inc, edges.c). */
 #ifndef DP_FIND_FOLD_BATCH_H
 #define DP_FIND_FOLD_BATCH_H
 
@@ -6,7 +6,7 @@
 
 enum { DP_FOLDS = 32 };
 
-/* By member, axis and edge. */
+/* Arrays are indexed by member, axis and edge. */
 typedef struct dp_fold_batch {
     float a[3][3][DP_FOLDS],
         b[3][3][DP_FOLDS]; /* the triangles' corners: [corner][axis], world space */
@@ -14,8 +14,8 @@ typedef struct dp_fold_batch {
     double normal_a[3][DP_FOLDS], normal_b[3][DP_FOLDS], normal[3][DP_FOLDS]; /* as in dp_fold */
     double end_a[3][DP_FOLDS], end_b[3][DP_FOLDS], probe_a[3][DP_FOLDS],
         probe_b[3][DP_FOLDS]; /* as in dp_spine: x, y, d */
-    double plain[DP_FOLDS];   /* 0: it has to be clipped, or has no mean normal, and is left to the
-                                 general way */
+    double plain[DP_FOLDS];   /* 0: the edge must be clipped, or the normals have no mean;
+                                 resolve_pair does it */
 } dp_fold_batch;
 
 static inline void dp_fold_put_position(const dp_polygons *polygons, uint32_t vertex,
@@ -24,7 +24,7 @@ static inline void dp_fold_put_position(const dp_polygons *polygons, uint32_t ve
     for (int k = 0; k < 3; k++) out[k][i] = p[k];
 }
 
-/* Puts the edge between two vertices, of frame triangles a and b, at i. */
+/* Puts the edge `from`–`to` of frame triangles a and b at index i. */
 static inline void dp_fold_put(const dp_polygons *polygons, uint32_t a, uint32_t b, uint32_t from,
                                uint32_t to, dp_fold_batch *f, uint32_t i) {
     for (uint32_t k = 0; k < 3; k++) {
@@ -42,7 +42,7 @@ static inline dp_pointd dp_fold_point(const double v[3][DP_FOLDS], uint32_t i) {
     return (dp_pointd){v[0][i], v[1][i], v[2][i]};
 }
 
-/* Edge i's spine, but for how many sample points it has. */
+/* Edge i's spine, without its number of sample points. */
 static inline dp_spine dp_fold_spine(const dp_fold_batch *f, uint32_t i) {
     return (dp_spine){dp_fold_point(f->end_a, i), dp_fold_point(f->end_b, i),
                       dp_fold_point(f->probe_a, i), dp_fold_point(f->probe_b, i), 0};

@@ -1,22 +1,29 @@
-/* Intersections of a tile's polygons (Raskar 2001, 2.4): where two surfaces are trapped at one
- * depth.
+/* Intersections: segments where two polygons of a tile cross in sight (Raskar 2001, 2.4).
  *
- * The paper's between-test finds them sample by sample; here it only says where to look
- * (raster/near_depth.c). Around candidate pixels, all pairs of polygons are then tested exactly, and each
- * crossing segment becomes a candidate line like an edge, with the same probes.
+ *    candidate pixels: those where a second surface comes close in depth (raster/near_depth.c)
+ *        of pairs with a back face, keep only those where a back face is seen nearby
+ *    intersection candidates: polygons whose box holds a pixel around candidate pixels
+ *        sort them by the first row of their boxes
+ *    for each one, in that order
+ *        for those that may cross it, up to its last row (meet.inc)
+ *            both boxes hold one of these pixels, and each polygon has corners on both
+ *            sides of the other's plane: cross them exactly (features/crossing.c)
  *
- * Data structure: the intersection candidates, polygons around candidate pixels, sorted by their first row of pixels, so that
- * what may meet one of them follows soon after it; bounding boxes and planes are compared many at
- * once (find/meet.inc). */
+ * Raskar's between-test finds intersections sample by sample; here it only says where to look. Each
+ * crossing segment becomes a candidate with sample points, like an edge.
+ *
+ * Invariant: each pair is tested once, by the one that comes first in the sorted order. Not
+ * handled: crossings that no sample's depth comes near, and polygons that share two corners (an
+ * edge). */
 #include "find/kernels.h"
 #include "features/crossing.h"
 #include "find/finder.h"
 
 #include <string.h>
 
-/* A front and a back face come close along every outline of a closed model. They cross in sight
- * only where the back face is seen too: keeps the candidate pixels near a pixel whose winner is a back
- * face. */
+/* Along every outline of a closed model a front and a back face come close. They cross in sight
+ * only where the back face is seen too, so only candidate pixels near a pixel whose winner is a
+ * back face are kept. */
 static void keep_seen_back_faces(const dp_finder *w, uint64_t candidate_pixels[DP_TILE]) {
     uint64_t near[DP_TILE], backs[DP_TILE];
     if (!dp_widen(candidate_pixels, near)) return;
@@ -27,8 +34,9 @@ static void keep_seen_back_faces(const dp_finder *w, uint64_t candidate_pixels[D
 
 /* ------- pairs ------- */
 
-/* Corners of two triangles of the tile that lie in one position, a bit each; their keys are hashes,
- * as above. Others, and what is clipped, have none, and take `dp_shared_corners`. */
+/* The corners, a bit each, at which two triangles of the tile have the same position; positions are
+ * compared by their keys, which are hashes. Other and clipped polygons get no bits here; for them
+ * dp_shared_corners decides. */
 static void find_shared(const dp_finder *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
                         uint32_t *of_p, uint32_t *of_q) {
     *of_p = *of_q = 0;
@@ -41,8 +49,8 @@ static void find_shared(const dp_finder *w, const dp_tile_polygon *p, const dp_t
         }
 }
 
-/* Does p lie wholly on one side of q's plane, on the screen? A cheap first test. Corners that they
- * share lie in it. */
+/* Does p lie on one side of q's plane, in screen space? A cheap first test. Shared corners lie in
+ * the plane and do not count. */
 static bool is_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_tile_polygon *q,
                       uint32_t shared) {
     bool nearer = false, further = false;
@@ -55,7 +63,7 @@ static bool is_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_til
     return !(nearer & further);
 }
 
-/* Not in sight of each other's planes. */
+/* Does one polygon lie on one side of the other's plane? */
 static bool are_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_tile_polygon *q) {
     uint32_t of_p, of_q;
     find_shared(w, p, q, &of_p, &of_q);
@@ -82,13 +90,13 @@ static void test_pair(dp_finder *w, uint32_t a, uint32_t b) {
 
 /* ------- the intersection candidates ------- */
 
-/* Pixels by rows, and which rows hold any. */
+/* Pixels by rows, and the first and last row that hold any. */
 typedef struct pixels {
     uint64_t row[DP_TILE];
     uint32_t first, last;
 } pixels;
 
-/* Candidate pixels and what lies around them; false when there are none. */
+/* Widens candidate pixels by their neighbours; false if there are none. */
 static bool look_around(const uint64_t candidate_pixels[DP_TILE], pixels *out) {
     if (!dp_widen(candidate_pixels, out->row)) return false;
     out->first = 0, out->last = DP_TILE - 1;
@@ -108,17 +116,17 @@ static inline bool comes_near(uint32_t box, const pixels *near) {
     return false;
 }
 
-/* Candidate pixels' surroundings, for front faces and for back faces. */
+/* Pixels around candidate pixels, for front faces and for back faces. */
 typedef struct surroundings {
     pixels front, back;
-    bool mixed; /* back faces have any */
+    bool mixed; /* there are some for back faces */
 } surroundings;
 
 static const pixels *pixels_for(const surroundings *near, uint32_t flags) {
     return flags & DP_POLYGON_FRONT ? &near->front : &near->back;
 }
 
-/* Do both polygons' boxes hold one of the pixels that are theirs? */
+/* Is there a pixel in both polygons' boxes that counts for both? */
 static bool meet_near(const surroundings *near, const dp_tile_polygon *p,
                       const dp_tile_polygon *q) {
     const uint64_t span = dp_box_span(p) & dp_box_span(q);
@@ -129,7 +137,7 @@ static bool meet_near(const surroundings *near, const dp_tile_polygon *p,
     return false;
 }
 
-/* Which cells hold any surroundings, and those after them: for a first look. */
+/* Marks cells that hold surroundings, then blocks of cells, for a first test. */
 static void find_cells(const surroundings *near, dp_cell_bits cells) {
     const uint32_t all = DP_CELLS * DP_CELLS;
     memset(cells, 0, sizeof(dp_cell_bits));
@@ -148,7 +156,7 @@ static void find_cells(const surroundings *near, dp_cell_bits cells) {
                 cells[s][k][i] = cells[s - 1][k][i] | cells[0][k][i + s * DP_CELLS];
 }
 
-/* Lists polygons that come near candidate pixels in `polygon`, and counts them by the first row of their
+/* Lists polygons near candidate pixels in `polygon`, and counts them by the first row of their
  * boxes. */
 static bool list_intersecting(dp_finder *w, const surroundings *near, uint32_t *polygon,
                               uint32_t rows[DP_TILE + 1]) {
@@ -161,8 +169,7 @@ static bool list_intersecting(dp_finder *w, const surroundings *near, uint32_t *
         dp_find_kernels_for(w->tile.frame->lanes)->come_near(w, &cells[0][0][0], polygon);
     intersecting->count = 0;
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i =
-            polygon[k]; /* the intersection candidates goes to where these have been read */
+        const uint32_t i = polygon[k]; /* read before the list grows over it */
         if (!near->mixed && !(flags[i] & DP_POLYGON_FRONT)) continue;
         if (!comes_near(boxes[i], pixels_for(near, flags[i]))) continue;
         polygon[intersecting->count++] = w->tile.seen[i];
@@ -196,8 +203,8 @@ static void put_member(const dp_finder *w, const dp_tile_polygon *p, uint32_t at
                                       out[(DP_INTERSECTING_PLANE + 2) * stride] = p->dy;
 }
 
-/* Triangles' keys are hashes: a false match of two corners costs a crossing. Others get numbers of
- * their own, which match as seldom; they are told by `dp_shared_corners`. */
+/* Writes a triangle's keys, which are hashes: a false match of two corners loses a crossing. Other
+ * polygons get numbers that match as seldom; dp_shared_corners compares them later. */
 static void put_keys(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
     const dp_intersecting *const intersecting = &w->intersecting;
     const bool known = p->points == 3 && !(p->flags & DP_POLYGON_CLIPPED);
@@ -206,8 +213,8 @@ static void put_keys(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) 
             known ? w->tile.points[p->point + k].key : 3 * at + k;
 }
 
-/* Sorts the intersection candidates by the first rows of their boxes (counting sort); `rows` become where each row
- * starts. */
+/* Sorts the candidates by the first rows of their boxes (counting sort). `rows` becomes the start
+ * of each row's run. */
 static void sort_intersecting(dp_finder *w, const uint32_t *polygon, uint32_t rows[DP_TILE + 1]) {
     dp_intersecting *const intersecting = &w->intersecting;
     uint32_t next[DP_TILE];
@@ -222,7 +229,7 @@ static void sort_intersecting(dp_finder *w, const uint32_t *polygon, uint32_t ro
     }
 }
 
-/* Each pair is tested once, when its upper polygon's turn has come, or the first one's of a row. */
+/* Tests each pair once, when the one that comes first in the sorted order has its turn. */
 void dp_find_intersections(dp_finder *w) {
     surroundings near;
     dp_tile_test_near_depth(&w->tile);

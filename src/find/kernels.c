@@ -1,4 +1,4 @@
-/* This folder's kernels at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
+/* The kernels of src/find at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
 #include "find/kernels.h"
 
 #include "find/finder.h"

@@ -13,28 +13,30 @@ struct dp_tile;
 struct dp_finder;
 
 typedef struct dp_find_kernels {
-    /* Appends the edges of the tile's seen triangles to its list, but for those that end at flat
-     * vertices, or on contours and are flat (one-rings.inc); makes normals that are not known, and
-     * lists others that are to be made (edges.inc). */
+    /* Appends the half-edges of the tile's seen triangles to the list, except those that end at a
+     * flat vertex, and flat ones on contours (one_rings.inc). Makes normals that are unknown, and
+     * lists triangles whose normals are unsure (edges.inc). */
     void (*list_edges)(struct dp_finder *worker);
-    /* Unmarks edges whose pair of polygons is flat; false where one has two that do not belong
-     * together (edges.inc). */
+    /* Unmarks pairs that are flat. Returns false if some pair is not one edge but two whose keys
+     * agree in the compared bits (edges.inc). */
     bool (*flatten)(struct dp_finder *worker);
-    /* Unmarks edges that no second polygon met and that lie hidden (edges.inc). */
+    /* Unmarks half-edges that no second polygon met and that are hidden (edges.inc). */
     void (*unmark_alone)(struct dp_finder *worker);
-    /* Normals and spines of the first `count` edges of a batch (folds.inc). */
+    /* Makes normals and spines of the first `count` edges of a batch (folds.inc). */
     void (*folds)(const dp_view *view, struct dp_fold_batch *batch, uint32_t count);
-    /* Makes the sample points [k0, k1) of a spine, from number `at` on, with room for a vector more
-     * (points.inc). */
+    /* Makes the sample points [k0, k1) of a spine, stored from index `at` on; writes up to a vector
+     * beyond them (points.inc). */
     void (*points)(const struct dp_finder *worker, const struct dp_spine *spine, uint32_t k0,
                    uint32_t k1, const struct dp_probes *out, uint32_t at);
-    /* Finds which pixels show a back face, of those asked for and some others (meet.inc). */
+    /* Finds which of the asked pixels, and perhaps some beside them, show a back face
+     * (meet.inc). */
     void (*show_backs)(const struct dp_finder *worker, const uint64_t *asked, uint64_t *out);
-    /* Lists the numbers of seen polygons that may come near candidate pixels, in `list`, with room for a
-     * vector more; returns how many (meet.inc). */
+    /* Lists the numbers of seen polygons that may lie near candidate pixels; writes up to a vector
+     * beyond them. Returns how many (meet.inc). */
     uint32_t (*come_near)(const struct dp_finder *worker, const uint32_t *cells, uint32_t *list);
-    /* Lists in intersection candidates->met those of the intersection candidates in (self, end) whose bounds meet its, but for
-     * neighbours and triangles on one side of each other; returns how many (meet.inc). */
+    /* Lists in intersecting->met the candidates in (self, end) that polygon `self` may cross: their
+     * bounds overlap, they are not neighbours, and neither lies on one side of the other. Returns
+     * how many (meet.inc). */
     uint32_t (*meet)(const struct dp_intersecting *intersecting, uint32_t self, uint32_t end);
     /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_finder *worker);

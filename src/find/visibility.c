@@ -1,29 +1,35 @@
-/* Visibility of spines: sample points on them, hidden by whatever polygon covers them nearer.
+/* Visibility of lines: a sample point of a spine is hidden if another polygon is nearer there.
  *
- * This is the depth test of the paper's emergent lines taken to the lines themselves: instead of
- * asking at fixed samples which added polygon wins, every polygon of the tile is rasterized onto
- * the points that matter (an irregular depth buffer). The answer is exact for edges far below a
- * pixel and owes nothing to the number of samples.
+ *    add     cut the spine to the tile, make its sample points            points.inc
+ *    group   up to DP_GROUP consecutive points, with their box and least limit;
+ *            sort groups by cell (counting sort)                          make_groups
+ *    hide    points behind a seen polygon get an infinite limit           hide.inc
+ *    collect runs of visible points become pieces                         dp_collect_pieces
  *
- * Data structure: the probes stay in the order in which they are made. Groups of them that follow
- * each other along a spine, each with the box where they lie, are sorted by cells of the tile, so
- * that those near a polygon follow each other; and the least limit in a few cells side by side
- * tells that most polygons hide none. A spine's points belong to the tile whose pixel they lie in.
- * Invariant: the points of one candidate in a tile are consecutive, k0 to k1. */
+ * (Raskar 2001, 2.2) asks at each sample of the image which added polygon wins the depth test. Here
+ * each polygon of the tile is rasterized onto the points that matter instead (an irregular depth
+ * buffer). The answer is exact for edges far smaller than a pixel and does not depend on the number
+ * of samples.
+ *
+ * Data structure: sample points in the order in which they are made; groups sorted by cell, so that
+ * those near a polygon are consecutive; the least limit of blocks of cells, by which most polygons
+ * are found to hide nothing. Invariants: a point belongs to the tile whose pixel it lies in, and a
+ * candidate's points in a tile are consecutive, [k0, k1). Not handled: what hides a line between
+ * two sample points. */
 #include "base/hostile.h"
 #include "find/kernels.h"
 #include "find/finder.h"
 
 #include <string.h>
 
-/* The tile that owns a point, by the pixel it lies in: the same answer in every tile. */
+/* Does this tile own the point? Decided by the pixel it lies in, so all tiles agree. */
 static bool owned(const dp_finder *w, dp_pointd p) {
     return p.x >= w->tile.tile_x && p.y >= w->tile.tile_y && p.x < w->tile.tile_x + DP_TILE &&
            p.y < w->tile.tile_y + DP_TILE && p.x < w->tile.frame->view.width &&
            p.y < w->tile.frame->view.height;
 }
 
-/* Cuts [*t0, *t1] to where from + t * (to - from) lies in [lo, hi]. */
+/* Cuts [*t0, *t1] to the part where from + t * (to - from) lies in [lo, hi]. */
 static void cut(double from, double to, double lo, double hi, double *t0, double *t1) {
     const double step = to - from;
     if (step == 0) {
@@ -39,7 +45,8 @@ static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
     return dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
 }
 
-/* So far inside that points between two such ones are the tile's too, however they are rounded. */
+/* Is the point so far inside that points between two such points are the tile's too, even when
+ * rounded? */
 static bool well_inside(const dp_finder *w, dp_pointd p) {
     const double slack = 1e-6, x = p.x - w->tile.tile_x, y = p.y - w->tile.tile_y;
     const double width = dp_min(DP_TILE, (double)w->tile.frame->view.width - w->tile.tile_x),
@@ -47,8 +54,8 @@ static bool well_inside(const dp_finder *w, dp_pointd p) {
     return x >= slack && y >= slack && x < width - slack && y < height - slack;
 }
 
-/* Which sample points may be the tile's: one more on either side than the cut says, and of most
- * spines, which are short, all. */
+/* Which sample points may be the tile's: the cut, and one more on either side for rounding. Most
+ * spines are short and lie inside wholly. */
 static bool find_range(const dp_finder *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
     if (well_inside(w, s->probe_a) && well_inside(w, s->probe_b)) return *k0 < *k1;
     double t0 = 0, t1 = 1;
@@ -69,7 +76,8 @@ static bool reserve_probes(dp_finder *w, size_t need) {
            DP_TILE_RESERVE(&w->tile, w, lines.probes.limit, lines.probe_limit_cap, need);
 }
 
-/* Keeps what segments will be made of; where there are too many, that is found again. */
+/* Keeps what segments will be made from. Beyond the limit it returns 0, and it is computed
+ * again. */
 static uint32_t keep_geometry(dp_finder *w, const dp_spine *spine, const dp_vec3 normals[2]) {
     const uint32_t most = DP_TUNED((1u << 24) - 1, 100);
     if (w->found->geometry_count == most ||
@@ -100,7 +108,7 @@ void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
 
 /* ------- groups ------- */
 
-/* Where a group's points lie, in quarters of a pixel, and the least of their limits. */
+/* Box of a group's points, in quarters of a pixel, and the least of their limits. */
 typedef struct bounds {
     uint32_t x0, y0, x1, y1;
     float limit;
@@ -110,7 +118,8 @@ static uint32_t quarter_at(float px) {
     return !(px > 0) ? 0 : px >= DP_TILE ? DP_QUARTERS - 1 : (uint32_t)(4 * px);
 }
 
-/* Of points along a spine: those at the ends tell, unless one is hidden. */
+/* Of points along a straight spine: the ends give the bounds. If an end is hidden, its limit is
+ * infinite, and all points must be looked at. */
 static bounds bounds_of(const dp_probes *probes, uint32_t first, uint32_t last) {
     const float la = probes->limit[first], lb = probes->limit[last];
     const uint32_t xa = quarter_at(probes->x[first]), xb = quarter_at(probes->x[last]),
@@ -124,7 +133,7 @@ static bounds bounds_of(const dp_probes *probes, uint32_t first, uint32_t last) 
 
 enum { CELL_QUARTERS = 4 * DP_CELL };
 
-/* Number of a candidate's last point in the group that begins with point `first`. */
+/* Index of the last point in the group that begins with point `first`, of candidate c. */
 static uint32_t group_last(const dp_candidate *c, uint32_t first) {
     const uint32_t end = c->probe + (c->k1 - c->k0);
     return (end - first < DP_GROUP ? end : first + DP_GROUP) - 1;
@@ -134,7 +143,7 @@ static uint32_t cell_of(const bounds *b) {
     return b->y0 / CELL_QUARTERS * DP_CELLS + b->x0 / CELL_QUARTERS;
 }
 
-/* The ends of cells go down to their starts. */
+/* Puts a group into its cell, from the end of the cell's run towards its start. */
 static void put_group(dp_probe_groups *out, dp_probe_group group, const bounds *b) {
     const uint32_t at = --out->first[cell_of(b)];
     out->group[at] = group;
@@ -156,7 +165,7 @@ static bool reserve_groups(dp_finder *w, uint32_t count) {
            DP_TILE_RESERVE(&w->tile, w, lines.groups.limit, lines.groups.limit_cap, room);
 }
 
-/* Counts them by cell, or puts them there. */
+/* Counts the groups by cell, or puts them there. */
 static void visit_groups(dp_finder *w, bool counting) {
     for (uint32_t k = 0; k < w->lines.candidate_count; k++) {
         const dp_candidate *const c = &w->lines.candidates[k];
@@ -172,7 +181,7 @@ static void visit_groups(dp_finder *w, bool counting) {
     }
 }
 
-/* Sorts them by cell (counting sort), and finds each cell's least limit. */
+/* Sorts groups by cell (counting sort), and finds each cell's least limit. */
 static bool make_groups(dp_finder *w) {
     dp_probe_groups *const out = &w->lines.groups;
     uint32_t sum = 0;
@@ -260,7 +269,7 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
 }
 
-/* Runs of visible sample points. */
+/* Makes pieces of a candidate's runs of visible sample points. */
 static void collect(dp_finder *w, const dp_candidate *c) {
     uint32_t start = c->k0;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
