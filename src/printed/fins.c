@@ -1,20 +1,21 @@
-/* Textured silhouettes as Hermosilla and Vázquez 2010 print them (2.3): geometry added beside
- * silhouette edges that adjacency finds, its depth test, its texture. DP_EDGES_ADJACENCY with
- * DP_INK_QUADS and DP_METHOD_PAPER.
+/* Textured silhouettes as printed (Hermosilla and Vázquez 2010, 2.3): triangles added beside
+ * silhouette edges found by adjacency, with their depth test and texture. Used with
+ * DP_EDGES_ADJACENCY, DP_INK_QUADS and DP_METHOD_PAPER.
  *
- *   vertex stage     vertices.c: to screen space
- *   geometry stage   facing.c: which edges (Listing 2.1); here and features/extrude.c: what is
- * added (2.2) pixel stage      here: (x, y, v) -> u by the polar formula, the texture, alpha test
- * (2.3)
+ *    paper's stage     here                                                           listing
+ *    vertex shader     raster/vertices.c: positions to the screen
+ *    geometry shader   core/facing.c: which edges are silhouettes                     2.1
+ *                      features/extrude.c: the triangles beside them                  2.2
+ *    pixel shader      shade: (x, y, v) -> u by polar coordinates, texture, alpha     2.3
  *
- * One pass (2.3.4): one walk over the tile's polygons draws them (fronts already when they are
- * assembled) and what they add; the pixel stage tells both apart by v, which is 2 on the surface.
- * Two passes: first all faces, then the polygons once more. Ink keeps its own depth, so both give
- * the same picture, in any order of polygons.
+ * One pass (2.3.4): one walk over the tile's polygons draws them and what they add; front faces are
+ * drawn already while they are assembled. The pixel stage tells surface and fins apart by v, which
+ * is 2 on the surface. Two passes: first all faces, then the polygons once more for their fins.
  *
- * Data structure: per sample the ink's colour (0: none), depth and class; a silhouette fin's triangles are
- * made where they are drawn and never stored. Ink that a sample shows is blended over the surface
- * pixel by pixel. */
+ * Data structure: per sample the ink's colour (0: none), depth and class. A fin's triangles are
+ * drawn at once and not stored. Invariant: ink has its own depth, so both ways give the same
+ * picture, in any order of polygons. Not handled: creases and intersections (other stages draw
+ * them). */
 #include "printed/fins.h"
 
 #include "features/extrude.h"
@@ -27,9 +28,9 @@
 
 #include <string.h>
 
-/* v of what is surface (2.3.4). */
+/* v of the surface (Hermosilla and Vázquez 2010, 2.3.4). */
 static const float SURFACE = 2;
-/* Fragments with less ink than this are discarded (Listing 2.3). */
+/* Fragments with less ink are discarded (Hermosilla and Vázquez 2010, Listing 2.3). */
 static const float LEAST_INK = 0.1f;
 
 /* ------- pixel stage ------- */
@@ -39,7 +40,7 @@ typedef struct fragment {
     const dp_texture *texture;
     uint32_t level;
     double tx[3], ty[3], v[3],
-        d[3]; /* affine on the screen: value at its corner, change along x and y */
+        d[3]; /* affine on the screen: value at the corner, change along x and y */
     float k, scale;
     dp_color color;
     uint8_t line;
@@ -55,7 +56,7 @@ static dp_color mixed(dp_color line, const dp_texture *texture, dp_texel t) {
     return (rgb & ~0xffu) | (dp_color)(alpha + 0.5f);
 }
 
-/* The colour of a fragment; 0 where it is discarded. */
+/* The colour of a fragment; 0: discarded. */
 static dp_color shade(const fragment *f, double x, double y) {
     if (!f->texture) return f->color;
     const dp_frame *const frame = f->w->tile->frame;
@@ -67,7 +68,7 @@ static dp_color shade(const fragment *f, double x, double y) {
     return t.ink < LEAST_INK ? 0 : mixed(f->color, f->texture, t);
 }
 
-/* On the screen: what is computed from it must not depend on the tile. */
+/* Where a sample lies on the screen, not in the tile: results must not depend on the tile. */
 static void sample_at(const dp_printer *w, size_t lane, double *x, double *y) {
     const dp_sampling *const s = &w->tile->sampling;
     const size_t width = (size_t)4 * s->vectors, cell = lane / width, i = lane % width;
@@ -96,7 +97,7 @@ static void cover(void *arg, size_t lane, dp_i4 in, dp_f4 nearest) {
 
 /* ------- geometry stage ------- */
 
-/* An affine function of the screen from its values at three points. */
+/* The affine function on the screen with these values at three points. */
 static void make_affine(const dp_fin_point p[3], const double value[3], double out[3]) {
     const double ax = p[1].at.x - p[0].at.x, ay = p[1].at.y - p[0].at.y, av = value[1] - value[0];
     const double bx = p[2].at.x - p[0].at.x, by = p[2].at.y - p[0].at.y, bv = value[2] - value[0];
@@ -118,7 +119,7 @@ static void fill_triangle(fragment *f, const dp_fin_point *p) {
     make_affine(p, (const double[3]){p[0].ty, p[1].ty, p[2].ty}, f->ty);
     make_affine(p, (const double[3]){p[0].v, p[1].v, p[2].v}, f->v);
     make_affine(p, (const double[3]){p[0].at.d, p[1].at.d, p[2].at.d}, f->d);
-    const dp_plane plane = {0, 0, 0, 0}; /* depth is computed with the rest */
+    const dp_plane plane = {0, 0, 0, 0}; /* depth is computed by `cover` */
     dp_coverage_fill(&w->tile->sampling, &area, &plane, w->tile->sampling.vectors, cover, f);
 }
 
@@ -171,12 +172,12 @@ static bool begin(dp_printer *w) {
     return true;
 }
 
-/* v of a sample: what the pixel stage of one pass tells surface and silhouettes apart by. */
+/* v of a sample, by which one pass tells surface and silhouettes apart. */
 static float v_of(const dp_printer *w, size_t lane) {
     return w->ink[lane] && w->ink_depth[lane] > w->tile->depth[lane] ? 1 : SURFACE;
 }
 
-/* The ink of a pixel, over the surface that is there already. */
+/* Blends a pixel's ink over the surface. */
 static void put_pixel(const dp_printer *w, uint32_t x, uint32_t y) {
     const dp_target *const target = &w->tile->frame->target;
     const size_t lane = dp_pixel_lane(&w->tile->sampling, x - w->tile->tile_x, y - w->tile->tile_y);
@@ -219,7 +220,9 @@ void dp_printed_fins_two_passes(dp_printer *w) {
 }
 
 void dp_printed_fins_one_pass(dp_printer *w) {
-    if (!begin(w) || !dp_tile_see(w->tile, false)) return; /* nothing is known to be hidden */
+    if (!begin(w) || !dp_tile_see(w->tile, false))
+        return; /* all polygons: none may count as hidden
+                                                              yet */
     for (uint32_t i = 0; i < w->tile->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->tile->polygons[i];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w->tile, p))

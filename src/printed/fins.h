@@ -1,12 +1,12 @@
-/* Textured silhouettes of Hermosilla and Vázquez 2010, as printed (fins.c). */
+/* Textured silhouettes as printed (Hermosilla and Vázquez 2010, 2.3; fins.c). */
 #ifndef DP_PRINTED_FINS_H
 #define DP_PRINTED_FINS_H
 
 #include "features/extrude.h"
 #include "printed/quads.h"
 
-/* Faces, silhouettes, surface and ink of a tile; creases and intersections are for other stages
- * (tile.c). */
+/* Draws faces, silhouettes, surface and ink of a tile, in one or two passes; creases and
+ * intersections are drawn by other stages. */
 void dp_printed_fins_one_pass(dp_printer *worker);
 void dp_printed_fins_two_passes(dp_printer *worker);
 

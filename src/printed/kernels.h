@@ -1,4 +1,4 @@
-/* The kernels of polygons as ink. */
+/* The kernels of added polygons as ink. */
 #ifndef DP_PRINTED_KERNELS_H
 #define DP_PRINTED_KERNELS_H
 
@@ -8,7 +8,7 @@ struct dp_brush;
 struct dp_ink_shape;
 
 typedef struct dp_printed_kernels {
-    /* Inks with an added polygon, where the brush's test is true (ink.inc). */
+    /* Inks the samples under an added polygon where the brush's test is true (ink.inc). */
     void (*ink)(struct dp_brush *brush, const struct dp_ink_shape *shape);
 } dp_printed_kernels;
 

@@ -1,36 +1,44 @@
-/* Quads as ink: the paper's method whole. The added polygons are the line; nothing else is drawn.
+/* Quads as ink: (Raskar 2001) as printed. The added polygons are the lines; nothing else is drawn.
  *
- * Every polygon of the tile goes through the primitive shaders (features/), and what they add is
- * rasterized like any polygon, with depth tests that depend on its class and on style.between:
+ *    for each polygon of the tile
+ *        front face   each edge adds a ridge quad (2.2) and a valley quad (2.3)
+ *        back face    each edge adds its part of the enlargement: a silhouette (2.1)
+ *        itself       is tested against the surface: an intersection (2.4)
+ *    fill what is added, with a depth test that depends on its class and on style.between
  *
- *   plane      silhouette and ridge polygons: nearest wins, over the finished faces. Valley quads
- * and the faces themselves (intersections) are inked where they lie behind the surface and the two
- *              planes cross within half a line width. Free of order.
- *   interval   the paper's two depth buffers, z1 and z2 = z1 + offset, and between-test, in one
- * pass over the polygons as they come; with passes = 2 the between-test waits for the finished z1.
- *   stencil    pass 1 as for plane. Pass 2: valley quads before z1 count down in a stencil buffer;
- *              pass 3: the same quads, moved nearer by the offset, count up. What is left is how
- * many are trapped. One depth buffer, one stencil buffer, free of order (Raskar 2001, 7).
+ *    between    silhouettes, ridges       valleys, intersections
+ *    plane      nearest wins, over the    inked behind the surface, if the two planes cross within
+ *               finished faces            half a line width on the screen
+ *    interval   update z1 like a face     between-test: z1 >= d >= z2, with z2 = z1 - offset
+ *               passes = 1: in one walk, as polygons come; passes = 2: against the finished z1
+ *    stencil    as plane                  pass 2: samples nearer than the surface count down
+ *                                         pass 3: the same moved nearer by offset count up;
+ *                                         the count of a sample is how many quads are trapped
  *
- * Data structure: per sample, the ink that it holds (0: none, else class and group) and that ink's
- * depth; for the interval test the same array is z1, of faces and lines. Faces keep their own
- * depth, so that surface, distance and normal of the picture are those of the other inks. Not
- * handled: a border has no quad of its own; it is drawn as a ridge. */
+ * Depth d is larger when nearer, unlike in the paper. The stencil way needs one depth buffer and
+ * one stencil buffer (Raskar 2001, 7). All but interval with passes = 1 are independent of the
+ * order of polygons.
+ *
+ * Data structure: per sample, the ink that it holds (0: none; else class and group) and that ink's
+ * depth; for interval the same array is z1, of faces and lines. Invariant: faces keep their own
+ * depth, so surface, distance and normal of the picture are those of other inks. Not handled: a
+ * border has no quad of its own; it is drawn as a ridge. */
 #include "printed/quads.h"
 
 #include "features/features.h"
 
 #include <string.h>
 
-/* Added polygons are held off what they may touch, silhouettes and ridges behind it, valleys before
- * it, by a few roundings of float32 depth: more would leave holes where both halves of a line meet.
- * Two surfaces twice as close as that are one: duplicate polygons do not intersect. */
+/* Added polygons are held off what they may touch: silhouettes and ridges behind it, valleys before
+ * it. A few roundings of float32 depth are enough; more would leave holes where both halves of a
+ * line meet. Two surfaces within twice that distance are one: duplicate polygons do not
+ * intersect. */
 static const double BIAS = 1, SAME = 2;
 static double hold_off(const dp_view *view, double d, double bias) {
     return bias * (4e-7 * fabs(d) + fabs(dp_depth_step(view, d, 0.0005)));
 }
 
-/* A trapped fragment lies at most this many line widths behind the surface, in space. */
+/* A trapped fragment lies at most this many line widths behind the surface, in world space. */
 static const double TRAP = 4;
 
 static dp_step step_of(const dp_view *view, double px) {
@@ -49,24 +57,25 @@ static uint32_t group_of(const dp_printer *w, uint32_t polygon) {
 typedef struct tool {
     dp_pen pen;
     dp_brush brush;
-    float reach; /* px, of what is added */
+    float reach; /* px; how far it draws from its edge */
 } tool;
 
-/* All that depends on the style alone; polygons of one group mostly come together. */
+/* What depends on the style alone. Polygons of one group mostly follow each other. */
 typedef struct style_cache {
     uint32_t group;
     const dp_style *style;
     tool tools[DP_LINE_COUNT];
-    /* what a polygon adds reaches so far on the screen, px, and so far towards the eye or the
-     * surface that traps it: to scale * d + offset; above 1 it is not told */
+    /* How far what a polygon adds reaches: `reach` px on the screen; in depth, towards the eye or
+     * towards the surface that traps it, from d to scale * d + offset. Not known, and `may_hide` is
+     * false, where a step in depth is too large for perspective. */
     float reach;
     double scale, offset;
     bool may_hide;
-    double off[2]; /* hold_off is bias * (off[0] * |d| + off[1]) */
+    double off[2]; /* hold_off(d, bias) = bias * (off[0] * |d| + off[1]) */
 } style_cache;
 
-/* Ridges and valleys are drawn half from either side; the paper's one pass shows a valley on one
- * side only, and gives it the whole width. */
+/* Ridges and valleys are drawn half from each side. One pass of the depth interval shows a valley
+ * from one side only, so that side gets the whole width. */
 static dp_pen pen_of(const dp_style *style, dp_line line) {
     const bool whole =
         line == DP_LINE_SILHOUETTE ||
@@ -92,7 +101,7 @@ static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t gro
     set_test(&t->brush, style, line);
 }
 
-/* How far the widest line reaches. */
+/* Finds how far the widest line reaches. */
 static void set_reach(style_cache *o, const dp_view *view) {
     const dp_style *const style = o->style;
     const bool paper = style->method == DP_METHOD_PAPER;
@@ -101,8 +110,7 @@ static void set_reach(style_cache *o, const dp_view *view) {
     const double nearer = paper ? 1 / DP_PAPER_GRAZING : DP_STEEPEST;
     const double trap =
         style->between == DP_BETWEEN_PLANE ? TRAP * (double)width : (double)style->between_offset;
-    const double share =
-        (nearer * (double)width + trap + 1) / view->focal; /* of a pixel size's change of depth */
+    const double share = (nearer * (double)width + trap + 1) / view->focal; /* in pixel sizes */
     o->reach = width * (paper ? (float)DP_PAPER_MARGIN : 1) + 1;
     o->may_hide = !view->perspective || share <= 0.5;
     o->scale = view->perspective ? 1 / (1 - share) : 1;
@@ -123,7 +131,7 @@ static void fill_cache(dp_printer *w, style_cache *o, uint32_t group) {
 /* ------- polygons through the primitive shaders ------- */
 
 /* One walk over the tile's polygons: how silhouettes, ridges and borders are filled, and how
- * valleys are; NULL: they are not drawn in this pass. */
+ * valleys are. NULL: not drawn in this walk. */
 typedef struct shading {
     dp_printer *w;
     dp_fill *line, *valley;
@@ -140,8 +148,8 @@ static uint32_t block_of(float px) {
     return px <= 0 ? 0 : px >= DP_TILE - 1 ? DP_TILE / DP_BLOCK - 1 : (uint32_t)px / DP_BLOCK;
 }
 
-/* Nothing that the polygon adds can come out: all around it the surface is nearer by more than
- * lines reach. */
+/* Is the surface all around the polygon nearer by more than lines reach? Then nothing it adds
+ * shows. */
 static bool is_hidden(const dp_printer *w, const style_cache *o, const dp_tile_polygon *p) {
     if (!o->may_hide) return false;
     const float limit = (float)((double)p->nearest * o->scale + o->offset);
@@ -153,7 +161,7 @@ static bool is_hidden(const dp_printer *w, const style_cache *o, const dp_tile_p
     return true;
 }
 
-/* A polygon of the tile with its corners fetched; false: no memory. */
+/* Fetches the corners of a tile polygon. False: out of memory. */
 static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
     const dp_polygons *const polygons = &w->tile->frame->polygons;
     const dp_tile_polygon *const p = &w->tile->polygons[index];
@@ -178,7 +186,8 @@ static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
     return true;
 }
 
-/* Screen to tile space, in float32 as the faces are, so that edges they share stay shared. */
+/* Fills an added polygon. Its points go from screen to tile space in float32, as those of faces do,
+ * so that shared edges stay shared. */
 static void fill_added(dp_brush *b, const style_cache *o, const dp_added *a, double bias,
                        dp_fill *with) {
     const dp_printer *const w = b->w;
@@ -200,7 +209,7 @@ static void fill_added(dp_brush *b, const style_cache *o, const dp_added *a, dou
     with(b, points, a->count);
 }
 
-/* Everything of one class that polygon `index` adds. */
+/* Fills everything of one class that polygon `index` adds. */
 static void add_class(shading *pass, const dp_primitive *primitive, uint32_t index, dp_line line,
                       dp_primitive_shader *shade, double bias, dp_fill *with) {
     dp_printer *const w = pass->w;
@@ -218,7 +227,8 @@ static void add_class(shading *pass, const dp_primitive *primitive, uint32_t ind
     }
 }
 
-/* Ridge quads show borders too: as ridges, or with ridges off in the borders' colour. */
+/* Adds the lines of one polygon. Ridge quads show borders too: as ridges, or, with ridges off, in
+ * the borders' colour. */
 static void add_lines(shading *pass, uint32_t index) {
     dp_printer *const w = pass->w;
     const dp_tile_polygon *const p = &w->tile->polygons[index];
@@ -258,7 +268,7 @@ static void fill_face(dp_brush *b, const dp_tile_polygon *p, dp_fill *with) {
     }
 }
 
-/* The polygon itself as what is tested. `back` takes back faces too, where they are painted. */
+/* Tests the polygon itself. `back`: back faces too, where they are painted. */
 static void add_face(dp_printer *w, uint32_t index, bool back, double bias, dp_fill *with) {
     const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t group = group_of(w, p->id);
@@ -284,13 +294,14 @@ static void add_faces(dp_printer *w, bool back, double bias, dp_fill *with) {
 
 /* ------- the three between-tests ------- */
 
-/* In one walk: a valley is inked on no line, and a line over any valley, whichever comes first. */
+/* In one walk: a valley is never inked over a line, and a line always over a valley, so the order
+ * does not matter. */
 static void between_planes(dp_printer *w) {
     add_all(w, dp_fill_line, dp_fill_between_planes);
     add_faces(w, true, SAME, dp_fill_between_planes);
 }
 
-/* In submission order: the polygon, its silhouette or ridge, its valley. */
+/* In submission order: a polygon, its silhouette or ridges, its valleys. */
 static void between_depths_once(dp_printer *w) {
     shading pass;
     begin_shading(&pass, w, dp_fill_interval, dp_fill_trap_in_interval);
@@ -311,7 +322,7 @@ static void between_depths_once(dp_printer *w) {
     }
 }
 
-/* The finished z1: of faces, then of the lines that are polygons like any other. */
+/* First the finished z1 of faces and of lines that update it; then what is trapped. */
 static void between_depths_twice(dp_printer *w) {
     for (size_t i = 0; i < w->tile->frame->tile_samples; i++)
         w->ink_depth[i] = dp_maxf(w->ink_depth[i], w->tile->depth[i]);
@@ -320,8 +331,8 @@ static void between_depths_twice(dp_printer *w) {
     add_faces(w, false, SAME, dp_fill_trap_in_interval);
 }
 
-/* Inks where anything is trapped and no nearer line is; the colour is that of the surface's group.
- * Clears the stencil. */
+/* Inks samples where something is trapped and no nearer line is, in the colour of the surface's
+ * group. Clears the stencil. */
 static void ink_stencil(dp_printer *w, dp_line line) {
     for (size_t i = 0; i < w->tile->frame->tile_samples; i++) {
         const uint8_t count = w->stencil[i];
@@ -341,7 +352,7 @@ static void between_by_stencil(dp_printer *w) {
     }
     if (w->tile->frame->lines & DP_INTERSECTION) {
         add_faces(w, false, -SAME,
-                  dp_fill_count_down); /* the surface itself and its duplicates too */
+                  dp_fill_count_down); /* counts the surface itself and its duplicates too */
         add_faces(w, false, 0, dp_fill_count_up);
         ink_stencil(w, DP_LINE_INTERSECTION);
     }
@@ -357,7 +368,7 @@ static bool begin(dp_printer *w) {
         return false;
     memset(w->ink, 0, n * sizeof *w->ink);
     memset(w->stencil, 0, n);
-    /* nothing lies beyond infinity, where a steep plane in perspective may lead */
+    /* In perspective nothing lies beyond infinity, d = 0, though a steep plane may lead there. */
     const float farthest = w->tile->frame->view.perspective ? 0 : DP_DEPTH_EMPTY;
     for (size_t i = 0; i < n; i++) w->ink_depth[i] = farthest;
     return true;

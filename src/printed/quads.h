@@ -1,5 +1,5 @@
-/* Polygons as ink: what quads.c draws, how its samples are tested (quads_fill.c, printed/ink.inc),
- * and what becomes of them in the picture (quads_put.c). */
+/* Added polygons as ink: what is drawn (quads.c), how its samples are tested (quads_fill.c,
+ * ink.inc), and how it is put into the picture (quads_put.c). */
 #ifndef DP_PRINTED_QUADS_H
 #define DP_PRINTED_QUADS_H
 
@@ -7,13 +7,13 @@
 #include "features/features.h"
 #include "raster/tile.h"
 
-/* A worker's scratch for polygons as ink. */
+/* A worker's scratch for added polygons as ink. */
 typedef struct dp_printer {
     dp_tile *tile;
-    uint32_t *ink; /* by sample: what it holds (quads.c), its depth, the stencil buffer */
+    uint32_t *ink; /* by sample: class and group (quads.c); below: its depth, the stencil buffer */
     float *ink_depth;
     uint8_t *stencil;
-    dp_vec3 *world; /* corners of one polygon */
+    dp_vec3 *world; /* of one polygon: its corners, and what is made of them */
     dp_clip_point *clip;
     struct dp_screen_edge *screen_edges;
     size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap, screen_edges_cap;
@@ -22,20 +22,21 @@ typedef struct dp_printer {
 void dp_printer_free(dp_printer *printer, const dp_allocator *memory);
 uint64_t dp_printer_bytes(const dp_printer *printer);
 
-/* Instead of edges, intersections and probes: the added polygons are the ink (quads.c). */
+/* Draws a tile's lines as added polygons, instead of finding edges, intersections and sample points
+ * (quads.c). */
 void dp_tile_quads(dp_printer *printer);
 
-/* Depth d farther by some pixel sizes, as scale * d + offset: a pixel grows with distance in
- * perspective. */
+/* Moves depth d away from the eye by some pixel sizes: scale * d + offset. In perspective a pixel
+ * grows with distance. */
 typedef struct dp_step {
     float scale, offset;
 } dp_step;
 
-/* What the kernel does with samples that are covered. */
+/* What the kernel does with covered samples. */
 typedef enum dp_ink_test {
     DP_INK_NEAREST, /* inks what is nearer than surface and ink */
-    DP_INK_JOINT,   /* asks about the same (dp_quads_ask); only of triangles */
-    DP_INK_TRAPPED  /* asks about what lies behind another polygon's surface, but close to it */
+    DP_INK_JOINT,   /* the same, but asks first (dp_quads_ask); triangles only */
+    DP_INK_TRAPPED  /* asks about what is close behind another polygon's surface */
 } dp_ink_test;
 
 /* How one class of lines of one polygon is drawn. */
@@ -44,25 +45,26 @@ typedef struct dp_brush {
     dp_ink_test test;
     uint32_t ink;
     uint32_t self;    /* tile polygon */
-    dp_plane plane;   /* of what is drawn */
-    float reach;      /* px, plane test */
-    dp_point root[2]; /* the same: what an added polygon grows from */
+    dp_plane plane;   /* of what is drawn: its depth */
+    float reach;      /* px; plane test: how near the planes must cross */
+    dp_point root[2]; /* plane test: the edge or corner that it grows from */
     dp_step trap;     /* how far behind the surface still counts */
-    dp_step nearer;   /* stencil: how far it is moved towards the eye */
+    dp_step nearer;   /* stencil: how far to move it towards the eye */
     bool face, intersections;
-    uint32_t other; /* intersections: the last polygon asked about, and the answer */
+    uint32_t other; /* intersections: the last polygon asked about; meets: the answer */
     bool meets;
 } dp_brush;
 
-/* A convex polygon of four corners, or three, ready to be filled: edges as in coverage.h; the box
- * is px, inclusive. */
+/* A convex polygon of three or four corners, ready to be filled: edge functions as in coverage.h,
+ * box in px, inclusive. */
 typedef struct dp_ink_shape {
     dp_f4 a, b, c, threshold;
     uint8_t box[4];
     uint32_t corners;
 } dp_ink_shape;
 
-/* Ink of an added polygon that is as good as a face: not trapped behind one. */
+/* Ink of a silhouette or ridge polygon, which stands before the surface: nothing is trapped behind
+ * it. */
 #define DP_INK_ADDED (1u << 31)
 
 static inline uint32_t dp_ink_of(dp_line line, uint32_t group) {
@@ -72,22 +74,22 @@ static inline uint32_t dp_ink_of(dp_line line, uint32_t group) {
 static inline dp_line dp_ink_line(uint32_t ink) { return (dp_line)((ink >> 16 & 7) - 1); }
 static inline uint32_t dp_ink_group(uint32_t ink) { return ink & 0xffff; }
 
-/* Draws a convex polygon in tile space: n points, with the brush's plane as depth. */
+/* Fills a convex polygon of n points in tile space, with the brush's plane as depth. */
 typedef void dp_fill(dp_brush *brush, const dp_point *points, uint32_t n);
 
-/* Over the finished faces: the nearest wins; the same for the joints of ridges; and the
- * between-test of planes. */
+/* Over the finished faces: the nearest wins; the same for joints of ridges; the between-test of
+ * planes. */
 dp_fill dp_fill_line, dp_fill_joint, dp_fill_between_planes;
-/* The paper's two depth buffers. */
+/* The two depth buffers (Raskar 2001, 2.3). */
 dp_fill dp_fill_interval, dp_fill_trap_in_interval;
-/* The stencil buffer. */
+/* The stencil buffer (Raskar 2001, 7). */
 dp_fill dp_fill_count_down, dp_fill_count_up;
 
-/* Takes the samples lane + i with bit i set, whose depth on the brush's plane is d[i]: the kernel's
- * test is true of them, and what is left to be tested takes a look at the polygon that won them. */
+/* Decides the samples lane + i with bit i set, whose depth on the brush's plane is d[i]. The
+ * kernel's test of depths is true for them; the rest depends on the polygon that won the sample. */
 void dp_quads_ask(dp_brush *brush, size_t lane, uint32_t bits, const float *d);
 
-/* The tile's ink to the target (quads_put.c). */
+/* Puts the tile's ink into the target (quads_put.c). */
 void dp_quads_put(dp_printer *worker);
 
 #endif

@@ -1,15 +1,20 @@
-/* Depth tests of quads as ink: what is done with the samples that an added polygon covers.
+/* The depth tests of quads as ink: what happens to the samples that an added polygon covers.
  *
- * The tests of `between` plane, which is the default, run in a kernel (printed/ink.inc): it decides
- * what depths decide, and asks here about samples that also depend on the polygon that won them.
- * The other tests fill triangles four samples at a time. */
+ *    between    filled by              test
+ *    plane      the kernel (ink.inc)   depths; then, by sample, the polygon that won it
+ *    interval   this file              d > z1 updates z1; z1 > d >= z2 is trapped
+ *    stencil    this file              down if d > depth, then up if d + offset > depth
+ *
+ * `plane` is the default. Its test asks whether two planes cross within half a line width on the
+ * screen, where the paper asks whether depths are close (Raskar 2001, 2.3). The other tests fill
+ * triangles, four samples at a time. Invariant: no test changes the depth of faces. */
 #include "printed/kernels.h"
 #include "features/crossing.h"
 #include "printed/quads.h"
 
 #include "features/features.h"
 
-/* The plane of a surface under a ridge's joint passes the corner within this share of the joint's
+/* Under a joint, the surface's plane must pass the corner within this share of the joint's
  * reach. */
 static const float JOINT = 0.1f;
 
@@ -23,16 +28,16 @@ static dp_i4 *ink_at(const dp_brush *b, size_t lane) { return (dp_i4 *)(void *)(
 static dp_i4 splat(uint32_t v) { return (dp_i4){(int32_t)v, (int32_t)v, (int32_t)v, (int32_t)v}; }
 static dp_f4 behind(dp_f4 d, dp_step s) { return d * dp_splat(s.scale) + dp_splat(s.offset); }
 
-/* The place in tile space where a sample lies. */
+/* Where a sample lies, in tile space. */
 static void sample_at(const dp_sampling *s, size_t lane, float *x, float *y) {
     const size_t width = (size_t)4 * s->vectors, cell = lane / width, i = lane % width;
     *x = (float)(cell % s->cells_x * s->cell_width) + s->x[i / 4][i % 4];
     *y = (float)(cell / s->cells_x) + s->y[i / 4][i % 4];
 }
 
-/* Does the surface at the sample pass through what the added polygon grows from, as the neighbour
- * there does? The planes must cross within `reach` px of the root's nearest point. What merely lies
- * close before a hidden valley, or curves away beyond a corner, does not. */
+/* Does the surface at the sample pass through the edge or corner that the added polygon grows from?
+ * The planes must cross within `reach` px of the root's nearest point. A surface that is merely
+ * close in front of a hidden valley, or curves away beyond a corner, does not. */
 static bool passes_root(const dp_brush *b, size_t lane, float d, float reach) {
     const dp_tile_polygon *const q = &b->w->tile->polygons[b->w->tile->winner[lane]];
     const float gx = q->dx - b->plane.dx, gy = q->dy - b->plane.dy;
@@ -47,8 +52,8 @@ static bool passes_root(const dp_brush *b, size_t lane, float d, float reach) {
     return dp_planes_cross_within(gap, gx, gy, reach);
 }
 
-/* Both polygons' fronts are seen, or else their interiors cross indeed: a front and a back face
- * come close along every outline of a closed model without crossing there. */
+/* Are both seen from the front, or do their interiors really cross? Along every outline of a closed
+ * model a front and a back face come close without crossing. */
 static bool may_intersect(dp_brush *b, uint32_t other) {
     if (b->other == other) return b->meets;
     const dp_tile_polygon *const p = &b->w->tile->polygons[b->self], *const q =
@@ -62,8 +67,8 @@ static bool may_intersect(dp_brush *b, uint32_t other) {
     return b->meets;
 }
 
-/* Around a corner lie polygons that share no edge with this one and may curve away from it without
- * any fold: close surfaces must pass through the corner. */
+/* Around a corner lie polygons that share no edge with this one and may curve away without any
+ * fold, so a close surface must pass through the corner. */
 static bool wins_joint(const dp_brush *b, size_t lane, float d) {
     const bool close = b->w->tile->depth[lane] >= d * b->trap.scale + b->trap.offset;
     return !close || passes_root(b, lane, d, JOINT * b->reach);
@@ -92,8 +97,8 @@ void dp_quads_ask(dp_brush *b, size_t lane, uint32_t bits, const float *d) {
     }
 }
 
-/* The between-test: z1 >= d >= z2, where z1 is that of a face. Nothing is trapped under a
- * silhouette or a ridge, although these update z1 too. */
+/* The between-test (Raskar 2001, 2.3): z1 > d >= z2, where z1 is that of a face. Nothing is trapped
+ * behind a silhouette or a ridge, although these update z1 too. */
 DP_INLINED dp_i4 between(const dp_brush *b, size_t lane, dp_i4 in, dp_f4 d) {
     const dp_f4 z1 = *ink_depth_at(b, lane);
     const dp_i4 ink = *ink_at(b, lane);
@@ -101,7 +106,7 @@ DP_INLINED dp_i4 between(const dp_brush *b, size_t lane, dp_i4 in, dp_f4 d) {
     return in & (d < z1) & (d >= behind(z1, b->trap)) & (line == 0);
 }
 
-/* The paper's: faces and lines update z1; what does not is asked for the between-test. */
+/* As printed (Raskar 2001, 2.4): what is nearest updates z1; other faces take the between-test. */
 DP_INLINED void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const dp_brush *const b = arg;
     const dp_f4 z1 = *ink_depth_at(b, lane);
@@ -132,8 +137,9 @@ DP_INLINED void count_up(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
 
 /* ------- rasterizing ------- */
 
-/* Edges from each corner to the next, four at a time; a triangle's fourth means nothing. All as in
- * dp_coverage_make, of which a quad is two. False: it lies beside the tile. */
+/* Edge functions from each corner to the next, four at a time; a triangle's fourth is not used. The
+ * same as dp_coverage_make, so a quad covers what its two triangles cover. False: beside the
+ * tile. */
 static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
     const dp_point q = p[n == 4 ? 3 : 0];
     const float x0 = dp_minf(dp_minf(p[0].x, p[1].x), dp_minf(p[2].x, q.x));
@@ -156,7 +162,7 @@ static bool make_shape(const dp_point *p, uint32_t n, dp_ink_shape *out) {
     out->a = (dp_f4)((dp_i4)a ^ turn), out->b = (dp_f4)((dp_i4)b ^ turn),
     out->c = (dp_f4)((dp_i4)-c ^ turn);
     out->threshold =
-        (dp_f4)((dp_i4)dp_splat(1.1754944e-38f) & (swap ^ flip)); /* the least above zero */
+        (dp_f4)((dp_i4)dp_splat(1.1754944e-38f) & (swap ^ flip)); /* the least positive number */
     out->corners = n;
     out->box[0] = (uint8_t)dp_tile_px(x0), out->box[1] = (uint8_t)dp_tile_px(y0);
     out->box[2] = (uint8_t)dp_tile_px(x1), out->box[3] = (uint8_t)dp_tile_px(y1);

@@ -1,16 +1,14 @@
-/* The ink of a tile's samples to the picture: over what is under it, and as the class of lines.
+/* Puts the ink of a tile's samples into the picture: over what is under it, and as line class.
  *
- * A pixel's colour is the mean of its samples; its class is that which holds most of them, when ink
- * holds half. */
+ * A pixel's colour is the mean of its samples. Its class is the one most samples hold, if at least
+ * half of the samples hold ink. */
 #include "printed/quads.h"
 
-/* Silhouettes of back faces that are seen themselves (open models) are not inked on a back face
- * that is closer behind than this many line widths: there the enlargement only meets its
- * neighbours. */
+/* A silhouette is not inked on a back face that is less than this many line widths behind it. */
 static const double SPARE = 4;
 
-/* The enlargements of back faces that are seen meet each other as folds do; only what lies beyond
- * an outline is a silhouette. */
+/* In open models back faces are seen themselves, and their enlargements meet each other as folds
+ * do; only what reaches beyond an outline is a silhouette. Removes the rest. */
 static void spare_back_faces(dp_printer *w) {
     for (size_t i = 0; i < w->tile->frame->tile_samples; i++) {
         const uint32_t winner = w->tile->winner[i], ink = w->ink[i];
@@ -32,7 +30,8 @@ static dp_color surface_color(const dp_printer *w, size_t lane) {
     return surface & 0xff ? surface : paper;
 }
 
-/* Adds one sample: ink over what is under it, or over nothing where that is shaded later. */
+/* Adds one sample to the sum: ink over the surface or paper; over nothing if these are shaded
+ * later. */
 static void add_sample(const dp_printer *w, size_t lane, float sum[4]) {
     const uint32_t ink = w->ink[lane];
     const dp_color under = w->tile->frame->ink_layer ? 0 : surface_color(w, lane);
@@ -53,7 +52,7 @@ static void put_color(const dp_printer *w, size_t lane, uint8_t out[4]) {
     out[3] = (uint8_t)(255 * sum[3] / (float)samples + 0.5f);
 }
 
-/* The class that holds most of the samples, when ink holds half of them. */
+/* The class that most samples hold, if at least half of the samples hold ink; else 0. */
 static uint8_t class_of(const dp_printer *w, size_t lane) {
     uint32_t counts[DP_LINE_COUNT] = {0}, all = 0;
     uint8_t best = 0;
