@@ -29,13 +29,11 @@ void dp_finder_open(dp_finder *finder, uint32_t index);
 
 /* The stages, each in its own file. */
 void dp_find_edges(dp_finder *finder);          /* edges.c */
-void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: from adjacency instead of the
-                                                   table */
+void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: instead, by adjacency */
 void dp_find_emergent(dp_finder *finder);       /* emerge.c */
 void dp_find_intersections(dp_finder *finder);  /* intersect.c */
 void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two in turn */
-void dp_hide_points(dp_finder *finder);         /* hides sample points behind the tile's seen
-                                                   polygons */
+void dp_hide_points(dp_finder *finder);         /* hide.inc: behind the tile's seen polygons */
 void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visible sample points */
 
 /* Adds a candidate, and its sample points in this tile with numbers in [k0, k1). Fills in n, probe,

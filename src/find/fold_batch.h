@@ -14,8 +14,7 @@ typedef struct dp_fold_batch {
     double normal_a[3][DP_FOLDS], normal_b[3][DP_FOLDS], normal[3][DP_FOLDS]; /* as in dp_fold */
     double end_a[3][DP_FOLDS], end_b[3][DP_FOLDS], probe_a[3][DP_FOLDS],
         probe_b[3][DP_FOLDS]; /* as in dp_spine: x, y, d */
-    double plain[DP_FOLDS];   /* 0: the edge must be clipped, or the normals have no mean;
-                                 resolve_pair does it */
+    double plain[DP_FOLDS];   /* 0: to be clipped, or without a mean normal: left to resolve_pair */
 } dp_fold_batch;
 
 static inline void dp_fold_put_position(const dp_polygons *polygons, uint32_t vertex,

@@ -53,8 +53,7 @@ typedef struct dp_probe_groups {
                       comparison of bytes tells whether two boxes meet */
     float *limit;  /* the least of its points' limits */
     size_t group_cap, box_cap, limit_cap;
-    uint32_t first[DP_CELLS * DP_CELLS + 1]; /* first[c]: index of the first group in cell c; last
-                                                entry: the number of groups */
+    uint32_t first[DP_CELLS * DP_CELLS + 1]; /* by cell: its first group; then their number */
     uint32_t width, height;                  /* of the largest boxes, quarters of a pixel */
     /* The least limit in the block of (1 + sx) × (1 + sy) cells with first cell (cx, cy); infinite
      * if there are no points. */

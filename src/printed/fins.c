@@ -220,9 +220,8 @@ void dp_printed_fins_two_passes(dp_printer *w) {
 }
 
 void dp_printed_fins_one_pass(dp_printer *w) {
-    if (!begin(w) || !dp_tile_see(w->tile, false))
-        return; /* all polygons: none may count as hidden
-                                                              yet */
+    /* all polygons: none may count as hidden yet */
+    if (!begin(w) || !dp_tile_see(w->tile, false)) return;
     for (uint32_t i = 0; i < w->tile->polygon_count; i++) {
         const dp_tile_polygon *const p = &w->tile->polygons[i];
         if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w->tile, p))

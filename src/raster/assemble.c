@@ -1,10 +1,19 @@
-/* A tile's polygons: fetched in submission order, placed in tile space, with plane and pixel box;
- * faces are drawn on the way: front faces first, then of back faces those that the front faces do
- * not hide. Triangles go through the kernel; what is here takes any polygon. */
+/* A tile's polygons in tile space, with plane and pixel box. Faces are drawn on the way.
+ *
+ *    sort the bin's triangles into front and back faces, in submission order   (part, place.inc)
+ *    assemble front faces: fetch, plane, box, normal; draw                     (assemble.inc)
+ *    find the furthest depth of each block of pixels                           (cull.c)
+ *    drop back faces that are hidden                                           (cull.inc)
+ *    assemble the other back faces; draw those in sight
+ *
+ * Triangles go through the kernel; what is here takes any polygon, one at a time. Invariant: front
+ * faces come before back faces, and each kind is in submission order. Of polygons with more than
+ * three corners all are added in submission order, and back faces are drawn later
+ * (dp_tile_faces). */
 #include "raster/kernels.h"
 #include "raster/tile.h"
 
-/* Plane through the points by Newell's method, which takes any number of them. */
+/* Plane through the points by Newell's method, for any number of points. */
 static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     double nx = 0, ny = 0, nz = 0;
     for (uint32_t i = 2; i < n; i++) {
@@ -50,7 +59,7 @@ static void draw(dp_tile *w, uint32_t index, bool backs) {
         dp_raster_kernels_for(w->frame->lanes)->raster(w, p, index);
 }
 
-/* The points of a polygon, in tile space, at `points`. */
+/* Writes a polygon's points, in tile space. */
 static void put_points(const dp_tile *w, uint32_t id, const dp_outline *outline,
                        dp_vertex *points) {
     const uint32_t first = dp_first_corner(&w->frame->polygons, id);
@@ -64,7 +73,8 @@ static void put_points(const dp_tile *w, uint32_t id, const dp_outline *outline,
     }
 }
 
-/* Fills polygon `index`, whose points are to lie at `point`; the worker has room for both. */
+/* Fills in polygon `index`, with its points from `point` on; there is room for both. Draws it if it
+ * is a front face, or, when `backs`, a back face that is not hidden. */
 static void set_polygon(dp_tile *w, uint32_t index, uint32_t id, uint32_t point,
                         const dp_outline *outline, bool backs) {
     const dp_facing facing = dp_outline_facing(w->frame, id, outline);
@@ -99,7 +109,7 @@ static void add_polygon(dp_tile *w, uint32_t id) {
     set_polygon(w, w->polygon_count++, id, point, &outline, false);
 }
 
-/* One that is clipped gets new points, and its old ones are left lying. */
+/* A clipped polygon gets new points; its old ones stay unused. */
 void dp_tile_reassemble(dp_tile *w, uint32_t index, bool backs) {
     const uint32_t id = w->polygons[index].id;
     uint32_t point = w->polygons[index].point;
@@ -114,7 +124,7 @@ void dp_tile_reassemble(dp_tile *w, uint32_t index, bool backs) {
     set_polygon(w, index, id, point, &outline, backs);
 }
 
-/* The tile's polygons in submission order, back faces apart. */
+/* The tile's polygons in submission order, those tagged as back faces apart. */
 static bool collect_ids(dp_tile *w, uint32_t *count, uint32_t *back_count) {
     const dp_bins *const bins = &w->frame->polygon_bins;
     const size_t all = dp_bins_tile_count(bins, w->index);
@@ -133,7 +143,7 @@ static bool collect_ids(dp_tile *w, uint32_t *count, uint32_t *back_count) {
     return true;
 }
 
-/* Silhouettes as printed, in one pass, come together with the back faces (fins.c). */
+/* The one pass of printed silhouettes draws back faces itself (printed/fins.c). */
 static bool draws_backs(const dp_frame *frame) {
     return !(frame->lines && dp_draws_fins(frame) && frame->styles[0].passes == 1);
 }

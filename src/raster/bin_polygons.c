@@ -1,4 +1,6 @@
-/* Which tiles a polygon touches; and the one place where bad polygons are dropped and counted. */
+/* Sorts polygons into tiles: which tiles each one touches, with a margin. Bad polygons (an index
+ * out of range, a corner that is not finite, no area) are dropped and counted here and nowhere
+ * else. */
 #include "raster/kernels.h"
 #include "raster/stages.h"
 
@@ -12,7 +14,7 @@ static const dp_tile_rect NOWHERE = {0};
 
 static int16_t tile_of(float px) { return (int16_t)floorf(px / DP_TILE); }
 
-/* Silhouettes as printed lie beyond the polygons that they belong to (fins.c). */
+/* Printed silhouettes lie beside their polygons, up to fin_reach away (printed/fins.c). */
 static float margin_of(const job *j, uint32_t polygon) {
     return j->frame->fin_reach > j->margin && j->frame->outlined[polygon] ? j->frame->fin_reach
                                                                           : j->margin;
@@ -75,8 +77,8 @@ static void place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects
             rects[i] = place_polygon(j, first + i, self);
 }
 
-/* False when one edge has the whole widened tile on its outside. The outline is convex; which side
- * is its inside comes from its facing. */
+/* False if the widened tile lies outside one edge. The outline is convex; its facing tells which
+ * side of an edge is inside. */
 static bool touches(void *arg, uint32_t polygon, int32_t tile_x, int32_t tile_y, uint32_t worker) {
     const job *const j = arg;
     dp_outline outline;
@@ -90,7 +92,8 @@ static bool touches(void *arg, uint32_t polygon, int32_t tile_x, int32_t tile_y,
     for (uint32_t i = 0; i < outline.count; i++) {
         const dp_point p = outline.points[i], q = outline.points[(i + 1) % outline.count];
         const double a = sign * ((double)p.y - q.y), b = sign * ((double)q.x - p.x);
-        const double x = a > 0 ? x1 : x0, y = b > 0 ? y1 : y0; /* the corner most inside */
+        /* the tile's corner that is farthest inside */
+        const double x = a > 0 ? x1 : x0, y = b > 0 ? y1 : y0;
         if (a * (x - p.x) + b * (y - p.y) < 0) return false;
     }
     return true;

@@ -1,17 +1,19 @@
 /* Which samples of a tile a triangle covers, and its depth there.
  *
- * Coverage is the sign of three edge functions. Each is computed from its end points in one
- * canonical order and then negated where the triangle runs the other way, so that two triangles
- * that share an edge get exactly opposite values at every sample, in plain float arithmetic: no
- * sample is missed and none is covered twice. A zero belongs to the side that runs the canonical
- * way. This is the truth for any faster kernel: same operations, same order. */
+ * A sample is covered if three edge functions a x + b y + c are at least their thresholds. Each is
+ * computed from the edge's ends in one canonical order, and negated if the triangle runs the other
+ * way. Invariant: two triangles that share an edge get exactly opposite values at every sample, in
+ * plain float arithmetic, so no sample is missed and none is covered twice. A zero belongs to the
+ * side that runs the canonical way: its threshold is 0, the other's is the least positive float.
+ *
+ * Faster kernels must do the same operations in the same order. Not handled: clipping
+ * (core/outline.c). */
 #ifndef DP_RASTER_COVERAGE_H
 #define DP_RASTER_COVERAGE_H
 
 #include "raster/samples.h"
 
-/* Inlined into a loop that takes it as a constant argument, which compilers do only when they
- * optimise. */
+/* Inlined into a loop that passes constant arguments; compilers do that only when they optimise. */
 #ifdef __OPTIMIZE__
 #define DP_INLINED static inline __attribute__((always_inline))
 #else
@@ -19,11 +21,12 @@
 #endif
 
 typedef struct dp_edge_function {
-    float a, b, c; /* a x + b y + c; inside where >= threshold */
+    float a, b, c; /* a x + b y + c; inside if >= threshold */
     float threshold;
 } dp_edge_function;
 
-/* d = min(d0 + dx * x + dy * y, nearest), tile space: a plane seen edge-on must not overshoot. */
+/* d = min(d0 + dx * x + dy * y, nearest), tile space: a plane seen nearly edge-on must not
+ * overshoot its polygon. */
 typedef struct dp_plane {
     float d0, dx, dy, nearest;
 } dp_plane;
@@ -31,11 +34,11 @@ typedef struct dp_plane {
 /* A triangle ready to be filled. */
 typedef struct dp_coverage {
     dp_edge_function e[3];
-    int box[4]; /* px, x0 y0 x1 y1, inclusive */
+    int box[4]; /* px: x0 y0 x1 y1, inclusive */
 } dp_coverage;
 
-/* Takes up to four samples, the first of which is `lane`; those that are covered have a mask of
- * ones. */
+/* Takes four samples, the first of which is `lane`. `in` has all bits of a covered sample's lane
+ * set. */
 typedef void dp_cover(void *arg, size_t lane, dp_i4 in, dp_f4 depth);
 
 static inline dp_edge_function dp_edge_function_make(dp_point p, dp_point q, bool flip) {
@@ -44,7 +47,7 @@ static inline dp_edge_function dp_edge_function_make(dp_point p, dp_point q, boo
     const float a = s.y - t.y, b = t.x - s.x;
     const float c = -(a * s.x + b * s.y);
     const bool negative = swap != flip;
-    return negative ? (dp_edge_function){-a, -b, -c, 1.1754944e-38f /* the least above zero */}
+    return negative ? (dp_edge_function){-a, -b, -c, 1.1754944e-38f /* the least positive float */}
                     : (dp_edge_function){a, b, c, 0};
 }
 
@@ -52,7 +55,7 @@ static inline int dp_tile_px(float v) {
     return v <= 0 ? 0 : v >= DP_TILE - 1 ? DP_TILE - 1 : (int)v;
 }
 
-/* False when it lies beside the tile. */
+/* False: the triangle lies beside the tile. */
 static inline bool dp_coverage_make(dp_point a, dp_point b, dp_point c, dp_coverage *out) {
     const float x0 = dp_minf(a.x, dp_minf(b.x, c.x)), x1 = dp_maxf(a.x, dp_maxf(b.x, c.x));
     const float y0 = dp_minf(a.y, dp_minf(b.y, c.y)), y1 = dp_maxf(a.y, dp_maxf(b.y, c.y));
@@ -65,7 +68,7 @@ static inline bool dp_coverage_make(dp_point a, dp_point b, dp_point c, dp_cover
     return true;
 }
 
-/* Pixels of row y that an edge may leave uncovered are cut from [*x0, *x1]. */
+/* Cuts from [*x0, *x1] pixels of row y that an edge leaves uncovered. */
 static inline void dp_trim_row(const dp_edge_function *e, float y, int *x0, int *x1) {
     const float by = e->b > 0 ? e->b * (y + 1) : e->b * y;
     const float x = -(e->c + by) / e->a;
@@ -76,13 +79,13 @@ static inline void dp_trim_row(const dp_edge_function *e, float y, int *x0, int 
     }
 }
 
-/* Calls cover(arg, …) for every vector of samples in the box, covered or not. `vectors` is that of
- * the sampling, given apart so that it can be a constant; `cover` is one too, and is inlined. */
+/* Calls cover(arg, …) for every vector of samples in the box, covered or not. `vectors` must equal
+ * s->vectors; it is passed so that it can be a constant, as `cover` is, which is inlined. */
 DP_INLINED void dp_coverage_fill(const dp_sampling *s, const dp_coverage *c, const dp_plane *p,
                                  const uint32_t vectors, dp_cover *const cover, void *arg) {
     const dp_edge_function *const e = c->e;
     const int width = (int)s->cell_width;
-    dp_f4 le[3][4], ld[4]; /* what samples add below their pixels' upper edge */
+    dp_f4 le[3][4], ld[4]; /* what samples add to the value at their pixel's upper edge */
     for (uint32_t v = 0; v < vectors; v++) {
         for (int i = 0; i < 3; i++) le[i][v] = dp_splat(e[i].b) * s->y[v];
         ld[v] = dp_splat(p->dy) * s->y[v];

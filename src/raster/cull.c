@@ -1,15 +1,19 @@
-/* Which polygons of a tile lie hidden behind its front faces, and the back faces that do not.
+/* Which polygons of a tile are hidden behind its front faces; and drawing the back faces that are
+ * not.
  *
- * Front faces are drawn first. Then each block of pixels knows its furthest sample; a polygon whose
- * nearest point lies well behind that in all blocks around it can be seen nowhere, and neither can
- * its edges. In a closed model that is true of nearly all back faces: they are not rasterized at
- * all, add no edges of their own to the table and hide no lines that something nearer does not hide
+ *    front faces are drawn first
+ *    for each block of pixels, and blocks of these: the furthest sample
+ *    a polygon is hidden if its nearest point is well behind the furthest sample in all
+ *    blocks around its box
+ *
+ * Its edges are then hidden too. In a closed model nearly all back faces are: they are not
+ * rasterized, add no edges to the table, and hide no line that something nearer does not hide
  * already.
  *
  * The depths compared are those of samples, so "well behind" must cover what the surface does
- * between two of them: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond
- * the polygon. Where that is beyond the tile, a strip of samples half a pixel outside stands for
- * it, within the margin of binning. */
+ * between samples: DP_CULL_SLACK is several pixel sizes, and the blocks reach a pixel beyond the
+ * polygon. Beyond the tile, a strip of samples half a pixel outside stands for the surface, within
+ * the margin of binning. Errs on the safe side: a hidden polygon may be missed. */
 #include "raster/kernels.h"
 #include "raster/tile.h"
 
@@ -39,7 +43,7 @@ static float furthest_in_strip(const float *strip) {
     return least;
 }
 
-/* What lies beyond the tile's corners is not known: nothing is hidden there. */
+/* Beyond the tile's corners depth is unknown, so nothing is hidden there. */
 static void find_ring(const dp_tile *w, float out[DP_RINGED][DP_RINGED]) {
     const uint32_t last = DP_RINGED - 1;
     for (uint32_t b = 0; b < DP_BLOCKS; b++) {
@@ -54,7 +58,7 @@ static void find_ring(const dp_tile *w, float out[DP_RINGED][DP_RINGED]) {
 
 static uint32_t block_after(uint32_t b) { return b + 1 < DP_RINGED ? b + 1 : b; }
 
-/* What spans more blocks, from what spans one less and the block that comes after it. */
+/* Ranges of blocks: from the range that is one block shorter and the block after it. */
 void dp_tile_find_farthest(dp_tile *w) {
     find_blocks(w, w->farthest[0][0]);
     find_ring(w, w->farthest[0][0]);
@@ -71,7 +75,7 @@ void dp_tile_find_farthest(dp_tile *w) {
                         w->farthest[0][sx][by][bx], w->farthest[sy - 1][sx][block_after(by)][bx]);
 }
 
-/* Pixel coordinates go from -1 to DP_TILE; the ring is block 0. */
+/* The block of a pixel coordinate from -1 to DP_TILE; block 0 is the ring around the tile. */
 static inline uint32_t block_of(int px) { return (uint32_t)(px + DP_BLOCK) / DP_BLOCK; }
 
 static inline bool hides(const dp_tile *w, int x0, int y0, int x1, int y1, float nearest) {

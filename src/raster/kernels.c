@@ -1,4 +1,5 @@
-/* This folder's kernels at the width DP_LANES; compiled once for each width (CMakeLists.txt). */
+/* The kernels of src/raster at the width DP_LANES; compiled once for each width
+ * (CMakeLists.txt). */
 #include "raster/kernels.h"
 
 #include "base/lanes.h"

@@ -1,9 +1,16 @@
-/* Pixels where faces may cross, noted while faces are drawn (Raskar 2001, 2.4).
+/* Candidate pixels: those where faces may cross (Raskar 2001, 2.4).
  *
- * The paper's between-test, used as a first look: where a face is rasterized and falls close to
- * what a sample already holds, that is kept, and later the two planes are compared: if they cross
- * within dp_near_depth_px of the sample, its pixel is a candidate pixel. As the two frontmost surfaces meet at
- * every visible sample of a crossing, whichever comes first, one pass finds all of them. */
+ *    while faces are drawn: where one comes close in depth to what a sample holds, keep both
+ *    later, for each of these close samples
+ *        their planes cross within dp_near_depth_px of it   a candidate pixel   (cross.inc)
+ *        what it holds is of no polygon of the tile         a candidate pixel if depth is close
+ *
+ * This is the paper's between-test as a first look; intersect.c tests exactly. At each visible
+ * sample of a crossing the two frontmost surfaces meet, in whatever order they are drawn, so one
+ * pass finds all.
+ *
+ * Data structure: a short list of close samples, tested whenever it is full. Not handled: crossings
+ * that lie between samples altogether. */
 #include "raster/kernels.h"
 #include "raster/tile.h"
 
@@ -27,8 +34,8 @@ static void note_candidate_pixel(dp_tile *w, uint32_t lane, bool both_front) {
     w->candidate_pixels[!both_front][pixel / DP_TILE] |= (uint64_t)1 << pixel % DP_TILE;
 }
 
-/* What a sample holds is not among the tile's polygons: only which way it faces is known, not how
- * steeply. */
+/* The sample holds something that is no polygon of the tile. Only its facing is known, not its
+ * slope. */
 static void test_unknown(dp_tile *w, uint32_t i) {
     const dp_close_samples *const close = &w->close;
     const uint32_t lane = close->lane[i];
@@ -53,7 +60,7 @@ void dp_tile_test_near_depth(dp_tile *w) {
     close->count = 0;
 }
 
-/* Pixels and their neighbours. False when there are none. */
+/* Adds the neighbours of pixels. False: there are no pixels. */
 bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     const uint64_t all = ~(uint64_t)0 >> (64 - DP_TILE);
     uint64_t any = 0;
@@ -67,8 +74,8 @@ bool dp_widen(const uint64_t pixels[DP_TILE], uint64_t out[DP_TILE]) {
     return any;
 }
 
-/* Drops candidate pixels that stand alone: a crossing in sight leads from pixel to pixel, while two folds
- * of fine meshes come close here and there. */
+/* Drops candidate pixels without a neighbour: a visible crossing continues from pixel to pixel,
+ * while folds of fine meshes come close here and there. */
 void dp_drop_lone(uint64_t candidate_pixels[DP_TILE]) {
     uint64_t kept[DP_TILE];
     for (int y = 0; y < DP_TILE; y++) {

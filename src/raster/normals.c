@@ -1,10 +1,10 @@
-/* Normals of the tile's polygons in float32, for a first look at edges. Assembling makes those of
- * triangles (assemble.inc), but for thin ones. */
+/* Unit normals of polygons in float32, for a first test of edges. assemble.inc makes those of
+ * triangles that are thick enough on the screen; the others are made from positions here. */
 #include "raster/tile.h"
 
 #include <string.h>
 
-/* The unit normal in float32, for a first look. */
+/* Computed in double precision, rounded to float32. */
 void dp_tile_exact_normal(dp_tile *w, uint32_t polygon) {
     const dp_vec3 n = dp_polygon_normal(w->frame, w->polygons[polygon].id);
     float *const out = w->normals[polygon];

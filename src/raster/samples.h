@@ -1,8 +1,13 @@
-/* How a tile's samples lie in memory, and where they lie in a pixel.
+/* Where samples lie in a pixel, and in memory.
  *
- * A tile is DP_TILE x DP_TILE px. Its samples are kept in cells of `vectors` four-lane vectors:
- * with one sample per pixel a cell is four pixels side by side, otherwise it is one pixel with all
- * its samples. Cell (x, y) starts at lane 4 * vectors * (y * cells_x + x). */
+ * A tile is DP_TILE × DP_TILE px. Its samples are stored in cells of `vectors` vectors of four
+ * lanes:
+ *
+ *    samples per pixel    1          4, 8, 16
+ *    a cell is            4 × 1 px   1 × 1 px
+ *    vectors in it        1          1, 2, 4
+ *
+ * Cell (x, y) starts at lane 4 * vectors * (y * cells_x + x). */
 #ifndef DP_RASTER_SAMPLES_H
 #define DP_RASTER_SAMPLES_H
 
@@ -19,12 +24,11 @@ typedef struct dp_sampling {
     dp_f4 x[4], y[4];    /* of each lane, px from the cell's corner */
 } dp_sampling;
 
-/* A run of pixels with as many samples as a kernel has lanes, or one pixel with more: where each
- * sample's pixel and the sample itself lie in the run, and below the pixels' upper edge (px).
- * Samples of a pixel are consecutive. */
+/* The samples of a block (raster.inc), px: x of the pixel in the block, x of the sample in the
+ * block, and y of the sample below its pixel's upper edge. Samples of a pixel are consecutive. */
 typedef struct dp_block {
     float px[16], x[16], sy[16];
-    float least, most; /* of where samples lie in a pixel, along either axis */
+    float least, most; /* least and largest position in a pixel, along either axis */
 } dp_block;
 
 void dp_block_init(dp_block *block, uint32_t samples);
@@ -42,7 +46,7 @@ static inline bool dp_any(dp_i4 mask) {
     return (halves[0] | halves[1]) != 0;
 }
 
-/* Index of the first lane of pixel (x, y), tile coordinates; its samples follow. */
+/* Index of the first sample of pixel (x, y), tile space; its others follow. */
 static inline size_t dp_pixel_lane(const dp_sampling *s, uint32_t x, uint32_t y) {
     return (size_t)(y * DP_TILE + x) * s->samples;
 }

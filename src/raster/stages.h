@@ -1,16 +1,17 @@
-/* The stages of a frame, in the order in which draw.c runs them (Raskar 2001, Figure 2). */
+/* Stages of a frame that come before its tiles, in the order in which draw.c runs them: the vertex
+ * stage, and binning (compare Raskar 2001, Figure 2). */
 #ifndef DP_RASTER_STAGES_H
 #define DP_RASTER_STAGES_H
 
 #include "core/frame.h"
 #include "core/outline.h"
 
-/* Fills frame->vertices (allocated). */
+/* Fills frame->vertices, which are allocated. */
 void dp_transform_vertices(dp_frame *frame);
 
-/* Polygons to tiles widened by `margin` px, those that are outlined by frame->fin_reach where that is
- * more; adds dropped and clipped polygons to `stats`. False when memory is out. `scratch` and
- * `stats` hold one entry per worker. */
+/* Sorts polygons into tiles widened by `margin` px, and by frame->fin_reach for polygons with
+ * outlines if that is more. Adds dropped and clipped polygons to `stats`. `workers` has one entry
+ * per worker. False: out of memory. */
 typedef struct dp_bin_worker {
     dp_outline_scratch scratch;
     dp_stats stats;

@@ -1,11 +1,14 @@
-/* A tile's surface to the target: colour, distance and normal, before any ink. */
+/* Writes a tile's surface to the target: colour, distance and normal, before any ink.
+ *
+ * Colour is the mean of a pixel's samples, weighted by alpha; distance and normal are those of its
+ * first sample. Not handled: shading (src/shade), which then paints later. */
 #include "raster/tile.h"
 
 #include <string.h>
 
-/* The mean of some samples' colours, not premultiplied. */
+/* The mean colour of some samples, not premultiplied. */
 typedef struct mean {
-    float sum[4]; /* colours weighed by alpha; alpha */
+    float sum[4]; /* sums of alpha * colour; sum of alpha */
 } mean;
 
 static void add_sample(mean *m, dp_color c, float weight) {
@@ -30,7 +33,8 @@ static uint32_t count_covered(const uint32_t *winner, uint32_t samples) {
     return (uint32_t) - (sum[0] + sum[1] + sum[2] + sum[3]);
 }
 
-/* One group: a pixel's colour follows from how many of its samples hold any surface. */
+/* With one group of polygons, a pixel's colour depends only on how many of its samples hold a
+ * surface. */
 static void shade_one_group(const dp_tile *w, uint32_t x1, uint32_t y1) {
     const dp_target *const target = &w->frame->target;
     const dp_style *const style = &w->frame->styles[0];
@@ -92,7 +96,7 @@ typedef struct span {
     uint32_t x0, y0, x1, y1; /* px */
 } span;
 
-/* The part of the tile that lies within the picture. */
+/* The part of the tile inside the picture. */
 static span tile_span(const dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const uint32_t x1 = w->tile_x + DP_TILE, y1 = w->tile_y + DP_TILE;
@@ -129,7 +133,7 @@ void dp_tile_surface(dp_tile *w) {
         }
 }
 
-/* No polygon touches the tile: paper. */
+/* No polygon touches the tile: it shows paper. */
 void dp_tile_empty_surface(dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);

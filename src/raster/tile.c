@@ -1,4 +1,4 @@
-/* A tile's memory, and its beginning: see tile.h. */
+/* A tile's memory, its start, and the test whether a polygon covers a point: see tile.h. */
 #include "raster/tile.h"
 
 #include <string.h>
@@ -37,10 +37,15 @@ uint64_t dp_tile_bytes(const dp_tile *tile) {
     return dp_arrays_bytes(tile, DP_ARRAYS(arrays)) + dp_outline_scratch_bytes(&tile->scratch);
 }
 
-/* With o, x and y what a ray through the tile's corner is and how it changes per px, and m the
- * normal n / (n·p) of a plane through p: d = m·ray in perspective, so d0 = m·o, dx = m·x, dy = m·y;
- * m follows by the dual basis. In orthographic views the same holds of what one step of d is, and
- * -1. m points away from the eye, front faces' normals towards it. */
+/* How a polygon's plane on the screen becomes its normal.
+ *
+ * A plane through p with normal n has d = m·ray in perspective, with m = n / (n·p) and `ray`
+ * through the sample. Let o be the ray through the tile's corner, and x, y its change per px. Then
+ *
+ *    d0 = m·o,  dx = m·x,  dy = m·y;   so m = dual * (d0, dx, dy), with the dual basis of o, x, y.
+ *
+ * In orthographic views o is one step of d, and its component is -1. m points away from the eye;
+ * normals of front faces point towards it, hence the minus. */
 static void find_plane_normal(dp_tile *w) {
     const dp_view *const view = &w->frame->view;
     const double px = w->tile_x, py = w->tile_y;
@@ -72,7 +77,7 @@ void dp_tile_open(dp_tile *w, uint32_t index) {
 }
 
 /* Is the point on the inner side of a -> b? Computed in one canonical order of the ends, so that of
- * two polygons that share an edge exactly one has it. */
+ * two polygons that share an edge exactly one covers the point. */
 static bool left_of(dp_vertex a, dp_vertex b, float x, float y, bool flip) {
     const bool swap = a.y > b.y || (a.y == b.y && a.x > b.x);
     const dp_vertex s = swap ? b : a, t = swap ? a : b;

@@ -1,7 +1,8 @@
-/* Vertex transformation: world space to screen space, and a key that names the position.
+/* Vertex transformation: world space to screen space, and a key that stands for the position.
  *
- * A vertex that lies outside the guarded frustum (behind the near plane, say) or is not finite has
- * x = NaN; polygons that use it take the slow way through clipping (outline.c). */
+ * Invariant: x is NaN of a vertex that is not finite or lies outside the guarded frustum (behind
+ * the near plane, for instance). Polygons with such a vertex are clipped one by one
+ * (core/outline.c). */
 #include "raster/stages.h"
 
 #include "base/hostile.h"
@@ -13,8 +14,8 @@ static uint32_t block_size(const dp_frame *frame) {
     return dp_task_size(frame->polygons.vertex_count, BLOCK_LEAST, BLOCK_MOST);
 }
 
-/* Vertices that take so many bytes or more have left a processor's own caches before they are read;
- * half of them, or more, are read by others. */
+/* Vertices that take this many bytes have left a processor's own caches before they are read, and
+ * at least half of them are read by other processors. */
 static const size_t LARGE = DP_TUNED(2 << 20, 64);
 
 static bool are_read_elsewhere(const dp_frame *frame) {
