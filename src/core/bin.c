@@ -1,9 +1,12 @@
-/* Binning: items to screen tiles.
+/* Binning: sorts items into screen tiles, in parallel, in submission order.
  *
- * Items are cut into chunks of consecutive numbers. A chunk is one task: its worker makes (tile,
- * item) pairs in its own scratch and sorts them by tile with one counting sort that stays in cache.
- * A tile later walks the chunks in order, so it meets its items in submission order, whatever
- * thread did which chunk. */
+ *    for each chunk of consecutive items, on any worker
+ *        place: the rectangle of tiles of each item
+ *        make (tile, item) pairs; of large items only for tiles they touch
+ *        sort the pairs by tile (counting sort, in cache)
+ *    a tile reads its entries chunk by chunk
+ *
+ * Invariant: a tile meets its items in submission order, whichever thread sorted which chunk. */
 #include "core/bin.h"
 
 #include "base/hostile.h"
@@ -14,7 +17,7 @@ enum { CHUNK_LEAST = DP_TUNED(512, 3), CHUNK_MOST = DP_TUNED(8192, 3), FEW_TILES
 
 typedef struct job {
     dp_bins *bins;
-    uint32_t count, chunk, tiles_x, tiles_y; /* chunk: items in one */
+    uint32_t count, chunk, tiles_x, tiles_y; /* chunk: items per chunk */
     dp_bin_place *place;
     dp_bin_touches *touches;
     void *arg;
@@ -35,7 +38,7 @@ static dp_tile_rect clip(const job *j, dp_tile_rect r) {
                           0};
 }
 
-/* Adds the pairs of an item that spans several tiles; false when memory is out. */
+/* Adds the pairs of an item that spans several tiles. False: out of memory. */
 static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_rect r, size_t *count,
                       uint32_t worker) {
     if (r.x0 >= r.x1 || r.y0 >= r.y1) return true;
@@ -51,7 +54,7 @@ static bool add_pairs(const job *j, dp_bin_scratch *s, uint32_t item, dp_tile_re
     return true;
 }
 
-/* Invariant: there is room for one more pair for every item that is left. */
+/* Invariant: there is room for one more pair for each item that is left. */
 static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t n, size_t *count,
                        uint32_t worker) {
     if (!dp_reserve(j->memory, &s->rects, &s->rects_cap, n, sizeof *s->rects) ||
@@ -75,9 +78,9 @@ static bool make_pairs(const job *j, dp_bin_scratch *s, uint32_t first, uint32_t
     return true;
 }
 
-/* Counting sort by tile. Items that follow each other are often one tile's, and its count must come
- * back from memory before it can grow again: so two halves are counted, and put in place, side by
- * side. */
+/* Counting sort by tile. Consecutive items often lie in one tile, whose count must come back from
+ * memory before it can grow again. So the pairs are counted, and placed, from two halves in
+ * turn. */
 static bool sort_chunk(const job *j, dp_bin_scratch *s, size_t count, dp_bin_chunk *chunk) {
     const uint32_t tile_count = j->bins->tile_count;
     const size_t half = count / 2;
@@ -85,7 +88,7 @@ static bool sort_chunk(const job *j, dp_bin_scratch *s, size_t count, dp_bin_chu
                     sizeof *chunk->offsets) ||
         !dp_reserve(j->memory, &s->offsets, &s->offsets_cap, tile_count, sizeof *s->offsets) ||
         !dp_reserve(j->memory, &chunk->entries, &chunk->entries_cap, count + 1,
-                    sizeof *chunk->entries)) /* even of none */
+                    sizeof *chunk->entries)) /* not NULL even if there are none */
         return false;
     uint32_t *const left = chunk->offsets, *const right = s->offsets,
                     *const entries = chunk->entries;
@@ -104,7 +107,8 @@ static bool sort_chunk(const job *j, dp_bin_scratch *s, size_t count, dp_bin_chu
         entries[right[s->tiles[half + i]]++] = s->items[half + i];
     }
     if (count % 2) entries[right[s->tiles[count - 1]]++] = s->items[count - 1];
-    /* the right offsets now stand at their tiles' ends, the starts of the next */
+    /* The right halves' offsets now stand at the ends of their tiles, where the next tiles
+     * start. */
     memcpy(left + 1, right, tile_count * sizeof *left);
     left[0] = 0;
     return true;
@@ -122,7 +126,7 @@ static void bin_chunk(void *arg, uint32_t index, uint32_t worker) {
         !sort_chunk(j, scratch, count, chunk);
 }
 
-/* Grows an array of structs that must start as zeros. */
+/* Grows an array of structs that must start zeroed. */
 static bool reserve_zeroed(const dp_allocator *memory, void *array, size_t *cap, size_t need,
                            size_t size) {
     const size_t had = *cap;

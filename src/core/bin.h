@@ -1,23 +1,22 @@
-/* Items sorted to screen tiles, in parallel, in submission order. */
+/* Items sorted into screen tiles, in parallel, in submission order (bin.c). */
 #ifndef DP_CORE_BIN_H
 #define DP_CORE_BIN_H
 
 #include "base/memory.h"
 #include "base/threads.h"
 
-/* Tiles [x0, x1) x [y0, y1), not yet clipped to the picture; empty when x0 >= x1. */
+/* Tiles [x0, x1) × [y0, y1), not yet clipped to the picture; empty if x0 >= x1. */
 typedef struct dp_tile_rect {
     int16_t x0, y0, x1, y1;
-    uint32_t tag;  /* 0 or DP_BIN_TAG: joins the item's number in the entries */
-    uint32_t only; /* 1 + the picture's tile where it is known to be the only one; 0: the rectangle
-                      tells */
+    uint32_t tag;  /* 0 or DP_BIN_TAG, which is added to the item's number in the entries */
+    uint32_t only; /* 1 + the one tile of the picture that it reaches; 0: see the rectangle */
 } dp_tile_rect;
 
 #define DP_BIN_TAG (1u << 31)
 
-enum { DP_BIN_ROOM = 16 }; /* a vector may be stored beyond the last of a list of entries */
+enum { DP_BIN_ROOM = 16 }; /* room for a vector stored beyond the last entry of a list */
 
-/* One chunk of items: `entries` of tile t are [offsets[t], offsets[t + 1]), ascending but for their
+/* One chunk of items. Entries of tile t: [offsets[t], offsets[t + 1]), ascending apart from their
  * tags. */
 typedef struct dp_bin_chunk {
     uint32_t *entries, *offsets;
@@ -25,7 +24,7 @@ typedef struct dp_bin_chunk {
     bool failed; /* out of memory */
 } dp_bin_chunk;
 
-/* What one worker needs while it fills a chunk: rectangles, and (tile, item) pairs as they come. */
+/* A worker's scratch for one chunk: rectangles, and (tile, item) pairs in the order of items. */
 typedef struct dp_bin_scratch {
     dp_tile_rect *rects;
     uint32_t *items, *tiles, *offsets;
@@ -39,25 +38,24 @@ typedef struct dp_bins {
     size_t chunks_cap, scratch_cap;
 } dp_bins;
 
-/* Which tiles items [first, first + count) touch. `worker` as in dp_task. Where an item spans more
- * than a few, `touches` (optional) is asked about each of them. */
+/* Finds the tiles that items [first, first + count) reach. `worker` as in dp_task. If an item spans
+ * more than a few tiles, `touches` (optional) is asked about each of them. */
 typedef void dp_bin_place(void *arg, uint32_t first, uint32_t count, dp_tile_rect *rects,
                           uint32_t worker);
 typedef bool dp_bin_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y,
                             uint32_t worker);
 
-/* Bins items [0, count), fewer than DP_BIN_TAG, into tiles_x * tiles_y tiles. False when memory is
- * out. */
+/* Bins items [0, count), fewer than DP_BIN_TAG, into tiles_x * tiles_y tiles. False: out of
+ * memory. */
 bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tiles_y,
                   dp_bin_place *place, dp_bin_touches *touches, void *arg, dp_threads *threads,
                   const dp_allocator *memory);
 void dp_bins_free(dp_bins *bins, const dp_allocator *memory);
 
-/* Memory that stays, bytes. */
+/* Memory kept, bytes. */
 uint64_t dp_bins_bytes(const dp_bins *bins);
 
-/* Prefetches what a walk over a tile's chunks will read when it comes to those after chunk `c`: it
- * lies scattered. */
+/* Prefetches what a walk over a tile's chunks will read after chunk `c`; it is scattered. */
 static inline void dp_bins_prefetch(const dp_bins *bins, uint32_t tile, uint32_t c) {
     const dp_bin_chunk *const chunks = bins->chunks;
     if (c + 8 < bins->chunk_count) __builtin_prefetch(&chunks[c + 8].offsets[tile]);
@@ -65,7 +63,7 @@ static inline void dp_bins_prefetch(const dp_bins *bins, uint32_t tile, uint32_t
         __builtin_prefetch(&chunks[c + 4].entries[chunks[c + 4].offsets[tile]]);
 }
 
-/* How many items a tile holds. */
+/* Number of items in a tile. */
 size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile);
 
 #endif

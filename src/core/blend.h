@@ -1,10 +1,10 @@
-/* Laying ink over a pixel. */
+/* Blending ink over a pixel. */
 #ifndef DP_CORE_BLEND_H
 #define DP_CORE_BLEND_H
 
 #include <drypoint/style.h>
 
-/* Over (Porter and Duff), not premultiplied, 8 bits. */
+/* The operator `over` (Porter and Duff 1984), not premultiplied, 8 bits per channel. */
 static inline void dp_blend(uint8_t *pixel, dp_color color, float coverage) {
     const float source = coverage * (float)(color & 0xff) / 255, under = (float)pixel[3] / 255;
     const float alpha = source + under * (1 - source);

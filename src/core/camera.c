@@ -1,4 +1,7 @@
-/* Cameras: look-at, projections, and fitting a box into the picture (OpenGL's conventions). */
+/* Cameras: look-at, projections, and fitting a box into the picture; matrices as in OpenGL.
+ *
+ * A box fits if all eight corners lie inside the picture's half angles. Each axis gives linear
+ * constraints on distance and shift, so the least distance follows directly, without iteration. */
 #include <drypoint/camera.h>
 
 #include "base/elementary.h"
@@ -12,7 +15,7 @@ static bool finite3(const double v[3]) {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-/* Any axis that is not nearly parallel to `forward`; y first, since models mostly stand on y. */
+/* An axis that is not nearly parallel to `forward`; y first, since most models stand on y. */
 static dp_vec3 usable_up(dp_vec3 forward, dp_vec3 up) {
     const dp_vec3 choices[3] = {up, {0, 0, forward.y > 0 ? 1 : -1}, {0, 1, 0}};
     for (int i = 0; i < 3; i++)
@@ -89,7 +92,7 @@ dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect
     return DP_OK;
 }
 
-/* Distance of a point along the line of sight, in front of the eye positive. */
+/* Distance of a point along the line of sight; positive in front of the eye. */
 static double distance_along(const dp_camera *camera, double x, double y, double z) {
     const double *const v = camera->view;
     return -(v[2] * x + v[6] * y + v[10] * z + v[14]);
@@ -104,7 +107,7 @@ void dp_camera_near_far(const dp_camera *camera, const float min[3], const float
         lo = dp_min(lo, d);
         hi = dp_max(hi, d);
     }
-    if (!(hi > 0)) hi = 1; /* all of it is behind the eye: any range draws nothing */
+    if (!(hi > 0)) hi = 1; /* everything is behind the eye: any range draws nothing */
     *far_z = hi * 1.01;
     *near_z = dp_max(lo * 0.99, *far_z * 1e-4);
     if (*near_z >= *far_z) *near_z = *far_z * 0.5;
@@ -115,8 +118,8 @@ static dp_vec3 or_default(const double v[3], dp_vec3 other) {
     return dp_length(given) > 0 ? given : other;
 }
 
-/* The box's eight corners about its centre along the camera's axes, and the tangents of half the
- * picture. */
+/* The box's eight corners relative to its centre, along the camera's axes; and the tangents of half
+ * the picture's angles. */
 typedef struct framing {
     dp_vec3 corner[8]; /* right, up, away from the eye */
     double tan_x, tan_y;
@@ -125,8 +128,8 @@ typedef struct framing {
 /* Share of the picture's half width or height that stays free. */
 static const double MARGIN = 0.04;
 
-/* Along one axis: all corners are seen where shift + tan * distance >= *a and -shift + tan *
- * distance >= *b. */
+/* Along one axis, all corners are seen if shift + tan * distance >= *a and -shift + tan * distance
+ * >= *b. */
 static void constrain(const framing *f, bool vertical, double tangent, double *a, double *b) {
     *a = *b = -INFINITY;
     for (int i = 0; i < 8; i++) {
@@ -136,7 +139,8 @@ static void constrain(const framing *f, bool vertical, double tangent, double *a
     }
 }
 
-/* The least distance from which the box is seen whole, and where the eye's axis then meets it. */
+/* The least distance from which the whole box is seen, and how far the camera's axis then passes
+ * beside its centre. */
 static double frame_perspective(const framing *f, double shift[2]) {
     double ax, bx, ay, by, nearest = 0;
     constrain(f, false, f->tan_x * (1 - MARGIN), &ax, &bx);
@@ -148,7 +152,7 @@ static double frame_perspective(const framing *f, double shift[2]) {
     return dp_max(distance, nearest * 1.001);
 }
 
-/* The height of what is seen so that the box is seen whole. */
+/* The least height of the view in which the whole box is seen. */
 static double frame_orthographic(const framing *f, double aspect, double shift[2]) {
     double ax, bx, ay, by;
     constrain(f, false, 0, &ax, &bx);
@@ -204,8 +208,7 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
                 .height = 2 * radius / dp_min(1, aspect)};
     framing frame = framing_of(min, max, f.forward, f.up);
     frame.tan_x = dp_tan(half_y) * aspect, frame.tan_y = dp_tan(half_y);
-    const bool flat =
-        !(dp_length(dp_sub(max, min)) > 0); /* a point has nothing to fill the picture with */
+    const bool flat = !(dp_length(dp_sub(max, min)) > 0); /* a point cannot fill the picture */
     if (!fit->steady && !flat && fit->orthographic)
         f.height = frame_orthographic(&frame, aspect, f.shift);
     else if (!fit->steady && !flat)
@@ -217,7 +220,7 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     const double far_z = f.distance + 1.01 * radius, near_z = f.distance - 1.01 * radius;
     if (fit->orthographic)
         return dp_camera_orthographic(camera, f.height / zoom, aspect, near_z, far_z);
-    /* Zoom narrows the field of view rather than moving the eye: the perspective stays. */
+    /* Zoom narrows the field of view and does not move the eye, so the perspective stays. */
     const double zoomed = 2 * dp_atan(dp_tan(half_y) / zoom) * 180 / PI;
     return dp_camera_perspective(camera, zoomed, aspect, dp_max(near_z, 1e-4 * f.distance), far_z);
 }

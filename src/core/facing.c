@@ -1,13 +1,14 @@
-/* Which way every polygon faces, and which have an outline to draw: the first half of the geometry
- * stage of Hermosilla and Vázquez 2010 (2.3.2, Listing 2.1).
+/* Which way each polygon faces, and which have an outline to draw: the first half of the geometry
+ * shader of (Hermosilla and Vázquez 2010, 2.3.2, Listing 2.1).
  *
- * Listing 2.1 computes the facing of a triangle and its three neighbours again for every triangle:
- * four times in all. Here each is computed once, and the silhouette test is three look-ups in a
- * table of bytes. Facing is that of the rest of the pipe (outline.c): the sign of the area on the
- * screen, and in space where the area is too small to tell.
+ * Listing 2.1 computes the facing of a triangle and of its three neighbours for every triangle, so
+ * four times in all. Here it is computed once, and the silhouette test is three look-ups.
  *
- * Polygons without area have no facing. They go with a front-facing neighbour where they have one,
- * so that a sliver between two fronts makes no line. */
+ * Data structure: a byte of facing per polygon. Invariant: facing agrees with the rest of the
+ * pipeline (outline.c): the sign of the area on the screen or, if that is too small to tell, the
+ * angle in space. Polygons without area have no facing of their own; they take that of a
+ * front-facing neighbour if they have one, so that a sliver between two front faces makes no line.
+ * Not handled: neighbours that share no corner with an edge. */
 #include "core/facing.h"
 
 #include "mesh/adjacency.h"
@@ -25,7 +26,7 @@ static bool any_bad(const dp_frame *frame, uint32_t first, uint32_t n) {
     return false;
 }
 
-/* In space, whatever is clipped. */
+/* For polygons that are clipped: always in space. */
 static uint8_t facing_in_space(const dp_frame *frame, uint32_t polygon) {
     const uint32_t first = dp_first_corner(&frame->polygons, polygon),
                    n = dp_corner_count(&frame->polygons, polygon);
@@ -34,7 +35,7 @@ static uint8_t facing_in_space(const dp_frame *frame, uint32_t polygon) {
     return dp_polygon_faces_eye(frame, polygon) ? DP_FACING_FRONT : 0;
 }
 
-/* On the screen, where that is clear; 0xff where it is not. */
+/* On the screen, if the area is clear; else 0xff. */
 static uint8_t facing_of_triangle(const dp_frame *frame, uint32_t polygon) {
     dp_vertex v[3];
     for (uint32_t i = 0; i < 3; i++) {
@@ -69,7 +70,8 @@ static void face_block(void *arg, uint32_t index, uint32_t worker) {
     for (uint32_t i = first; i < last; i++) frame->facing[i] = facing_of(frame, i);
 }
 
-/* Only reads neighbours that have an area, which this does not change. */
+/* Gives a polygon without area its facing. Reads only neighbours with an area, which do not
+ * change. */
 static void see_through(dp_frame *frame, uint32_t polygon) {
     const dp_adjacency *const a = frame->adjacency;
     const uint32_t first = dp_first_corner(&frame->polygons, polygon),
@@ -88,9 +90,8 @@ static dp_clip_point corner_in_clip(const dp_frame *frame, uint32_t corner) {
     return dp_to_clip(&frame->view, dp_v3f(dp_vertex_position(p, dp_corner_vertex(p, corner))));
 }
 
-/* More than two polygons at an edge: it is an outline when all of them lie on one side of it on the
- * screen. Where some lie on either side, what the eye sees there is a crease. The first of them
- * draws it. */
+/* An edge of more than two polygons is an outline if all of them lie on one side of it on the
+ * screen; else the eye sees a crease there. The first of them draws it. */
 static int outline_of_fan(const dp_frame *frame, const dp_fan_corner *fan, uint32_t corner) {
     const dp_adjacency *const a = frame->adjacency;
     const dp_polygons *const p = &frame->polygons;
@@ -135,15 +136,15 @@ static bool is_outlined(const dp_frame *frame, uint32_t polygon) {
     return false;
 }
 
-/* A front with a neighbour that is none. A back draws nothing of its own, unless there is something
- * odd about it. */
+/* A front face with a neighbour that is none. A back face draws nothing, unless it is listed as
+ * odd. */
 static bool is_outlined_triangle(const dp_frame *frame, uint32_t t) {
     const dp_adjacency *const a = frame->adjacency;
     const uint8_t *const facing = frame->facing;
     if (a->odd[t] || facing[t] & DP_FACING_NO_AREA) return is_outlined(frame, t);
     if (!facing[t])
         return frame->seen_through &&
-               is_outlined(frame, t); /* it may draw for a front without area */
+               is_outlined(frame, t); /* it may draw for a front face without area */
     const uint32_t *const across = a->across + 3 * (size_t)t;
     return !(facing[across[0] / 3] & facing[across[1] / 3] & facing[across[2] / 3] &
              DP_FACING_FRONT);

@@ -1,4 +1,8 @@
-/* Edge classification: see classify.h. */
+/* Classification of edges: which fold two polygons make, and which line that is.
+ *
+ * Dihedral angle: 180° minus the angle between the normals on a convex edge, 180° plus it on a
+ * concave one (Raskar 2001, 2.2). Ridge: at most theta. Valley: more than phi (Raskar 2001, 2.3).
+ * Not handled: polygons without area; their normal is zero, and their edges count as flat. */
 #include "core/fold.h"
 
 #include "base/elementary.h"
@@ -7,8 +11,8 @@ static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
     return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
 }
 
-/* The corner of `polygon` that is furthest from its edge number `edge`: which side of a plane it
- * lies on tells whether the edge is folded towards it. */
+/* The corner of `polygon` that is furthest from its edge number `edge`. The side of a plane it lies
+ * on tells whether the edge is convex. */
 static dp_vec3 far_corner(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
     const uint32_t first = dp_first_corner(polygons, polygon),
                    n = dp_corner_count(polygons, polygon);
@@ -19,7 +23,7 @@ static dp_vec3 edge_position(const dp_polygons *polygons, uint32_t polygon, uint
     return corner_position(polygons, dp_first_corner(polygons, polygon) + edge);
 }
 
-/* From an edge into the polygon. */
+/* A vector from an edge into its polygon. */
 static dp_vec3 from_edge(const dp_polygons *polygons, uint32_t polygon, uint32_t edge) {
     return dp_sub(far_corner(polygons, polygon, edge), edge_position(polygons, polygon, edge));
 }
@@ -31,7 +35,7 @@ static dp_fold fold_towards(const dp_frame *frame, uint32_t a, bool a_as_wound, 
     if (!a_as_wound) fold.normal_a = dp_scale(fold.normal_a, -1);
     if (!b_as_wound) fold.normal_b = dp_scale(fold.normal_b, -1);
     const dp_vec3 mean = dp_add(fold.normal_a, fold.normal_b);
-    /* two sides of a sheet folded flat have no outside: towards the eye, then */
+    /* The two sides of a sheet folded flat have no mean: take the direction to the eye. */
     fold.normal =
         dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(dp_view_vector(&frame->view, at), -1);
     fold.concave = dp_dot(fold.normal_a, into_b) > 0;
@@ -71,8 +75,8 @@ double dp_fold_dihedral(const dp_fold *fold) {
     return fold->concave ? 180 + degrees : 180 - degrees;
 }
 
-/* Rounding of float32 coordinates, so that all edges that meet a threshold exactly fall on one side
- * of it. */
+/* Covers rounding of float32 coordinates, so that edges that meet a threshold exactly all fall on
+ * one side of it. */
 static const double ROUNDING = 1e-3; /* degrees */
 
 int dp_fold_line(const dp_fold *fold, const dp_style *style) {

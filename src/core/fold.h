@@ -1,4 +1,4 @@
-/* What kind of edge two polygons make: normals and dihedral angle, in double precision. */
+/* The fold two polygons make at an edge: normals and dihedral angle, in double precision. */
 #ifndef DP_CORE_FOLD_H
 #define DP_CORE_FOLD_H
 
@@ -7,20 +7,20 @@
 
 typedef struct dp_fold {
     dp_vec3 normal_a, normal_b; /* unit */
-    dp_vec3 normal;             /* mean, unit: away from the surface */
+    dp_vec3 normal;             /* their mean, unit: points away from the surface */
     bool concave;
 } dp_fold;
 
-/* The fold between frame polygons a and b, whose edge number `edge_b` they share. A polygon that is
- * not `as_wound` has its normal turned round. */
+/* The fold of frame polygons a and b, which share b's edge number `edge_b`. The normal of a polygon
+ * that is not `as_wound` is reversed. */
 dp_fold dp_fold_seen(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b,
                      bool b_as_wound, uint32_t edge_b);
 
-/* The same where the normals are known, and their mean. */
+/* The same from known normals and their mean. */
 dp_fold dp_fold_between(const dp_frame *frame, dp_vec3 normal_a, dp_vec3 normal_b, dp_vec3 normal,
                         uint32_t b, uint32_t edge_b);
 
-/* The same for polygons that share no corner: `at` is a point of the edge where they meet. */
+/* The same for polygons that share no corner; `at` is a point of the edge where they meet. */
 dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound,
                    dp_vec3 at);
 

@@ -1,9 +1,12 @@
-/* Primitive assembly: corners to an outline on the screen, clipped where it must be.
+/* Primitive assembly: a polygon's corners become its outline on the screen, clipped if necessary.
  *
- * Most polygons only gather their transformed corners. One with a corner outside the guarded
- * frustum is transformed again in double precision and clipped in clip space; its outline is then
- * no longer corner for corner the polygon, and its edges are clipped one by one where lines are
- * looked for. */
+ * Most polygons only gather their transformed corners. If a corner lies outside the guarded
+ * frustum, the polygon is transformed again in double precision and clipped in clip space. Points
+ * of its outline are then no longer its corners, so its edges are clipped one by one where lines
+ * are looked for.
+ *
+ * Facing: the sign of the area on the screen; by the angle in space if that area is too small to
+ * tell. Not handled: polygons that are not convex (they were split on the way in). */
 #include "core/outline.h"
 
 static const dp_array arrays[] = {DP_ARRAY(dp_outline_scratch, clip, clip_cap),
@@ -83,10 +86,11 @@ dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
     return dp_unit(sum);
 }
 
-/* Thinner than this on the screen (px) a polygon covers nothing, and its area there is rounding. */
+/* px: a thinner polygon covers nothing, and its area on the screen is rounding error. */
 static const double EDGE_ON = 1.0 / 4096;
 
-/* The sine of the angle at which a plane is seen; within rounding of zero it is seen edge-on. */
+/* Compares the sine of the angle at which the plane is seen; within rounding of zero it is
+ * edge-on. */
 bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
     const dp_vec3 at = corner_position(polygons, dp_first_corner(polygons, polygon));
@@ -94,9 +98,8 @@ bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
 }
 
 typedef struct extent {
-    double area;  /* twice that on the screen; the screen's y runs down, so a front face's is
-                     negative */
-    double reach; /* longest side of the box around the first point, px */
+    double area;  /* twice the area on the screen; negative for a front face: y points down */
+    double reach; /* px: largest distance of a point from the first, along either axis */
 } extent;
 
 static extent extent_of(const dp_outline *outline) {
@@ -136,6 +139,6 @@ bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {
         sum = dp_add(sum, dp_cross(a, b));
         size = dp_max(size, dp_max(dp_dot(a, a), dp_dot(b, b)));
     }
-    /* the cross product of float32 coordinates is exact to about 1e-15 of the squared size */
+    /* The cross product of float32 coordinates is exact to about 1e-15 of the squared size. */
     return dp_length(sum) <= 1e-12 * size;
 }

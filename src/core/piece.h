@@ -1,20 +1,20 @@
-/* Pieces: what has been found of lines, tile by tile, before it is joined to segments. */
+/* Pieces: visible parts of lines, tile by tile, before they are joined to segments. */
 #ifndef DP_CORE_PIECE_H
 #define DP_CORE_PIECE_H
 
 #include "core/view.h"
 
-/* A piece of one edge (or crossing) whose sample points [k0, k1) of n are visible. */
+/* A piece of one edge or crossing: of its n sample points, [k0, k1) are visible. */
 typedef struct dp_piece {
-    uint32_t a, b;      /* polygons; a owns the edge; b is across it or UINT32_MAX */
-    uint32_t edge;      /* corner of a that the edge starts from; DP_CROSSING: a and b cross */
-    uint32_t k0, k1, n; /* sample points */
+    uint32_t a, b;      /* frame polygons: a owns the edge; b is across it, or UINT32_MAX */
+    uint32_t edge;      /* corner of a where the edge starts; DP_CROSSING: a and b cross */
+    uint32_t k0, k1, n; /* numbers of sample points */
     uint32_t hider[2];  /* what hides the sample point before k0, and that at k1: a polygon, or
                            DP_HIDER_… */
-    uint32_t geometry;  /* as of its candidate (dp_segment_geometry) … */
-    uint32_t worker;    /* … of this worker: set where pieces are joined */
+    uint32_t geometry;  /* as in its candidate: dp_segment_geometry … */
+    uint32_t worker;    /* … of this worker; set when pieces are joined */
     uint8_t line;       /* dp_line */
-    bool open;          /* it touches the tile's border: a neighbour may hold its continuation */
+    bool open;          /* touches the tile's border: it may continue in a neighbour */
 } dp_piece;
 
 #define DP_CROSSING UINT32_MAX
@@ -24,18 +24,18 @@ typedef struct dp_piece {
 enum { DP_HIDER_NONE = -1, DP_HIDER_PICTURE = -2, DP_HIDER_UNKNOWN = -3 };
 
 typedef struct dp_tile_pieces {
-    uint32_t worker; /* whose list */
-    bool empty;      /* no polygon touches the tile; its depth samples are not set */
+    uint32_t worker; /* whose list holds them */
+    bool empty;      /* no polygon touches the tile, and its depth samples are not set */
     size_t first, count;
 } dp_tile_pieces;
 
-/* What segments along a candidate's spine are made of (strokes/segments.c). */
+/* What segments along a candidate's spine are made from (strokes/segments.c). */
 typedef struct dp_segment_geometry {
     dp_pointd a, b;    /* the spine's ends */
-    dp_vec3 normal[2]; /* of the candidate's polygons; unit */
+    dp_vec3 normal[2]; /* of the candidate's polygons, unit */
 } dp_segment_geometry;
 
-/* What one worker has found in the tiles that it has held; until the next picture. */
+/* What one worker found in all its tiles; valid until the next picture. */
 typedef struct dp_found {
     dp_piece *pieces;
     dp_segment_geometry *geometry;

@@ -1,4 +1,4 @@
-/* Spines: see spine.h. */
+/* Spines: the visible part of an edge is clipped to the frustum, lifted and divided (spine.h). */
 #include "core/spine.h"
 
 static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal) {
@@ -6,7 +6,7 @@ static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal
     return dp_to_screen(view, dp_to_clip(view, q));
 }
 
-/* What of [a, b] lies in the frustum, between t0 and t1, is the spine. */
+/* Places the part of [a, b] that lies in the frustum, from *t0 to *t1. */
 static bool place_spine(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine, double *t0,
                         double *t1) {
     const dp_clip_point ca = dp_to_clip(view, a), cb = dp_to_clip(view, b);

@@ -1,36 +1,35 @@
-/* Spines: the centre lines of feature lines, with the sample points at which they are probed.
+/* Spines: the centre lines of feature lines, with the sample points at which visibility is tested.
  *
- * A spine is the same wherever it is made (any tile, any thread): its sample points are numbered
- * along the whole of it, so that pieces found in different tiles join by number. */
+ * Invariant: a spine is the same in every tile and thread. Its sample points are numbered along the
+ * whole of it, so pieces found in different tiles join by number. */
 #ifndef DP_CORE_SPINE_H
 #define DP_CORE_SPINE_H
 
 #include "core/frame.h"
 
 typedef struct dp_spine {
-    dp_pointd a, b;             /* ends, clipped to the guarded frustum */
+    dp_pointd a, b;             /* ends on the screen, clipped to the guarded frustum */
     dp_pointd probe_a, probe_b; /* the same, lifted off the surface along its normal */
-    uint32_t n;                 /* sample points, at (k + 1/2) / n of the way on the screen */
+    uint32_t n;                 /* sample points; point k is (k + 1/2) / n of the way along */
 } dp_spine;
 
-/* How far sample points are lifted off the surface, and by how much nearer a surface must be to
- * hide them; in pixel sizes. Small against a pixel, large against float32 depth (1e-4 of a pixel
- * size). */
+/* Pixel sizes: how far sample points are lifted off the surface, and how much nearer a surface must
+ * be to hide them. Small against a pixel, large against the error of float32 depth (1e-4 pixel
+ * sizes). */
 #define DP_PROBE_LIFT  0.1
 #define DP_PROBE_SLACK 0.05
 
-/* The spine from a to b (world space), lifted along the unit normal. False: nothing of it is
- * seen. */
+/* The spine from a to b (world space), lifted along the unit normal. False: nothing of it is in the
+ * frustum. */
 bool dp_spine_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 normal, dp_spine *spine);
 
-/* The same without sample points: probe_a and probe_b are left as they are. */
+/* Sets the ends only; probe_a and probe_b are not changed. */
 bool dp_spine_ends(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine);
 
-/* Distance of sample points on the screen, px: a quarter of a pixel resolves where a line
- * disappears. */
+/* px on the screen between sample points: a quarter of a pixel resolves where a line disappears. */
 #define DP_PROBE_SPACING 0.25
 
-/* Sets n from the ends; false where they are not finite. */
+/* Sets n from the ends. False: they are not finite. */
 static inline bool dp_spine_divide(dp_spine *spine) {
     const double x = spine->b.x - spine->a.x, y = spine->b.y - spine->a.y,
                  length = sqrt(x * x + y * y);

@@ -1,14 +1,15 @@
-/* Resolving a camera, and clipping in homogeneous clip space.
+/* Resolves a camera, and clips in homogeneous clip space.
  *
- * Only two kinds of projection are taken: perspective, whose w row is a multiple of the camera's
- * -z, and orthographic, whose w row is constant. Both are scaled so that w is the distance along
- * the line of sight, or 1; then every polygon's depth is affine on the screen (view.h). */
+ * Two kinds of projection are accepted: perspective, where the row w is a multiple of the camera's
+ * -z, and orthographic, where w is constant. Both are scaled so that w is the distance along the
+ * line of sight, or 1. Invariant: depth is affine on the screen for every polygon (view.h). Not
+ * handled: lenses and oblique projections. */
 #include "core/view.h"
 
 #include "base/diag.h"
 
-/* Points further than this many half pictures from the axis are clipped: float32 still places what
- * is within to a thousandth of a pixel in a picture 2000 px wide. */
+/* Points further from the axis than this many half pictures are clipped. In a picture 2000 px wide,
+ * float32 still places what is within to a thousandth of a pixel. */
 static const double GUARD = 5;
 
 static double element(const double *m, int row, int column) { return m[4 * column + row]; }
@@ -40,7 +41,7 @@ static void place_eye(dp_view *view, const dp_camera *camera) {
     view->forward = dp_scale(dp_unit(back), -1);
 }
 
-/* For dp_unproject. */
+/* Prepares dp_unproject. */
 static void invert(dp_view *view) {
     const double *const X = view->clip[0], *const Y = view->clip[1], *const S = view->sight;
     const dp_vec3 a = dp_v3(X[0], X[1], X[2]), b = dp_v3(Y[0], Y[1], Y[2]),
@@ -77,7 +78,7 @@ dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, u
     return DP_OK;
 }
 
-/* Solves the three rows x, y and sight, whose values at the point are known, by Cramer's rule. */
+/* Solves for the point by Cramer's rule: the values of the rows x, y and sight are known there. */
 dp_vec3 dp_unproject(const dp_view *view, dp_pointd p) {
     const double distance = dp_distance(view, p.d);
     const double w = view->perspective ? distance : 1;
@@ -89,7 +90,7 @@ dp_vec3 dp_unproject(const dp_view *view, dp_pointd p) {
     return dp_scale(sum, 1 / view->determinant);
 }
 
-/* How far inside one plane of the frustum a point is; below zero is outside. */
+/* How far inside a plane of the frustum a point lies; negative: outside. */
 static double inside(const dp_view *view, int plane, dp_clip_point c) {
     const double g = view->guard * c.w;
     switch (plane) {
@@ -108,7 +109,7 @@ static double inside(const dp_view *view, int plane, dp_clip_point c) {
     }
 }
 
-/* Sutherland and Hodgman, one plane. */
+/* (Sutherland and Hodgman 1974), for one plane. */
 static uint32_t clip_plane(const dp_view *view, int plane, const dp_clip_point *in, uint32_t n,
                            dp_clip_point *out) {
     uint32_t count = 0;
@@ -132,7 +133,7 @@ uint32_t dp_clip_polygon(const dp_view *view, int codes, dp_clip_point *points, 
     }
     if (n < 3) return 0;
     for (uint32_t i = 0; i < n; i++) {
-        if (!(in[i].w > 0)) return 0; /* only when near lies at the eye itself */
+        if (!(in[i].w > 0)) return 0; /* only if the near plane contains the eye */
         points[i] = in[i];
     }
     return n;

@@ -1,8 +1,10 @@
 /* The camera resolved for one picture: world space to pixels and depth.
  *
- * Screen space: x right, y down, px, pixel (i, j) covers [i, i+1) x [j, j+1). Depth `d` is affine
- * in screen x and y on every plane and larger when nearer: 1 / distance in perspective, minus the
- * distance in orthographic views (distance along the line of sight, world units). */
+ *    screen space   x right, y down, px; pixel (i, j) covers [i, i + 1) × [j, j + 1)
+ *    distance       along the line of sight, world units
+ *    depth d        1 / distance in perspective, -distance in orthographic views
+ *
+ * Invariant: d is affine in screen x and y on every plane, and larger when nearer. */
 #ifndef DP_CORE_VIEW_H
 #define DP_CORE_VIEW_H
 
@@ -10,21 +12,21 @@
 #include <drypoint/camera.h>
 #include <float.h>
 
-/* Nothing is as far as this. */
+/* Further away than anything. */
 #define DP_DEPTH_EMPTY (-FLT_MAX)
 
 typedef struct dp_view {
     bool perspective;
     double width, height; /* px */
-    double clip[4][4]; /* rows x, y, z, w: world to clip space; w is the distance in perspective */
-    double sight[4];   /* row: world to distance along the line of sight */
-    dp_vec3 eye, forward; /* world space; forward is the paper's camera axis C, unit */
-    double focal;         /* px per unit at distance 1 (perspective), px per unit (orthographic) */
-    dp_vec3 corner;       /* the screen's point (0, 0) at d = 1, world space */
-    dp_vec3 across, down; /* what it moves by per px of x and y there */
-    dp_vec3 inverse[3];   /* of the rows x, y and sight, over `determinant`, by columns */
+    double clip[4][4]; /* rows x, y, z, w: world to clip space; in perspective, w is the distance */
+    double sight[4];   /* row: world space to distance */
+    dp_vec3 eye, forward; /* world space; forward: unit, the camera axis C of (Raskar 2001, 2.1) */
+    double focal;         /* perspective: px per unit at distance 1; orthographic: px per unit */
+    dp_vec3 corner;       /* world space: the screen's point (0, 0) at d = 1 */
+    dp_vec3 across, down; /* its change per px of x and y, at d = 1 */
+    dp_vec3 inverse[3];   /* columns of the inverse of rows x, y and sight, times `determinant` */
     double determinant;
-    double guard; /* vertices further than guard * w from the axis are clipped */
+    double guard; /* vertices further from the axis than guard * w are clipped */
 } dp_view;
 
 /* A point on the screen. */
@@ -36,13 +38,13 @@ typedef struct dp_pointd {
     double x, y, d;
 } dp_pointd;
 
-/* A point in clip space, with its distance along the line of sight. */
+/* A point in clip space, and its distance. */
 typedef struct dp_clip_point {
     double x, y, z, w, distance;
 } dp_clip_point;
 
-/* DP_ERR_ARGUMENT when the matrices are singular, not finite or of another kind than a view and a
- * perspective or orthographic projection. */
+/* DP_ERR_ARGUMENT if the matrices are singular, not finite, or not a view and a perspective or
+ * orthographic projection. */
 dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, uint32_t height,
                        dp_diag *diag);
 
@@ -56,7 +58,7 @@ static inline dp_clip_point dp_to_clip(const dp_view *view, dp_vec3 p) {
                            s[0] * p.x + s[1] * p.y + s[2] * p.z + s[3]};
 }
 
-/* Needs w > 0. */
+/* Requires w > 0. */
 static inline dp_pointd dp_to_screen(const dp_view *view, dp_clip_point c) {
     const double inverse = 1 / c.w;
     return (dp_pointd){(c.x * inverse * 0.5 + 0.5) * view->width,
@@ -64,7 +66,7 @@ static inline dp_pointd dp_to_screen(const dp_view *view, dp_clip_point c) {
                        view->perspective ? inverse : -c.distance};
 }
 
-/* World length of one pixel at depth d, seen face on. */
+/* World length of one pixel at depth d, seen face on: the pixel size. */
 static inline double dp_pixel_size(const dp_view *view, double d) {
     return view->perspective ? 1 / (d * view->focal) : 1 / view->focal;
 }
@@ -74,17 +76,18 @@ static inline double dp_depth_step(const dp_view *view, double d, double px) {
     return view->perspective ? px * d / view->focal : px / view->focal;
 }
 
-/* Distance along the line of sight, world units. */
+/* Distance of depth d, world units. */
 static inline double dp_distance(const dp_view *view, double d) {
     return view->perspective ? 1 / d : -d;
 }
 
-/* Unit vector from the eye to p (perspective) or along the line of sight: the paper's V. */
+/* Unit vector from the eye to p, or along the line of sight if orthographic: V of (Raskar 2001,
+ * 2.1). */
 static inline dp_vec3 dp_view_vector(const dp_view *view, dp_vec3 p) {
     return view->perspective ? dp_unit(dp_sub(p, view->eye)) : view->forward;
 }
 
-/* The world point on the screen at (x, y, d). */
+/* The world point at (x, y, d) on the screen. */
 dp_vec3 dp_unproject(const dp_view *view, dp_pointd p);
 
 /* Clipping ------------------------------------------------------------------------------------- */
@@ -98,7 +101,7 @@ enum {
     DP_CLIP_TOP = 32
 };
 
-/* Which planes of the (guarded) frustum the point is outside of. */
+/* A bit for each plane of the (guarded) frustum that the point is outside of. */
 static inline int dp_outcode(const dp_view *view, dp_clip_point c) {
     const double g = view->guard * c.w;
     return (c.z < -c.w || !(c.w > 0) ? DP_CLIP_NEAR : 0) | (c.z > c.w ? DP_CLIP_FAR : 0) |
@@ -106,13 +109,12 @@ static inline int dp_outcode(const dp_view *view, dp_clip_point c) {
            (c.y < -g ? DP_CLIP_BOTTOM : 0) | (c.y > g ? DP_CLIP_TOP : 0);
 }
 
-/* Clips a convex polygon of n points in place against the planes in `codes`; `points` has room for
- * n + 6, `scratch` too. Returns how many are left (0 or >= 3). */
+/* Clips a convex polygon of n points in place against the planes in `codes`. `points` and `scratch`
+ * have room for n + 6. Returns the number of points left: 0 or at least 3. */
 uint32_t dp_clip_polygon(const dp_view *view, int codes, dp_clip_point *points, uint32_t n,
                          dp_clip_point *scratch);
 
-/* Clips the segment from a to b; *t0, *t1 are what is left of [0, 1] in clip space. False:
- * nothing. */
+/* Clips the segment from a to b to [*t0, *t1] of [0, 1] in clip space. False: nothing is left. */
 bool dp_clip_segment(const dp_view *view, dp_clip_point a, dp_clip_point b, double *t0, double *t1);
 
 static inline dp_clip_point dp_clip_mix(dp_clip_point a, dp_clip_point b, double t) {
