@@ -1,5 +1,15 @@
-/* What the primitive shaders are made of: the paper's formula in space, and rectangles on the
- * screen. */
+/* What primitive shaders are made of, in two ways:
+ *
+ *    dp_paper_…    as printed: move the edge's ends in space, project, clip (Raskar 2001, 2.1, 2.2)
+ *    dp_screen_…   a rectangle beside the projected edge, exactly as wide as the pen;
+ *                  only its depth follows from the plane in space
+ *
+ * On the screen, each edge knows how a step along O = E × N and along N moves its middle: px
+ * outward, and depth. That is linear in the direction, so it gives the slope of the quad at any
+ * angle. Round joints fill the corner between two such rectangles with thin triangles.
+ *
+ * Invariant: nothing is kept, and nothing but one polygon is known. Not handled: edges without
+ * length on the screen; joints at clipped corners. */
 #include "features/features.h"
 
 #include "base/elementary.h"
@@ -21,8 +31,9 @@ dp_vec3 dp_quad_normal(dp_vec3 e, dp_vec3 n, const dp_pen *pen) {
 
 /* ------- the paper's formula ------- */
 
-/* In 2.1 V·N > 0 (the polygon faces away), in 2.2 V·R < 0 (the quad is seen): both mean to move
- * along `direction`, so the quotient's size is taken. */
+/* Silhouettes have V·N > 0, as the polygon faces away (Raskar 2001, 2.1); ridges have V·R < 0, as
+ * the quad is seen (2.2). Both are meant to move along `direction`, so the quotient's absolute
+ * value is used. */
 dp_vec3 dp_paper_offset(const dp_view *view, dp_vec3 p, dp_vec3 e, dp_vec3 direction,
                         dp_vec3 normal, double px) {
     const dp_clip_point c = dp_to_clip(view, p);
@@ -50,7 +61,7 @@ static uint32_t cut(dp_pointd *points, uint32_t n, double a, double b, double c)
     return count >= 3 ? count : 0;
 }
 
-/* The plane by Newell's method. False: it covers nothing. */
+/* Plane by Newell's method. False: the polygon covers nothing. */
 static bool set_plane(dp_added *out) {
     const dp_pointd *const p = out->points;
     double nx = 0, ny = 0, nz = 0;
@@ -98,8 +109,8 @@ bool dp_paper_project(const dp_primitive *p, uint32_t edge, const dp_vec3 *point
     return out->count && set_plane(out);
 }
 
-/* The formula needs corners in front of the eye: the edge is clipped before it is moved, and what
- * it sweeps is clipped once more. */
+/* The formula needs corners in front of the eye, so the edge is clipped before it is moved, and the
+ * quad again afterwards. */
 bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_vec3 normal,
                    double px, dp_added *out) {
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
@@ -118,11 +129,11 @@ bool dp_paper_quad(const dp_primitive *p, uint32_t edge, dp_vec3 direction, dp_v
 
 /* ------- on the screen ------- */
 
-/* Shorter edges (px) have no direction to speak of. */
+/* px: shorter edges have no reliable direction. */
 static const double SHORTEST = 1.0 / 4096;
 
-/* How a point at `c`, on the edge, moves on the screen with a step along q; 1 / w² is given, as it
- * is the same for any direction. */
+/* How a step along q moves a point of the edge on the screen. `c`: the point; `inverse2`: 1 / w²
+ * there, the same for any q. */
 static dp_motion motion_of(const dp_view *view, const dp_screen_edge *edge, dp_clip_point c,
                            double inverse2, dp_vec3 q) {
     const double(*m)[4] = view->clip;
@@ -138,13 +149,14 @@ static dp_motion motion_of(const dp_view *view, const dp_screen_edge *edge, dp_c
     return (dp_motion){out, d - edge->along * along};
 }
 
-/* A plane's depth is affine on the screen, so that the edge's middle tells the slope everywhere. */
+/* How a plane leans that moves so at the edge's middle. Its depth is affine on the screen, so the
+ * slope is the same everywhere. */
 static dp_lean lean_of(const dp_screen_edge *edge, dp_motion m) {
     const bool outward = m.out > edge->edge_on;
     return (dp_lean){outward, outward ? m.rise / m.out : m.rise > 0 ? INFINITY : -INFINITY};
 }
 
-/* Fills an edge whose ends on the screen are set. */
+/* Fills in the rest of an edge whose ends on the screen are set. */
 static bool finish_edge(const dp_primitive *p, uint32_t edge, dp_clip_point ca, dp_clip_point cb,
                         dp_screen_edge *out) {
     const double x = out->b.x - out->a.x, y = out->b.y - out->a.y;
@@ -152,7 +164,8 @@ static bool finish_edge(const dp_primitive *p, uint32_t edge, dp_clip_point ca, 
     if (!(out->length > SHORTEST) || !isfinite(out->length + out->a.d + out->b.d)) return false;
     const double inverse = 1 / out->length;
     out->tx = x * inverse, out->ty = y * inverse;
-    /* a front-facing polygon has its inside to the left of its edges; the screen's y runs down */
+    /* A front-facing polygon lies to the left of its edges as seen by the eye, and y points
+     * down. */
     out->nx = p->front ? -out->ty : out->ty;
     out->ny = p->front ? out->tx : -out->tx;
     out->along = (out->b.d - out->a.d) * inverse;
@@ -173,8 +186,7 @@ bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *o
     double t0 = 0, t1 = 1;
     if ((dp_outcode(p->view, a) | code_b) && !dp_clip_segment(p->view, a, b, &t0, &t1))
         return false;
-    /* ends that are not clipped stay as they are, bit for bit: the polygon's own outline runs
-     * there */
+    /* Ends that are not clipped keep every bit, as the polygon's own outline runs there. */
     const dp_clip_point ca = t0 > 0 ? dp_clip_mix(a, b, t0) : a,
                         cb = t1 < 1 ? dp_clip_mix(a, b, t1) : b;
     out->a = dp_to_screen(p->view, ca);
@@ -183,7 +195,7 @@ bool dp_screen_edge_make(const dp_primitive *p, uint32_t edge, dp_screen_edge *o
     return finish_edge(p, edge, ca, cb, out);
 }
 
-/* One after the other, and each corner is projected once. */
+/* Unless something must be clipped, each corner is projected once. */
 void dp_screen_edges_make(const dp_primitive *p, dp_screen_edge *out) {
     int codes = 0;
     for (uint32_t i = 0; i < p->n; i++) codes |= dp_outcode(p->view, p->clip[i]);
@@ -216,27 +228,26 @@ void dp_screen_quad(const dp_screen_edge *e, double reach, double slope, dp_adde
     out->nearest = dp_max(e->a.d, e->b.d) + dp_max(d, 0);
 }
 
-/* Along Q (2.2): motions add up as directions do. */
+/* Along Q (Raskar 2001, 2.2): motions add like directions. */
 dp_lean dp_quad_lean(const dp_screen_edge *edge, const dp_pen *pen) {
     const dp_motion o = edge->outward, n = edge->normal;
     return lean_of(edge, (dp_motion){-pen->sine * n.out - pen->cosine * o.out,
                                      -pen->sine * n.rise - pen->cosine * o.rise});
 }
 
-/* Joints are made of triangles whose contours miss the circle by no more than this (px), or as many as
- * there is room for. */
+/* px: the triangles of a joint may miss its circle by this much; there are at most SPANS of
+ * them. */
 static const double SAGITTA = 0.3;
 enum { SPANS = DP_ADDED_MOST - 1 };
 
-/* The turn between two unit normals, as cosine and sine: 0 to 180 degrees. */
+/* The turn from one unit normal to another, 0 to 180 degrees, as cosine and sine. */
 typedef struct turn {
     double c, s;
 } turn;
 
 static turn turned(turn a, turn b) { return (turn){a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 
-/* One span is 2 acos(1 - sagitta / radius); they are laid one after the other until `angle` is
- * reached. */
+/* How many spans of 2 acos(1 - sagitta / radius) reach `angle`. */
 static uint32_t spans_of(turn angle, double reach) {
     const double half = 1 - dp_min(SAGITTA / reach, 1), c = 2 * half * half - 1;
     const turn span = {c, sqrt(dp_max(1 - c * c, 0))};
@@ -246,7 +257,7 @@ static uint32_t spans_of(turn angle, double reach) {
     return count;
 }
 
-/* A share 1 / spans of the turn. */
+/* The turn divided by `spans`. */
 static turn share_of(turn angle, uint32_t spans) {
     if (spans == 2) {
         const double c = sqrt(0.5 * (1 + angle.c));
@@ -256,22 +267,23 @@ static turn share_of(turn angle, uint32_t spans) {
     return (turn){dp_cos(share), dp_sin(share)};
 }
 
-/* How much the quad at an edge rises over the polygon's own plane, depth per px. NaN: it faces
+/* How much the quad at an edge rises above the polygon's own plane, depth per px. NaN: it faces
  * away. */
 static double rise_of(const dp_screen_edge *e, const dp_pen *pen) {
     const dp_lean lean = dp_quad_lean(e, pen);
     return lean.outward ? lean.slope - e->own : NAN;
 }
 
-/* On the contour, in direction (x, y). */
-static dp_pointd rim_point(const dp_screen_edge *e, double reach, double x, double y, double rise) {
+/* The point of the joint's circle in direction (x, y). */
+static dp_pointd circle_point(const dp_screen_edge *e, double reach, double x, double y,
+                              double rise) {
     const double t = x * e->tx + y * e->ty, n = x * e->nx + y * e->ny;
     const double d = e->b.d + reach * (e->along * t + e->own * n + rise);
     return (dp_pointd){e->b.x + reach * x, e->b.y + reach * y,
                        dp_min(d, e->b.d + reach * e->steep)};
 }
 
-/* The thin triangle from the corner where `e` ends to two points of the contour. False: it covers
+/* The thin triangle from the corner where `e` ends to two points of the circle. False: it covers
  * nothing. */
 static bool set_thin(const dp_screen_edge *e, dp_pointd from, dp_pointd to, dp_added *out) {
     const dp_pointd o = e->b;
@@ -297,7 +309,8 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen
     if (!e || !f || e->ends_outside) return 0;
     const double from_rise = folded ? rise_of(e, pen) : 0, to_rise = folded ? rise_of(f, pen) : 0;
     if (!isfinite(e->own) || !isfinite(from_rise + to_rise)) return 0;
-    /* the corners of a convex polygon turn one way, or the other way when seen from behind */
+    /* A convex polygon's corners all turn one way, and the other way when it is seen from
+     * behind. */
     const double hand = p->front ? -1 : 1;
     const turn angle = {e->nx * f->nx + e->ny * f->ny, hand * (e->nx * f->ny - e->ny * f->nx)};
     if (!(angle.s > 0) || angle.c < -0.999) return 0;
@@ -305,13 +318,13 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen
     const turn share = spans > 1 ? share_of(angle, spans) : angle;
     const double step = (to_rise - from_rise) / spans;
     uint32_t count = 0;
-    dp_pointd from = rim_point(e, reach, e->nx, e->ny, from_rise);
+    dp_pointd from = circle_point(e, reach, e->nx, e->ny, from_rise);
     turn at = share;
     for (uint32_t i = 1; i < spans; i++, at = turned(at, share)) {
         const double s = hand * at.s, x = e->nx * at.c - e->ny * s, y = e->nx * s + e->ny * at.c;
-        const dp_pointd to = rim_point(e, reach, x, y, from_rise + step * i);
+        const dp_pointd to = circle_point(e, reach, x, y, from_rise + step * i);
         count += set_thin(e, from, to, &out[count]);
         from = to;
     }
-    return count + set_thin(e, from, rim_point(e, reach, f->nx, f->ny, to_rise), &out[count]);
+    return count + set_thin(e, from, circle_point(e, reach, f->nx, f->ny, to_rise), &out[count]);
 }

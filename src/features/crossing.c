@@ -1,4 +1,9 @@
-/* Crossing polygons: see crossing.h. */
+/* The segment in which the interiors of two polygons cross (Raskar 2001, 2.4), in double precision.
+ *
+ *    cut p with q's plane, and q with p's: two segments on the line where the planes meet
+ *    the part that both have in common is the crossing
+ *
+ * Not handled: polygons in one plane, and those that merely touch; they do not cross. */
 #include "features/crossing.h"
 
 #include "core/fold.h"
@@ -10,12 +15,12 @@ static dp_vec3 corner(const dp_polygons *polygons, uint32_t polygon, uint32_t i)
 }
 
 typedef struct cut {
-    dp_vec3 from, to; /* where the plane cuts the polygon */
+    dp_vec3 from, to; /* the segment in which a plane cuts the polygon */
     bool found;
 } cut;
 
-/* Cuts polygon p with the plane through `at` with unit normal n. Corners within `flat` of the plane
- * count as lying in it and make no cut: touching is not crossing. */
+/* Cuts polygon p with the plane through `at` with unit normal n. Corners closer to the plane than
+ * `flat` lie in it and make no cut: touching is not crossing. */
 static cut cut_polygon(const dp_polygons *polygons, uint32_t p, dp_vec3 at, dp_vec3 n,
                        double flat) {
     const uint32_t count = dp_corner_count(polygons, p);
@@ -55,7 +60,7 @@ bool dp_crossing_find(const dp_frame *frame, uint32_t a, uint32_t b, dp_vec3 *fr
     const dp_polygons *const polygons = &frame->polygons;
     const dp_vec3 na = dp_polygon_normal(frame, a), nb = dp_polygon_normal(frame, b);
     const dp_vec3 line = dp_cross(na, nb);
-    if (dp_length(line) < 1e-6) return false; /* one plane, or as good as one */
+    if (dp_length(line) < 1e-6) return false; /* the same plane, within rounding */
     const double flat = 1e-6 * dp_min(reach(polygons, a), reach(polygons, b));
     const cut ca = cut_polygon(polygons, a, corner(polygons, b, 0), nb, flat);
     if (!ca.found) return false;

@@ -1,11 +1,17 @@
-/* Extruding a silhouette edge: see extrude.h. All in screen space, so that widths are exact in
- * pixels; depth is that of the edge's ends (Listing 2.2 leaves z as it is).
+/* Extrudes a silhouette edge (Hermosilla and Vázquez 2010, Listing 2.2; extrude.h), in screen
+ * space, so that widths are exact in px. Depth is that of the edge's ends; Listing 2.2 does not
+ * change z either.
  *
- * Equation (2.1) gives the texture coordinates of e1 and e2: the outer contour n1, e1, e2, n2 is laid
- * onto the edge a, b in proportion to its lengths d_a = |n1 e1|, d_b = |e1 e2| and d_c = |e2 n2|.
- * As printed both lines have d_a in the numerator, and v = 0; by symmetry the second must be d_c,
- * or the contour of an edge and of the same edge turned round would differ, and Figure 2.4 says that v
- * is 1 outside. |ab| is read as the unit vector, d as the length. */
+ * Equation (2.1) of that paper gives texture coordinates to e1 and e2. The outer contour n1, e1,
+ * e2, n2 is laid onto the edge a, b in proportion to its lengths:
+ *
+ *    d_a = |n1 e1|,  d_b = |e1 e2|,  d_c = |e2 n2|,  d = |ab|
+ *    e1 = a + unit(ab) * d * d_a / (d_a + d_b + d_c)
+ *    e2 = b + unit(ba) * d * d_c / (d_a + d_b + d_c)
+ *
+ * As printed, both lines have d_a, and v = 0. By symmetry the second must be d_c, or an edge and
+ * its reverse would differ; and Figure 2.4 says that v is 1 outside. |ab| is read as the unit
+ * vector in the first place, and d as the length. */
 #include "features/extrude.h"
 
 #include <math.h>
@@ -21,7 +27,7 @@ void dp_project_direction(const dp_view *view, dp_vec3 p, dp_vec3 normal, double
 
 static double distance(dp_pointd p, dp_pointd q) { return dp_hypot(q.x - p.x, q.y - p.y); }
 
-/* The corner beyond an end of the edge. */
+/* The corner of the strip beyond one end of the edge. */
 static dp_pointd beyond(dp_pointd end, const double normal[2], double ox, double oy, double width) {
     double nx = normal[0], ny = normal[1];
     if (nx == 0 && ny == 0) nx = ox, ny = oy;
@@ -34,14 +40,14 @@ bool dp_extrude(const dp_silhouette_edge *e, double width, dp_fin_point out[DP_F
     if (!(d > 0)) return false;
     const double ex = (e->b.x - e->a.x) / d, ey = (e->b.y - e->a.y) / d;
     const double side = ex * e->outward[1] - ey * e->outward[0] < 0 ? -1 : 1;
-    const double ox = -ey * side, oy = ex * side; /* square to the edge, outwards */
+    const double ox = -ey * side, oy = ex * side; /* perpendicular to the edge, outward */
     const dp_pointd e1 = {e->a.x + ox * width, e->a.y + oy * width, e->a.d};
     const dp_pointd e2 = {e->b.x + ox * width, e->b.y + oy * width, e->b.d};
     const dp_pointd n1 = beyond(e->a, e->normal_a, ox, oy, width),
                     n2 = beyond(e->b, e->normal_b, ox, oy, width);
     const double da = distance(n1, e1), db = distance(e1, e2), dc = distance(e2, n2),
-                 rim = da + db + dc;
-    const double t1 = d * da / rim, t2 = d * dc / rim; /* (2.1) */
+                 contour = da + db + dc;
+    const double t1 = d * da / contour, t2 = d * dc / contour; /* equation (2.1) */
     out[0] = (dp_fin_point){n1, e->a.x, e->a.y, 1};
     out[1] = (dp_fin_point){e1, e->a.x + ex * t1, e->a.y + ey * t1, 1};
     out[2] = (dp_fin_point){e->a, e->a.x, e->a.y, 0};

@@ -1,6 +1,6 @@
-/* Intersections (Raskar 2001, 2.4): nothing is added; a polygon is tested itself, where it lies
- * behind the surface but trapped close to it (quads.c). What is decided here is which two polygons
- * may do so. */
+/* Intersections (Raskar 2001, 2.4): nothing is added. A polygon is tested itself, where it lies
+ * behind the surface but close to it (printed/quads.c). Here is decided which two polygons may
+ * intersect. */
 #include "features/features.h"
 
 static const float *corner(const dp_polygons *polygons, uint32_t polygon, uint32_t i) {

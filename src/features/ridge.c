@@ -1,19 +1,20 @@
-/* Ridges (Raskar 2001, 2.2): at each edge of each front-facing polygon a quad at angle theta.
+/* Ridges (Raskar 2001, 2.2): each edge of each front-facing polygon adds a quad at angle theta.
  *
- * It lies before the neighbour where that is folded away by more than theta, and is hidden by it
- * everywhere else: the ordinary depth test decides. Each of the two polygons at an edge covers the
- * other's side. An edge without a neighbour is folded away altogether and shows. */
+ * The quad lies in front of the neighbour if that is folded away by more than theta, and behind it
+ * otherwise, so the ordinary depth test decides. Each polygon at an edge draws half of the line, on
+ * the other's side. An edge without a neighbour shows its quad: it is drawn as a ridge. */
 #include "features/features.h"
 
 static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     const dp_vec3 e = dp_edge_direction(p, edge), r = dp_quad_normal(e, p->normal, pen);
     if (dp_dot(dp_view_vector(p->view, p->world[edge]), r) >= 0)
-        return 0; /* culled: it faces away */
+        return 0; /* culled: the quad faces away */
     return dp_paper_quad(p, edge, dp_quad_direction(e, p->normal, pen), r, pen->reach, out);
 }
 
-/* Facing away, a quad at theta < 180 leads in under its own polygon and is not seen. At theta > 180
- * it leans over towards the eye: every neighbour that can be seen is folded by more than theta. */
+/* If the quad faces away and theta < 180, it leads in under its own polygon and is not seen. If
+ * theta > 180 it leans over towards the eye, and any neighbour that is seen is folded by more than
+ * theta. */
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);

@@ -1,9 +1,9 @@
-/* Silhouettes (Raskar 2001, 2.1): every back-facing polygon is enlarged in its own plane.
+/* Silhouettes (Raskar 2001, 2.1): each back-facing polygon is enlarged in its own plane.
  *
- * The paper's 2n-gon is handed out edge by edge: the quad beyond the edge, and the triangle between
- * it and the next edge's quad at their common corner. The polygon itself is not painted with ink:
- * where it is seen (an open model) it is surface. Where a front-facing polygon lies next to it, the
- * enlargement shows beside that one's outline; elsewhere it stays hidden behind the front. */
+ * The paper's 2n-gon is made edge by edge: the quad beyond an edge, and the triangle between it and
+ * the next edge's quad. Beside a front-facing neighbour the enlargement shows along its outline;
+ * elsewhere it stays hidden behind front faces. The polygon itself is not inked: where it is seen,
+ * in an open model, it is surface. */
 #include "features/features.h"
 
 static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
@@ -19,12 +19,13 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     return count;
 }
 
-/* A polygon that is nearly edge-on would shoot towards the eye: it is held to DP_STEEPEST. */
+/* A polygon seen nearly edge-on would shoot towards the eye, so its slope is limited to
+ * DP_STEEPEST. */
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
     if (!e || e->own == -INFINITY)
-        return 0; /* it leads straight away from the eye: nothing to be seen */
+        return 0; /* it leads straight away from the eye and is not seen */
     dp_screen_quad(e, pen->reach, dp_min(e->own, e->steep), &out[0]);
     return 1 + dp_screen_joint(p, edge, pen, pen->reach, false, &out[1]);
 }

@@ -1,7 +1,8 @@
-/* Silhouette edges and vertex normals: see normals.h.
+/* Silhouette edges on the screen, normals of their vertices, and polar texture coordinates
+ * (Hermosilla and Vázquez 2010, 2.3.2 and 2.3.3).
  *
- * Normals are made only for the vertices of silhouette edges, a few thousand of a million, when
- * they are needed: so they are right for meshes that move, and nothing per vertex is kept. */
+ * Normals are made only for vertices of silhouette edges, a few thousand of a million, when they
+ * are needed. So they are right for meshes that deform, and nothing is kept per vertex. */
 #include "features/silhouette_edge.h"
 
 #include "mesh/adjacency.h"
@@ -22,8 +23,8 @@ static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
     return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
 }
 
-/* The corner's cross product over the squares of its edges' lengths (Max 1999): right on a
- * sphere. */
+/* The corner's share of the vertex normal: its cross product over the squares of its edges' lengths
+ * (Max 1999), which is exact on a sphere. */
 static dp_vec3 share_of(const dp_frame *frame, uint32_t polygon, uint32_t corner) {
     const dp_polygons *const p = &frame->polygons;
     const uint32_t n = dp_corner_count(p, polygon);
@@ -34,15 +35,15 @@ static dp_vec3 share_of(const dp_frame *frame, uint32_t polygon, uint32_t corner
     return weight > 0 ? dp_scale(dp_cross(u, v), 1 / weight) : dp_v3(0, 0, 0);
 }
 
-/* Over the edge that starts at the corner, to the next polygon around its vertex; UINT32_MAX: there
- * is none. */
+/* Steps around the vertex, across the edge that starts at the corner, to the next polygon's corner;
+ * UINT32_MAX: there is none. */
 static uint32_t over_next(const dp_frame *frame, uint32_t corner) {
     const uint32_t across = frame->adjacency->across[corner];
     if (!dp_is_across(across) || across & DP_ACROSS_FLIPPED) return UINT32_MAX;
     return turned(&frame->polygons, dp_polygon_of_corner(frame->adjacency, across), across, 1);
 }
 
-/* The other way round: over the edge that ends at the corner. */
+/* The same the other way round, across the edge that ends at the corner. */
 static uint32_t over_last(const dp_frame *frame, uint32_t corner) {
     const uint32_t polygon = dp_polygon_of_corner(frame->adjacency, corner);
     const uint32_t last =
@@ -66,7 +67,7 @@ dp_vec3 dp_vertex_normal(const dp_frame *frame, uint32_t corner) {
     return dp_unit(sum);
 }
 
-/* A front-facing polygon runs counter-clockwise, so it lies to the left of its edges, and y runs
+/* A front-facing polygon runs counter-clockwise, so it lies to the left of its edges; y points
  * down. */
 void dp_find_outside(const dp_frame *frame, uint32_t polygon, dp_pointd a, dp_pointd b,
                      double out[2]) {

@@ -1,21 +1,21 @@
-/* Valleys (Raskar 2001, 2.3): at each edge of each front-facing polygon a quad at angle phi.
+/* Valleys (Raskar 2001, 2.3): each edge of each front-facing polygon adds a quad at angle phi.
  *
- * The reverse of a ridge: it is behind the neighbour where that rises by more than phi. The quad
- * never writes depth and shows where it lies behind the surface, but trapped close to it
- * (quads.c). */
+ * The reverse of a ridge: the quad lies behind the neighbour if that rises by more than phi. It
+ * never writes depth, and shows where it is behind the surface but close to it
+ * (printed/quads.c). */
 #include "features/features.h"
 
 static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     const dp_vec3 e = dp_edge_direction(p, edge), r = dp_quad_normal(e, p->normal, pen);
     if (dp_dot(dp_view_vector(p->view, p->world[edge]), r) >= 0)
-        return 0; /* culled: it faces away */
+        return 0; /* culled: the quad faces away */
     return dp_paper_quad(p, edge, dp_quad_direction(e, p->normal, pen), r, pen->reach, out);
 }
 
-/* A quad that is seen nearly edge-on would cut through whatever lies before it, and be trapped
- * there: it ends where it has come as near as DP_STEEPEST allows. Facing away, a quad at phi > 180
- * leans over towards the eye: no neighbour that can be seen rises by more. At phi < 180 it leads in
- * under its own polygon: every neighbour that can be seen does. */
+/* A quad seen nearly edge-on would cut through whatever is in front of it, and be trapped there, so
+ * it ends where it has come nearer by DP_STEEPEST. If it faces away and phi > 180, it leans over
+ * towards the eye, and no neighbour that is seen rises by more than phi. If phi < 180 it leads in
+ * under its own polygon, and every neighbour that is seen does. */
 static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, dp_added *out) {
     dp_screen_edge room;
     const dp_screen_edge *const e = dp_screen_edge_of(p, edge, &room);
