@@ -58,7 +58,7 @@ const char *dp_version(void) {
     return VERSION(DP_VERSION_MAJOR, DP_VERSION_MINOR, DP_VERSION_PATCH);
 }
 
-/* The same rule as the shared library's name (SOVERSION) and the CMake package's follow. */
+/* The rule of the shared library's name (SOVERSION) and of the CMake package. */
 dp_result dp_version_check_header(uint32_t major, uint32_t minor, uint32_t patch, dp_diag *diag) {
     if (major == DP_VERSION_MAJOR && minor == DP_VERSION_MINOR) return DP_OK;
     return dp_fail(diag, DP_ERR_UNSUPPORTED,

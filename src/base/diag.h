@@ -1,4 +1,4 @@
-/* Filling diagnostics: every failure in the library is made by one of these three. */
+/* Filling in diagnostics. Every failure in the library is reported by one of these three. */
 #ifndef DP_BASE_DIAG_H
 #define DP_BASE_DIAG_H
 
@@ -10,9 +10,9 @@
 #define DP_PRINTF(text, rest)
 #endif
 
-/* Fills *diag (NULL allowed) and returns `result`, so that `return dp_fail(…)` reads well. */
+/* Fills *diag (may be NULL) and returns `result`, for use as `return dp_fail(…)`. */
 dp_result dp_fail(dp_diag *diag, dp_result result, const char *format, ...) DP_PRINTF(3, 4);
-/* The same with the 1-based line of a text file; the message need not repeat it. */
+/* The same with a line of a text file, from 1; the message need not repeat it. */
 dp_result dp_fail_line(dp_diag *diag, dp_result result, uint64_t line, const char *format, ...)
     DP_PRINTF(4, 5);
 /* The same with a byte offset. */

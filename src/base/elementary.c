@@ -1,14 +1,14 @@
 /* Sine, cosine, tangent, their inverses, logarithm and exponential from +, -, *, / and roots alone.
  *
- * IEEE 754 says every bit of those operations, and nothing about the functions: C libraries differ
- * in their last bits, and a last bit moves a pixel now and then. Each function reduces its argument
- * until a Taylor series of a few terms is exact to a double's 53 bits; its coefficients are plain
- * fractions. No table is fitted and nothing is fused (-ffp-contract=off).
+ * IEEE 754 specifies every bit of those operations but not these functions: C libraries differ in
+ * their last bits, and a last bit moves a pixel now and then. Each function reduces its argument
+ * until a Taylor series of a few terms is exact to the 53 bits of a double; coefficients are plain
+ * fractions. Invariant: no fitted tables, and nothing is fused (-ffp-contract=off).
  *
- * Constants that are no doubles are sums of two or three of them, the later ones the error of those
- * before; parts with 33 bits stay exact when they are multiplied by a count of up to 2^20.
+ * Constants that are not doubles are sums of two or three: each is the error of those before. Parts
+ * with 33 bits stay exact when multiplied by a count of up to 2^20.
  *
- * Does not handle: errno and floating-point exceptions. */
+ * Not handled: errno and floating-point exceptions. */
 #include "base/elementary.h"
 
 #include <math.h>
@@ -17,19 +17,19 @@
 #define HALF_PI_0 0x1.921fb544p+0 /* 33 bits */
 #define HALF_PI_1 0x1.0b4611a6p-34
 #define HALF_PI_2 0x1.3198a2e037073p-69
-#define HALF_PI   0x1.921fb54442d18p+0  /* to the nearest, */
-#define HALF_PI_E 0x1.1a62633145c07p-54 /* and what it lacks */
+#define HALF_PI   0x1.921fb54442d18p+0  /* rounded, … */
+#define HALF_PI_E 0x1.1a62633145c07p-54 /* … and its error */
 #define LN2_0     0x1.62e42fefp-1       /* 33 bits */
 #define LN2_1     0x1.473de6af278edp-34
 
-/* An angle as quarter turns and a rest, rest + tail, in [-pi/4, pi/4]. */
+/* An angle as quarter turns and a remainder in [-pi/4, pi/4], which is rest + tail. */
 typedef struct reduced {
     double rest, tail;
     unsigned quarters; /* modulo 4 */
 } reduced;
 
 static reduced reduce(double angle) {
-    if (!(fabs(angle) < 0x1p20)) angle = fmod(angle, 4 * HALF_PI); /* exact; NaN of infinity */
+    if (!(fabs(angle) < 0x1p20)) angle = fmod(angle, 4 * HALF_PI); /* exact; infinity gives NaN */
     if (isnan(angle)) return (reduced){angle, 0, 0};
     const int32_t count = (int32_t)(angle / HALF_PI + (angle < 0 ? -0.5 : 0.5));
     const double n = count, from = angle - n * HALF_PI_0, less = n * HALF_PI_1;
@@ -38,7 +38,7 @@ static reduced reduce(double angle) {
     return (reduced){rest, (high - rest) + low, (unsigned)count & 3};
 }
 
-/* x - x^3/3! + … - x^19/19!: what comes next is below 2^-66 of it. */
+/* x - x^3/3! + … - x^19/19!; the next term is below 2^-66 of the sum. */
 static double sine_of_rest(double x, double tail) {
     const double z = x * x;
     const double series =
@@ -52,7 +52,7 @@ static double sine_of_rest(double x, double tail) {
     return x + (x * z * series + tail * (1 - z / 2));
 }
 
-/* 1 - x^2/2! + … + x^20/20!, 1 - x^2/2 with its rounding error. */
+/* 1 - x^2/2! + … + x^20/20!; `lost` is the rounding error of 1 - x^2/2. */
 static double cosine_of_rest(double x, double tail) {
     const double z = x * x, half = z / 2, first = 1 - half, lost = (1 - first) - half;
     const double series =
@@ -88,7 +88,7 @@ double dp_tan(double angle) {
 }
 
 /* atan(k / 16) */
-static const double arcs[17][2 /* value, what it lacks */] = {
+static const double arcs[17][2 /* value, error */] = {
     {0, 0},
     {0x1.ff55bb72cfdeap-5, -0x1.c934d86d23f1dp-60},
     {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
@@ -107,7 +107,7 @@ static const double arcs[17][2 /* value, what it lacks */] = {
     {0x1.819d0b7158a4dp-1, -0x1.bf76229d3b917p-56},
     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
 
-/* atan(t) of t in [0, 1]: the nearest arc, and behind it u - u^3/3 + … of |u| <= 1/32. */
+/* atan(t) for t in [0, 1]: the nearest of these, plus u - u^3/3 + … for the rest, |u| <= 1/32. */
 static double arc_of(double t, double *tail) {
     const int k = (int)(16 * t + 0.5);
     const double c = k / 16., u = (t - c) / (1 + t * c), z = u * u;
@@ -123,7 +123,7 @@ double dp_atan2(double y, double x) {
     if (isnan(a) || isnan(b)) return a + b;
     const double t = a == b ? (a > 0 ? 1 : 0) : a < b ? a / b : b / a;
     double tail, arc = arc_of(t, &tail);
-    if (a > b) { /* it is counted from the y axis */
+    if (a > b) { /* counted from the y axis */
         const double sign = signbit(x) ? 1 : -1;
         arc = HALF_PI + sign * arc + (HALF_PI_E + sign * tail);
     } else if (signbit(x)) {
@@ -136,8 +136,8 @@ double dp_atan(double tangent) { return dp_atan2(tangent, 1); }
 
 double dp_acos(double cosine) { return dp_atan2(sqrt((1 - cosine) * (1 + cosine)), cosine); }
 
-/* x = m 2^e with m in [sqrt(1/2), sqrt(2)]; ln x = e ln 2 + 2 (s + s^3/3 + …), s = (m - 1)/(m + 1)
- * of at most 0.172: the first left out, s^23/23, is below 2^-62. */
+/* x = m 2^e with m in [sqrt(1/2), sqrt(2)]; ln x = e ln 2 + 2 (s + s^3/3 + …) with s = (m - 1)/(m +
+ * 1), |s| <= 0.172. The first term left out, s^23/23, is below 2^-62. */
 double dp_log(double x) {
     if (!(x > 0)) return -INFINITY;
     int e;
@@ -165,7 +165,7 @@ static const double inverse_factorial[15] = {1,
                                              1. / 6227020800,
                                              1. / 87178291200};
 
-/* exp(x) = 2^n exp(r), |r| <= ln(2)/2: the first term left out, r^15/15!, is below 2^-62. */
+/* exp(x) = 2^n exp(r), |r| <= ln(2)/2. The first term left out, r^15/15!, is below 2^-62. */
 double dp_exp(double x) {
     if (!(x <= 709)) return isnan(x) ? x : INFINITY;
     if (x < -745) return 0;

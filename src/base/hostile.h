@@ -1,8 +1,8 @@
-/* Sizes that only speed depends on, and their smallest values that still work.
+/* Sizes on which only speed depends, and their smallest values that still work.
  *
- * The hostile build (DRYPOINT_HOSTILE) takes the small ones: every array moves whenever it grows,
- * every batch, chunk and tile ends after a few items, so that what goes wrong at such a border, at
- * a size of millions, goes wrong in every test. Results must be the same. */
+ * The hostile build (DRYPOINT_HOSTILE) uses the small ones: arrays move whenever they grow;
+ * batches, chunks and tiles end after a few items. What would go wrong at a border in one of
+ * millions of items then goes wrong in every test. Invariant: results are the same. */
 #ifndef DP_BASE_HOSTILE_H
 #define DP_BASE_HOSTILE_H
 

@@ -1,16 +1,18 @@
 /* Kernels: loops over many vertices, polygons, samples or pixels, for several kinds of processors.
  *
- * Each folder keeps its kernels beside the structs that they work on: written once, in .inc files,
- * on vectors of DP_LANES floats (lanes.h), gathered in the folder's kernels.c, which the build
- * compiles once for each width (CMakeLists.txt), and declared as a table of functions in its
- * kernels.h. Plain C, one lane, is the truth: the others do the same operations in the same order
- * and give the same bits (tests/unit/test_kernels*.c). */
+ *    *.inc       a kernel, written once on vectors of DP_LANES floats (base/lanes.h)
+ *    kernels.c   includes a folder's kernels, and puts them into a table of functions;
+ *                the build compiles it once for each width (CMakeLists.txt)
+ *    kernels.h   declares that table's type, and type_for(lanes)
+ *
+ * Invariant: plain C, one lane, is the truth. The other widths do the same operations in the same
+ * order and give the same bits (tests/unit/test_kernels*.c). */
 #ifndef DP_BASE_KERNELS_H
 #define DP_BASE_KERNELS_H
 
 #include <stdint.h>
 
-/* A width of vectors that kernels are compiled for. */
+/* A width of vectors for which kernels are compiled. */
 typedef struct dp_width {
     const char *name; /* "plain", "base", "avx2", "avx512" */
     uint32_t lanes;   /* 1, 4, 8, 16 */
@@ -18,15 +20,15 @@ typedef struct dp_width {
 
 enum { DP_WIDTHS_MOST = 4 };
 
-/* Those that this processor runs, slowest first. Returns how many. */
+/* Lists the widths that this processor can run, slowest first. Returns how many. */
 uint32_t dp_widths_list(dp_width list[DP_WIDTHS_MOST]);
 
-/* How many lanes the fastest has. In builds with tests, the environment's DRYPOINT_CPU names
+/* Lanes of the fastest width. In builds with tests, DRYPOINT_CPU in the environment chooses
  * another. */
 uint32_t dp_lanes_best(void);
 
-/* Declares a folder's tables of type `type`, one a width, and type_for(lanes), which gives that of
- * a width. */
+/* Declares a folder's tables of type `type`, one for each width, and type_for(lanes), which returns
+ * one. */
 #ifdef __x86_64__
 #define DP_KERNEL_TABLES(type)                                                                     \
     extern const type type##_plain, type##_base, type##_avx2, type##_avx512;                       \
@@ -45,7 +47,7 @@ uint32_t dp_lanes_best(void);
     typedef type type##_tables
 #endif
 
-/* The name of such a table in a folder's kernels.c, compiled for DP_LANES. */
+/* The name of the table in a kernels.c that is compiled for DP_LANES. */
 #if DP_LANES == 1
 #define DP_KERNEL_TABLE(type) type##_plain
 #elif DP_LANES == 4

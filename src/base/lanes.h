@@ -1,11 +1,17 @@
 /* Vectors of DP_LANES floats or ints, for kernels that are written once and compiled for several
  * widths.
  *
- * A file that includes this has set DP_LANES: 1 is plain C, 4 any processor (SSE2, NEON), 8 AVX2,
- * 16 AVX-512. Every operation is one IEEE operation per lane, the same at any width, so that all
- * widths give equal bits (contraction is off, cmake/). A mask comes from a comparison and goes into
- * `l_select` and `lm_bits`; how it is kept is this file's business. `l_min`, `l_max` give their
- * second argument where either is NaN, as dp_minf and dp_maxf do. */
+ *    DP_LANES 1: plain C    4: any processor (SSE2, NEON)    8: AVX2    16: AVX-512
+ *
+ *    l_…     dp_lf          floats
+ *    li_…    dp_li, dp_lu   ints, unsigned ints
+ *    lm_…    dp_lm          masks, made by comparisons
+ *    ld_…    dp_ld, dp_lb   doubles, half as many; their masks
+ *
+ * The file that includes this has set DP_LANES. Invariant: every operation is one IEEE operation
+ * per lane, so all widths give the same bits (contraction is off, see cmake/). How a mask is stored
+ * differs by width; it goes into `l_select` and `lm_bits`. If an argument is NaN, `l_min` and
+ * `l_max` return the second one, like dp_minf and dp_maxf. */
 #ifndef DP_BASE_LANES_H
 #define DP_BASE_LANES_H
 
@@ -19,7 +25,7 @@
 #include <immintrin.h>
 #endif
 
-/* Into kernels whose arguments are constants; compilers obey only when they optimise. */
+/* Inlines kernels whose arguments are constants; compilers do that only when they optimise. */
 #ifdef __OPTIMIZE__
 #define DP_LANES_INLINE static inline __attribute__((always_inline))
 #else
@@ -186,7 +192,7 @@ DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm512_max_ps((__m
 DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm512_cvttps_epi32((__m512)v); }
 #endif
 
-/* table[at], lane by lane. */
+/* table[at], by lane. */
 DP_LANES_INLINE dp_lf l_lookup(const float *table, dp_li at) {
 #if DP_LANES == 1
     return table[at];
@@ -199,7 +205,7 @@ DP_LANES_INLINE dp_lf l_lookup(const float *table, dp_li at) {
 #endif
 }
 
-/* The same of words of any kind. */
+/* The same for words of any type. */
 DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
 #if DP_LANES == 1
     dp_li v;
@@ -210,7 +216,7 @@ DP_LANES_INLINE dp_li l_lookup_bits(const void *table, dp_li at) {
 #endif
 }
 
-/* The larger of each pair of bytes. */
+/* The larger byte of each pair. */
 DP_LANES_INLINE dp_li li_max_bytes(dp_li a, dp_li b) {
 #if DP_LANES == 16
     return (dp_li)_mm512_max_epu8((__m512i)a, (__m512i)b);
@@ -228,9 +234,8 @@ DP_LANES_INLINE dp_li li_max_bytes(dp_li a, dp_li b) {
 #endif
 }
 
-/* At the end of a kernel that calls functions with vectors as arguments: compilers then leave the
- * registers' upper halves set, and all code of 16-byte vectors that runs afterwards, anywhere, is
- * up to half as fast. */
+/* Call this at the end of a kernel that calls functions with vector arguments. Compilers then leave
+ * the registers' upper halves set, and later code with 16-byte vectors runs up to half as fast. */
 DP_LANES_INLINE void l_done(void) {
 #if DP_LANES >= 8
     _mm256_zeroupper();
@@ -290,8 +295,10 @@ DP_LANES_INLINE void ld_put(double *p, dp_ld v) { memcpy(p, &v, sizeof v); }
 
 /* ------- records of four words, one per lane -------
  *
- * Lane l's record lies at base + at[l] (in records). As rows, row i holds the whole records of
- * lanes 4 g + i, group g after group g; as columns, column i holds word i of every lane. */
+ * Lane l's record is at base + at[l], counted in records.
+ *
+ *    rows       row i holds the whole records of lanes 4 g + i, group g after group g
+ *    columns    column i holds word i of every lane */
 
 #if DP_LANES > 1
 typedef float dp_record __attribute__((vector_size(16)));
@@ -302,7 +309,7 @@ DP_LANES_INLINE dp_record l_record(const void *base, uint32_t at) {
     return r;
 }
 
-/* Records at[0], at[4 step], … of up to four groups. */
+/* Reads a row: records at[0], at[4 step], …, one for each group. */
 DP_LANES_INLINE dp_lf l_row(const void *base, const uint32_t *at, const size_t step) {
 #if DP_LANES == 4
     (void)step;
@@ -318,7 +325,7 @@ DP_LANES_INLINE dp_lf l_row(const void *base, const uint32_t *at, const size_t s
 #endif
 }
 
-/* Four words each from base, base + step, … (bytes), of up to four groups. */
+/* Reads a row: four words from base, base + step, … (bytes), for each group. */
 DP_LANES_INLINE dp_lf l_row_of_bytes(const uint8_t *base, size_t step) {
 #if DP_LANES == 4
     (void)step;
@@ -334,7 +341,7 @@ DP_LANES_INLINE dp_lf l_row_of_bytes(const uint8_t *base, size_t step) {
 #endif
 }
 
-/* Puts the records of a row at base, base + group, … (bytes). */
+/* Writes a row's records to base, base + group, … (bytes). */
 DP_LANES_INLINE void l_put_row(char *base, size_t group, dp_lf row) {
 #if DP_LANES == 4
     (void)group;
@@ -361,7 +368,7 @@ DP_LANES_INLINE dp_lm lm_first_pair(void) {
 #endif
 }
 
-/* Rows to columns, and back. */
+/* Rows to columns, or columns to rows. */
 DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 #if DP_LANES == 4 && defined __SSE2__
     const __m128 a = _mm_unpacklo_ps((__m128)r[0], (__m128)r[1]),
@@ -392,7 +399,7 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
 }
 #endif
 
-/* Puts lane l's record, by columns, at `at` + l. */
+/* Writes lane l's record, given by columns, to `at` + l. */
 DP_LANES_INLINE void l_put_records(void *at, dp_lf columns[4]) {
 #if DP_LANES == 1
     memcpy(at, columns, 16);
@@ -402,8 +409,8 @@ DP_LANES_INLINE void l_put_records(void *at, dp_lf columns[4]) {
 #endif
 }
 
-/* The same where `at` is aligned to 16 bytes, past the caches, so that no other processor has to be
- * asked to give up what it holds of the place. */
+/* The same, but around the caches, so that no other processor must give up its copy. `at` must be
+ * aligned to 16 bytes. */
 DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
 #if DP_LANES > 1 && defined __SSE2__
     float records[DP_LANES][4], *const out = at;
@@ -414,14 +421,14 @@ DP_LANES_INLINE void l_put_past_caches(void *at, dp_lf columns[4]) {
 #endif
 }
 
-/* Before others may read what has been put past the caches. */
+/* Call this before others may read what was written around the caches. */
 DP_LANES_INLINE void l_past_caches_done(void) {
 #if DP_LANES > 1 && defined __SSE2__
     _mm_sfence();
 #endif
 }
 
-/* Lane l's record, by columns. */
+/* Reads lane l's record, by columns. */
 DP_LANES_INLINE void l_records(const void *base, const uint32_t at[DP_LANES], dp_lf out[4]) {
 #if DP_LANES == 1
     memcpy(out, (const char *)base + 16 * (size_t)*at, 16);
@@ -431,7 +438,7 @@ DP_LANES_INLINE void l_records(const void *base, const uint32_t at[DP_LANES], dp
 #endif
 }
 
-/* The bits of the first n lanes. */
+/* Bits of the first n lanes. */
 DP_LANES_INLINE uint32_t lm_first(uint32_t n) {
     return n < DP_LANES ? (1u << n) - 1 : (uint32_t)((1ull << DP_LANES) - 1);
 }
@@ -440,7 +447,7 @@ DP_LANES_INLINE uint32_t lm_first(uint32_t n) {
 static const float dp_lane_steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 DP_LANES_INLINE dp_lf l_steps(void) { return l_load(dp_lane_steps); }
 
-/* The mask of what lm_bits gives. */
+/* The mask with these bits; the inverse of lm_bits. */
 DP_LANES_INLINE dp_lm lm_of_bits(uint32_t bits) {
 #if DP_LANES == 1
     return bits & 1;
@@ -466,7 +473,7 @@ DP_LANES_INLINE dp_lf l_of_bits(dp_li v) {
     return value;
 }
 
-/* ------- 16 bits within words ------- */
+/* ------- 16 bits of a word, and floats of ints ------- */
 
 DP_LANES_INLINE dp_lf l_from_int(dp_li v) {
 #if DP_LANES == 1
@@ -476,7 +483,7 @@ DP_LANES_INLINE dp_lf l_from_int(dp_li v) {
 #endif
 }
 
-/* The high half, with its sign; the low half in the high half's place. */
+/* `high`: the upper half, with its sign; `up`: the lower half moved to the upper. */
 #if DP_LANES == 1
 DP_LANES_INLINE dp_li li_high(dp_li v) { return (int16_t)((uint32_t)v >> 16); }
 DP_LANES_INLINE dp_li li_up(dp_li v) { return (int32_t)((uint32_t)v << 16); }
@@ -487,14 +494,14 @@ DP_LANES_INLINE dp_li li_up(dp_li v) { return (dp_li)((dp_lu)v << 16); }
 
 /* ------- rounding and powers ------- */
 
-/* The largest whole number not above v; those of 2^23 and more are whole. */
+/* The largest whole number <= v; floats of 2^23 and more are whole. */
 DP_LANES_INLINE dp_lf l_floor(dp_lf v) {
     const dp_lm small = l_lt(l_abs(v), l_splat(8388608));
     const dp_lf whole = l_from_int(l_truncate(l_select(small, v, l_splat(0))));
     return l_select(small, whole - l_select(l_gt(whole, v), l_splat(1), l_splat(0)), v);
 }
 
-/* The largest power of two not above v, which is positive and normal: v without its fraction. */
+/* The largest power of two <= v, for v positive and normal: v without its fraction bits. */
 DP_LANES_INLINE dp_lf l_power_below(dp_lf v) {
 #if DP_LANES == 1
     uint32_t bits;
@@ -507,7 +514,7 @@ DP_LANES_INLINE dp_lf l_power_below(dp_lf v) {
 #endif
 }
 
-/* The numbers of the lanes that have a bit, ascending; others follow. */
+/* Numbers of the lanes whose bit is set, ascending; what follows them is of no use. */
 DP_LANES_INLINE dp_li li_order(uint32_t bits) {
 #if DP_LANES == 1
     (void)bits;
@@ -522,7 +529,7 @@ DP_LANES_INLINE dp_li li_order(uint32_t bits) {
 #endif
 }
 
-/* Lane l is v[order[l]]. */
+/* Lane l gets v[order[l]]. */
 DP_LANES_INLINE dp_li li_permute(dp_li v, dp_li order) {
 #if DP_LANES == 1
     (void)order;
@@ -549,7 +556,7 @@ DP_LANES_INLINE void li_store_bytes(uint8_t *p, dp_li v) {
 #endif
 }
 
-/* Stores the lanes of `mask`. */
+/* Stores the lanes in `mask`. */
 DP_LANES_INLINE void l_store_some(float *p, dp_lm mask, dp_lf v) {
 #if DP_LANES == 16
     _mm512_mask_storeu_ps(p, mask, (__m512)v);

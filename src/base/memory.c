@@ -1,4 +1,4 @@
-/* Memory through the caller's allocator: sizes are checked for overflow here and nowhere else. */
+/* Memory through the caller's allocator. Sizes are checked for overflow here and nowhere else. */
 #include "base/memory.h"
 
 #include "base/hostile.h"

@@ -1,6 +1,8 @@
-/* printf takes the decimal point from the locale, which an application may set for all its threads
- * at any time: a file of numbers with commas is one that no reader takes. It may be of several
- * bytes; whatever of a number is no digit, letter or sign is the point. */
+/* Numbers as text with a decimal point in any locale.
+ *
+ * printf takes the decimal point from the locale, which an application may change at any time for
+ * all threads, and no reader takes a file with decimal commas. The point may have several bytes: it
+ * is whatever in the number is no digit, letter or sign. */
 #include "base/print.h"
 
 #include <stdio.h>
@@ -18,8 +20,8 @@ const char *dp_print_number(char text[DP_NUMBER_TEXT], double value, int digits)
     return text;
 }
 
-/* POSIX's returns an int and always fills the text; GNU's, where _GNU_SOURCE asks for it, returns
- * the message, which may lie elsewhere. */
+/* POSIX returns an int and always fills the text. GNU, with _GNU_SOURCE, returns the message, which
+ * may be elsewhere. */
 const char *dp_print_error(char text[DP_ERROR_TEXT], int code) {
 #if defined __GLIBC__ && defined _GNU_SOURCE
     const char *const message = strerror_r(code, text, DP_ERROR_TEXT);

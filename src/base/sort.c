@@ -1,9 +1,14 @@
-/* Introsort (Musser 1997): quicksort by the median of three; short runs are left to insertion sort
- * and, where pivots turn out badly, the rest to heapsort: n log n steps at worst. It calls itself
- * for the smaller part only, so that the stack holds log n calls.
+/* Introsort (Musser 1997), in place.
  *
- * Invariant of a partition: items left of `i` are not above the pivot, those right of `k` are not
- * below it. The pivot is a copy, so that no swap moves it. */
+ *    while more than SHORT items are left
+ *        too many bad pivots: heapsort, and be done
+ *        partition by the median of three
+ *        sort the smaller part by a call, go on with the larger
+ *    insertion sort
+ *
+ * So there are at most O(n log n) comparisons and log n calls on the stack. Invariant of a
+ * partition: items left of `i` are not above the pivot, items right of `k` are not below it. The
+ * pivot is a copy, so that no swap moves it. */
 #include "base/sort.h"
 
 #include "base/hostile.h"
@@ -39,7 +44,7 @@ static void sort_by_insertion(const order *o, char *items, size_t count) {
     }
 }
 
-/* Lets item `at` of a heap of `count` sink to where it is not below its children. */
+/* Lets item `at` of a heap of `count` sink until it is not below its children. */
 static void sink(const order *o, char *items, size_t at, size_t count) {
     for (size_t child; (child = 2 * at + 1) < count; at = child) {
         if (child + 1 < count &&
@@ -66,8 +71,8 @@ static const char *median(const order *o, const char *a, const char *b, const ch
     return o->compare(b, c) <= 0 ? b : o->compare(a, c) > 0 ? a : c;
 }
 
-/* Returns how many items, at least one and not all, stand before the others. Looks at its bounds,
- * which a sound order would not need: what a file says may be NaN. */
+/* Partitions the items and returns how many are in the first part: at least one, but not all. It
+ * checks bounds, which a proper order would not need; but values from a file may be NaN. */
 static size_t partition(const order *o, char *items, size_t count) {
     char pivot[DP_SORT_ITEM_MOST];
     char *const last = items + (count - 1) * o->size;
@@ -82,7 +87,7 @@ static size_t partition(const order *o, char *items, size_t count) {
     return (size_t)(i - items) / o->size + (i == k && i == items);
 }
 
-/* `turns` partitions are left before heapsort takes over. */
+/* After `turns` more partitions heapsort takes over. */
 static void sort(const order *o, char *items, size_t count, unsigned turns) {
     while (count > SHORT) {
         if (!turns--) {

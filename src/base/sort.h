@@ -1,4 +1,4 @@
-/* Sorting in place, for loops that must not ask for memory. */
+/* Sorting in place, for code that must not allocate. */
 #ifndef DP_BASE_SORT_H
 #define DP_BASE_SORT_H
 
@@ -6,9 +6,9 @@
 
 enum { DP_SORT_ITEM_MOST = 64 /* bytes */ };
 
-/* As qsort, which glibc gives up to the array's size again from malloc, past the caller's
- * allocator. Not stable: `compare` should tell any two items apart whose order matters. The result
- * depends on the items and their order alone. `items` may be NULL where count is 0. */
+/* Like qsort, which in glibc allocates up to the array's size with malloc, not the caller's
+ * allocator. Not stable: `compare` should order any two items whose order matters. The result
+ * depends only on the items and their order. `items` may be NULL if count is 0. */
 void dp_sort(void *items, size_t count, size_t size,
              int (*compare)(const void *left, const void *right));
 

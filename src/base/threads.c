@@ -1,14 +1,16 @@
 /* A pool of pthreads, each with a share of a loop's indices.
  *
- * Invariant: between two loops every worker waits, at last asleep on `wake`; a loop is announced by
- * a new `round` and is over when `busy` is back at zero. Inside a loop workers share nothing but
- * the counters of the shares, of which they seldom ask for another's. The pool does not nest: a
- * task must not start another loop.
+ *    dp_parallel         deal out the shares, announce a new `round`, work, wait until `busy` is 0
+ *    a worker            wait for a round; work: its own share, then what is left of others'
  *
- * The application's loop may run on any threads, more of them than there are workers. A call of its
- * task is no more than leave to do one item: whoever finds a worker number free does the next item,
- * and whoever finds none leaves it to those who have one and returns. So no call ever waits for
- * another, and as many items are done as calls were made. */
+ * Invariants: between two loops all workers wait, at first spinning, then asleep on `wake`. Inside
+ * a loop they share only the counters of the shares, and seldom touch another's. Not handled:
+ * nesting; a task must not start another loop.
+ *
+ * The application's own loop may run on any threads, and on more than there are workers. A call of
+ * its task is only the permission to do one item. A call that finds a free worker number does the
+ * next item, and items that were left meanwhile; a call that finds none leaves its item and
+ * returns. So no call waits for another, and as many items are done as calls are made. */
 #include "base/threads.h"
 
 #include <pthread.h>
@@ -18,7 +20,7 @@
 
 enum { MAX_THREADS = 256 };
 
-/* Indices [next, end) are not handed out yet. As large as a line of the cache, so that no two share
+/* Indices [next, end) are still to be handed out. One cache line in size, so that no two share
  * one. */
 typedef struct share {
     atomic_uint next;
@@ -34,23 +36,23 @@ typedef struct worker {
 
 struct dp_threads {
     dp_allocator allocator;
-    uint32_t count;   /* workers, the caller (worker 0) included */
-    uint32_t started; /* threads that run: count - 1, or 0 with the application's loop */
+    uint32_t count;   /* workers, including the caller, which is worker 0 */
+    uint32_t started; /* running threads: count - 1; 0 with the application's loop */
     dp_parallel_for *loop;
     void *user;
-    struct { /* of the application's loop */
+    struct { /* with the application's loop */
         pthread_mutex_t mutex;
         uint32_t next;                 /* item */
-        uint32_t owed;                 /* items left to those who have a number */
-        uint32_t free;                 /* how many numbers are */
+        uint32_t owed;                 /* items left to calls that have a number */
+        uint32_t free;                 /* how many numbers are free */
         uint32_t numbers[MAX_THREADS]; /* [free]; the last is handed out first */
     } calls;
 
     pthread_mutex_t mutex;
     pthread_cond_t wake, done;
-    atomic_uint round, busy; /* written with the mutex held, but for the end of busyness */
+    atomic_uint round, busy; /* written with the mutex held, but for decreasing `busy` */
     bool quit;
-    bool lingers; /* there is a processor for every worker */
+    bool lingers; /* there is a processor for each worker, so waiting begins by spinning */
 
     dp_task *task;
     void *arg;
@@ -58,7 +60,7 @@ struct dp_threads {
     worker workers[MAX_THREADS];
 };
 
-/* First its own share, then what is left of the others'. */
+/* Works on its own share, then on the rest of the others'. */
 static void work(dp_threads *threads, uint32_t self) {
     const uint32_t count = threads->started + 1;
     for (uint32_t i = 0; i < count; i++) {
@@ -95,8 +97,8 @@ static int64_t now_ns(void) {
     return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
 }
 
-/* Looks for a while whether a value has become another: the stages of a frame follow each other
- * closely, and who sleeps takes long to wake. False: it is the same still. */
+/* Spins for a while until a value changes: stages of a frame follow each other closely, and waking
+ * a thread is slow. False: it has not changed. */
 static bool linger(atomic_uint *value, uint32_t had) {
     enum { LOOKS = 64, LINGER_NS = 200000 };
     const int64_t until = now_ns() + LINGER_NS;
@@ -109,7 +111,7 @@ static bool linger(atomic_uint *value, uint32_t had) {
     return false;
 }
 
-/* Waits for a loop that has not been seen; false when there will be none. */
+/* Waits for a loop that is not yet seen. False: there will be none. */
 static bool await_loop(dp_threads *threads, uint32_t *seen) {
     if (!threads->lingers || !linger(&threads->round, *seen)) {
         pthread_mutex_lock(&threads->mutex);
@@ -123,7 +125,7 @@ static bool await_loop(dp_threads *threads, uint32_t *seen) {
     return true;
 }
 
-/* Waits until no worker is busy any more. */
+/* Waits until no worker is busy. */
 static void await_workers(dp_threads *threads) {
     uint32_t busy;
     while ((busy = threads->busy) != 0 && threads->lingers)
@@ -200,10 +202,10 @@ void dp_threads_destroy(dp_threads *threads) {
 
 uint32_t dp_threads_count(const dp_threads *threads) { return threads->count; }
 
-/* Does one item, and those that were left meanwhile; or leaves its own. */
+/* Does one item and those left meanwhile; or leaves its own. */
 static void foreign_task(void *arg, uint32_t index) {
     dp_threads *const threads = arg;
-    (void)index; /* every item is as good */
+    (void)index; /* items are handed out in order, whatever this says */
     pthread_mutex_lock(&threads->calls.mutex);
     threads->calls.owed++;
     if (threads->calls.free) {

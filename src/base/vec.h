@@ -1,18 +1,18 @@
-/* Three-vectors in double precision, for geometry that decides what a line is; small arithmetic. */
+/* Three-vectors in double precision, for geometry that decides what a line is; and small
+ * arithmetic. */
 #ifndef DP_BASE_VEC_H
 #define DP_BASE_VEC_H
 
 #include <math.h>
 
-/* One instruction each where fminf and fmaxf, which must respect NaN, are calls. A NaN gives b. */
+/* One instruction each; fminf and fmaxf, which must respect NaN, are calls. NaN gives b. */
 static inline float dp_minf(float a, float b) { return a < b ? a : b; }
 static inline float dp_maxf(float a, float b) { return a > b ? a : b; }
 static inline double dp_min(double a, double b) { return a < b ? a : b; }
 static inline double dp_max(double a, double b) { return a > b ? a : b; }
 
-/* Lengths of (x, y) by operations whose every bit is specified: the last bits of the C library's
- * hypot are its own. A float's square is exact in a double; doubles here are far from 1e154, where
- * theirs would overflow. */
+/* Length of (x, y) with every bit specified, unlike the C library's hypot. The square of a float is
+ * exact in a double; doubles here are far below 1e154, where squares overflow. */
 static inline float dp_hypotf(float x, float y) {
     return (float)sqrt((double)x * (double)x + (double)y * (double)y);
 }

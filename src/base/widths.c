@@ -1,4 +1,4 @@
-/* Which kernels this processor can run. */
+/* Which widths of kernels this processor can run. */
 #include "base/kernels.h"
 
 #include <stdlib.h>
