@@ -1,4 +1,5 @@
-/* Memory through the caller's allocator. Sizes are checked for overflow here and nowhere else. */
+/* Memory through the caller's allocator, malloc by default. Sizes are checked for overflow here and
+ * nowhere else. Invariant: dp_reserve leaves an array usable and unchanged if memory is out. */
 #include "base/memory.h"
 
 #include "base/hostile.h"

@@ -1,4 +1,4 @@
-/* Blending ink over a pixel. */
+/* Blending ink over one pixel, in 8 bits per channel. */
 #ifndef DP_CORE_BLEND_H
 #define DP_CORE_BLEND_H
 

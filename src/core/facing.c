@@ -72,7 +72,7 @@ static void face_block(void *arg, uint32_t index, uint32_t worker) {
 
 /* Gives a polygon without area its facing. Reads only neighbours with an area, which do not
  * change. */
-static void see_through(dp_frame *frame, uint32_t polygon) {
+static void adopt_facing(dp_frame *frame, uint32_t polygon) {
     const dp_adjacency *const a = frame->adjacency;
     const uint32_t first = dp_first_corner(&frame->polygons, polygon),
                    n = dp_corner_count(&frame->polygons, polygon);
@@ -143,7 +143,7 @@ static bool is_outlined_triangle(const dp_frame *frame, uint32_t t) {
     const uint8_t *const facing = frame->facing;
     if (a->odd[t] || facing[t] & DP_FACING_NO_AREA) return is_outlined(frame, t);
     if (!facing[t])
-        return frame->seen_through &&
+        return frame->any_without_area &&
                is_outlined(frame, t); /* it may draw for a front face without area */
     const uint32_t *const across = a->across + 3 * (size_t)t;
     return !(facing[across[0] / 3] & facing[across[1] / 3] & facing[across[2] / 3] &
@@ -163,11 +163,11 @@ static void outline_block(void *arg, uint32_t index, uint32_t worker) {
 void dp_find_facing(dp_frame *frame) {
     const uint32_t count = frame->polygons.count, blocks = count / BLOCK + (count % BLOCK != 0);
     dp_parallel(frame->threads, blocks, face_block, frame);
-    frame->seen_through = false;
+    frame->any_without_area = false;
     for (uint32_t i = 0; i < count; i++) {
         if (!(frame->facing[i] & DP_FACING_NO_AREA)) continue;
-        frame->seen_through = true;
-        see_through(frame, i);
+        frame->any_without_area = true;
+        adopt_facing(frame, i);
     }
     dp_parallel(frame->threads, blocks, outline_block, frame);
 }

@@ -8,7 +8,7 @@
 /* Flags of a polygon, in frame->facing. */
 enum {
     DP_FACING_FRONT = 1,  /* faces the eye; a polygon without area follows its neighbours */
-    DP_FACING_NO_AREA = 2 /* covers nothing; its neighbours meet across it */
+    DP_FACING_NO_AREA = 2 /* covers nothing */
 };
 
 /* Fills frame->facing and frame->outlined, which are allocated, from frame->vertices and

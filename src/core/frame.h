@@ -54,7 +54,7 @@ typedef struct dp_frame {
     float fin_reach; /* px: how far printed silhouettes reach beyond outlined polygons; 0: none */
     uint8_t *facing; /* with adjacency, by polygon: core/facing.h */
     double centre[2], radius; /* px: for polar stroke textures (features/silhouette_edge.h) */
-    bool seen_through;        /* some polygons have no area */
+    bool any_without_area;    /* some polygons have no area */
     uint8_t *outlined;        /* by polygon: does dp_outline_of_edge find an edge that it draws? */
 
     float *depth; /* [tile][sample]: nearest surface; layout in raster/samples.h */

@@ -1,4 +1,6 @@
-/* Spines: the visible part of an edge is clipped to the frustum, lifted and divided (spine.h). */
+/* Spines (spine.h): an edge is clipped to the frustum in clip space, projected, divided into sample
+ * points, and lifted off the surface for them. Ends are computed as a + t (b - a), from the first
+ * end, in double precision; find/folds.inc does the same operations in the same order. */
 #include "core/spine.h"
 
 static dp_pointd lifted(const dp_view *view, dp_vec3 p, double d, dp_vec3 normal) {

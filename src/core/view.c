@@ -3,7 +3,7 @@
  * Two kinds of projection are accepted: perspective, where the row w is a multiple of the camera's
  * -z, and orthographic, where w is constant. Both are scaled so that w is the distance along the
  * line of sight, or 1. Invariant: depth is affine on the screen for every polygon (view.h). Not
- * handled: lenses and oblique projections. */
+ * handled: other projections; dp_view_init refuses them. */
 #include "core/view.h"
 
 #include "base/diag.h"

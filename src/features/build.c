@@ -311,8 +311,8 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen
     if (!isfinite(e->own) || !isfinite(from_rise + to_rise)) return 0;
     /* A convex polygon's corners all turn one way, and the other way when it is seen from
      * behind. */
-    const double hand = p->front ? -1 : 1;
-    const turn angle = {e->nx * f->nx + e->ny * f->ny, hand * (e->nx * f->ny - e->ny * f->nx)};
+    const double sense = p->front ? -1 : 1;
+    const turn angle = {e->nx * f->nx + e->ny * f->ny, sense * (e->nx * f->ny - e->ny * f->nx)};
     if (!(angle.s > 0) || angle.c < -0.999) return 0;
     const uint32_t spans = spans_of(angle, reach);
     const turn share = spans > 1 ? share_of(angle, spans) : angle;
@@ -321,7 +321,7 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen
     dp_pointd from = circle_point(e, reach, e->nx, e->ny, from_rise);
     turn at = share;
     for (uint32_t i = 1; i < spans; i++, at = turned(at, share)) {
-        const double s = hand * at.s, x = e->nx * at.c - e->ny * s, y = e->nx * s + e->ny * at.c;
+        const double s = sense * at.s, x = e->nx * at.c - e->ny * s, y = e->nx * s + e->ny * at.c;
         const dp_pointd to = circle_point(e, reach, x, y, from_rise + step * i);
         count += set_thin(e, from, to, &out[count]);
         from = to;

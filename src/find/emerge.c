@@ -7,7 +7,7 @@
  *    for each sample point
  *        own side covered by a nearer polygon   no line: that polygon's edge makes it
  *        something found across                 fold: ridge, valley or flat (core/fold.c)
- *        nothing across, something behind       silhouette
+ *        nothing across, something behind       silhouette, unless both face away
  *        nothing at all                         border
  *    runs of points with the same line and neighbour become candidates
  *
@@ -124,7 +124,7 @@ static bool place_lookups(dp_finder *w, emerging *e, uint32_t *count) {
     return true;
 }
 
-static void look_in_pixel(dp_finder *w, uint32_t index, uint32_t head) {
+static void do_lookups_in_pixel(dp_finder *w, uint32_t index, uint32_t head) {
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const float slope = PLACED * (fabsf(p->dx) + fabsf(p->dy));
     for (uint32_t i = head; i != UINT32_MAX; i = w->emergence.lookups[i].next) {
@@ -137,14 +137,14 @@ static void look_in_pixel(dp_finder *w, uint32_t index, uint32_t head) {
     }
 }
 
-static void look(dp_finder *w) {
+static void do_lookups(dp_finder *w) {
     for (uint32_t i = 0; i < w->tile.polygon_count; i++) {
         const dp_tile_polygon *const p = &w->tile.polygons[i];
         if (p->flags & DP_POLYGON_EDGE_ON) continue;
         const uint64_t span = dp_box_span(p);
         for (uint32_t y = p->y0; y <= p->y1; y++)
             for (uint64_t bits = w->emergence.pixels.row[y] & span; bits; bits &= bits - 1)
-                look_in_pixel(
+                do_lookups_in_pixel(
                     w, i, w->emergence.pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
     }
 }
@@ -254,7 +254,7 @@ void dp_find_emergent(dp_finder *w) {
             !place_lookups(w, &e, &count))
             return;
     if (!count) return;
-    look(w);
+    do_lookups(w);
     count = 0;
     for (uint32_t i = 0; i < w->emergence.unpaired_count && !w->tile.failed; i++) {
         if (!begin_edge(w, w->emergence.unpaired[i], &e) || !find_range(w, &e)) continue;

@@ -97,7 +97,7 @@ typedef struct pixels {
 } pixels;
 
 /* Widens candidate pixels by their neighbours; false if there are none. */
-static bool look_around(const uint64_t candidate_pixels[DP_TILE], pixels *out) {
+static bool find_surroundings(const uint64_t candidate_pixels[DP_TILE], pixels *out) {
     if (!dp_widen(candidate_pixels, out->row)) return false;
     out->first = 0, out->last = DP_TILE - 1;
     while (!out->row[out->first]) out->first++;
@@ -183,7 +183,7 @@ static bool list_intersecting(dp_finder *w, const surroundings *near, uint32_t *
            DP_TILE_RESERVE(&w->tile, w, intersecting.keys, intersecting.keys_cap, 3 * room);
 }
 
-static void put_member(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
+static void put_shape(const dp_finder *w, const dp_tile_polygon *p, uint32_t at) {
     const size_t stride = w->intersecting.stride;
     float *const out = w->intersecting.members + at;
     const dp_vertex *const v = w->tile.points + p->point;
@@ -224,7 +224,7 @@ static void sort_intersecting(dp_finder *w, const uint32_t *polygon, uint32_t ro
         const dp_tile_polygon *const p = &w->tile.polygons[polygon[i]];
         const uint32_t at = next[p->y0]++;
         intersecting->polygon[at] = polygon[i];
-        put_member(w, p, at);
+        put_shape(w, p, at);
         put_keys(w, p, at);
     }
 }
@@ -234,11 +234,11 @@ void dp_find_intersections(dp_finder *w) {
     surroundings near;
     dp_tile_test_near_depth(&w->tile);
     keep_seen_back_faces(w, w->tile.candidate_pixels[1]);
-    near.mixed = look_around(w->tile.candidate_pixels[1], &near.back);
+    near.mixed = find_surroundings(w->tile.candidate_pixels[1], &near.back);
     for (int y = 0; y < DP_TILE; y++)
         w->tile.candidate_pixels[0][y] |= w->tile.candidate_pixels[1][y];
     dp_drop_lone(w->tile.candidate_pixels[0]);
-    if (!look_around(w->tile.candidate_pixels[0], &near.front)) return;
+    if (!find_surroundings(w->tile.candidate_pixels[0], &near.front)) return;
     uint32_t rows[DP_TILE + 1] = {0};
     if (!DP_TILE_RESERVE(&w->tile, w, intersecting.listed, intersecting.listed_cap,
                          (size_t)w->tile.seen_count + DP_INTERSECTING_ROOM) ||

@@ -1,6 +1,11 @@
-/* Sorts polygons into tiles: which tiles each one touches, with a margin. Bad polygons (an index
- * out of range, a corner that is not finite, no area) are dropped and counted here and nowhere
- * else. */
+/* Sorts polygons into tiles: which tiles each one reaches, with a margin.
+ *
+ *    triangles: many at once (place.inc); what the kernel cannot place, as any polygon
+ *    any polygon: the tiles of its outline's box; of large ones, only tiles inside all edges
+ *
+ * Invariant: a polygon is in the bin of each tile that owns a sample point of its edges. Bad
+ * polygons (an index out of range, a corner that is not finite, no area) are dropped and counted
+ * here and nowhere else. Lists and sorting are in core/bin.c. */
 #include "raster/kernels.h"
 #include "raster/stages.h"
 

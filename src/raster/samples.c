@@ -1,6 +1,6 @@
 /* Where samples lie in a pixel: its centre, or the standard rotated patterns of 4, 8 and 16
- * samples, in sixteenths of a pixel (those of Direct3D 11). No line at a small angle passes several
- * of them at once. */
+ * samples, in sixteenths of a pixel (those of Direct3D 11). A line at a small angle passes them one
+ * after the other. */
 #include "raster/samples.h"
 
 static const int8_t pattern4[4][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
