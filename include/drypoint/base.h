@@ -36,8 +36,8 @@ typedef enum dp_result {
     DP_ERR_CANCELLED    /* the progress callback asked to stop */
 } dp_result;
 
-/* Where and why. Filled by value; messages are English, one line, without a final newline;
- * numbers in them have a decimal point. */
+/* Where and why. Filled by value. Messages are one line of English without a final newline; numbers
+ * in them have a decimal point. */
 typedef struct dp_diag {
     dp_result result;
     uint64_t line;   /* 1-based line of a text file, 0 where there is none */
@@ -46,11 +46,11 @@ typedef struct dp_diag {
     char message[240];
 } dp_diag;
 
-/* Memory comes from here; any member NULL means malloc, realloc and free for all three.
- * Blocks must be aligned as malloc's are. `user` is handed back. Calls may come from several
- * threads at once. Whoever is given an allocator takes all memory from it: the core library calls
- * nothing that would use malloc past it. Threads' stacks come from the system; libpng, Assimp and
- * the writers of drypoint/io.h use malloc. */
+/* Where memory comes from; if any member is NULL, malloc, realloc and free for all three. Blocks
+ * must be aligned as malloc's are. `user` is passed to each call. Calls may come from several
+ * threads at once. An object that is given an allocator takes all its memory from it, with these
+ * exceptions: threads' stacks come from the system; libpng, Assimp and the writers of drypoint/io.h
+ * use malloc. */
 typedef struct dp_allocator {
     void *(*alloc)(size_t size, void *user);
     void *(*realloc)(void *block, size_t size, void *user); /* block may be NULL */
@@ -61,17 +61,17 @@ typedef struct dp_allocator {
 /* A short name of the result class, "out of memory" say. Never NULL. */
 DP_API const char *dp_result_name(dp_result result);
 
-/* Of the library that runs: "0.1.0". */
+/* Version of the library that runs: "0.1.0". */
 DP_API const char *dp_version(void);
 
-/* Whether the library that runs goes with the headers of version major.minor.patch: DP_OK when
- * major and minor are its own, as a patch changes no interface; otherwise DP_ERR_UNSUPPORTED, as
- * structs may have other members in other places, with both versions in diag's message. */
+/* Whether the library that runs fits headers of version major.minor.patch: DP_OK when major and
+ * minor are its own (a patch changes no interface), otherwise DP_ERR_UNSUPPORTED (structs may
+ * differ), with both versions in diag's message. */
 DP_API dp_result dp_version_check_header(uint32_t major, uint32_t minor, uint32_t patch,
                                          dp_diag *diag);
 
-/* The same for the headers that the caller is compiled with: to be called first, by applications
- * that do not bring the library with them. */
+/* The same for the headers that the caller is compiled with. Applications that load the library as
+ * a shared one call it first. */
 static inline dp_result dp_version_check(dp_diag *diag) {
     return dp_version_check_header(DP_VERSION_MAJOR, DP_VERSION_MINOR, DP_VERSION_PATCH, diag);
 }

@@ -16,17 +16,18 @@ typedef struct dp_camera {
     double projection[16]; /* camera to clip space: perspective or orthographic */
 } dp_camera;
 
-/* The view part: from eye to target, both in world space. `up` need not be perpendicular; where it
- * is parallel to the line of sight another one is chosen. eye != target, else DP_ERR_ARGUMENT. */
+/* Sets `view`: from eye to target, both in world space. `up` need not be perpendicular to the line
+ * of sight; if it is parallel, another one is chosen. DP_ERR_ARGUMENT if eye == target. */
 DP_API dp_result dp_camera_look_at(dp_camera *camera, const double eye[3], const double target[3],
                                    const double up[3]);
 
-/* The projection part. fov_y: vertical, degrees in (0, 180); aspect: width / height of the picture;
- * 0 < near < far, distances along the line of sight. */
+/* Sets `projection`. fov_y: vertical, degrees in (0, 180); aspect: width / height of the picture;
+ * 0 < near < far: distances along the line of sight. DP_ERR_ARGUMENT. */
 DP_API dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double aspect,
                                        double near_z, double far_z);
 
-/* height: of what is seen, in world units, > 0; near may be negative (behind the eye). */
+/* The same, orthographic. height: of what is seen, world units, > 0; near may be negative (behind
+ * the eye). */
 DP_API dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect,
                                         double near_z, double far_z);
 

@@ -1,7 +1,7 @@
 /* drypoint/io.h: files, in the component libdrypoint_io (needs libpng and Assimp).
  *
- * The core library reads STL, PLY, OBJ and OFF by itself (drypoint/source.h); this adds every
- * format that Assimp knows, writes pictures as PNG and models as PLY, STL and OBJ. */
+ * The core library reads STL, PLY, OBJ and OFF itself (drypoint/source.h). This component reads
+ * every format that Assimp knows, and writes pictures as PNG and models as PLY, STL and OBJ. */
 #ifndef DRYPOINT_IO_H
 #define DRYPOINT_IO_H
 
@@ -17,20 +17,21 @@ extern "C" {
 DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                             dp_diag *diag);
 
-/* The same of dp_source_open_memory. A scene's files (a glTF's buffers) come from open_beside,
- * which is also asked for some that need not be there (textures, say). Where the content does not
- * tell the format, as in most texts, file->name must have its ending. */
+/* As dp_source_open_memory, and everything else through Assimp. open_beside finds a scene's other
+ * files (a glTF's buffers) and is also asked for files that need not exist (textures, say). Where
+ * the content does not tell the format, as in most text formats, file->name must have the format's
+ * ending. */
 DP_API dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_options *options,
                                    dp_source **out, dp_diag *diag);
 
-/* Writes [height][width][4] RGBA, not premultiplied, rows `stride` bytes apart (0: 4 * width). A
- * regular file is written beside its target and renamed when whole, so that the old one stays until
- * then; a device or pipe is written in place; "-" is standard output. DP_ERR_IO (a full disk too),
- * DP_ERR_MEMORY. */
+/* Writes [height][width][4] RGBA, not premultiplied, rows `stride` bytes apart (0: 4 * width), as a
+ * PNG. A regular file is written under another name and renamed when complete; until then the old
+ * one stays. A device or pipe is written in place; "-" is standard output. DP_ERR_IO (also for a
+ * full disk), DP_ERR_MEMORY. */
 DP_API dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width,
                                  uint32_t height, size_t stride, dp_diag *diag);
 
-/* The same, for whoever wants to stop it or to show how far it is. */
+/* The same with progress. */
 typedef struct dp_io_picture {
     const uint8_t *rgba;    /* [height][width][4], not premultiplied */
     uint32_t width, height; /* px */
@@ -47,11 +48,13 @@ DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *pict
  * DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
 DP_API dp_result dp_io_write_trace(const char *path, dp_context *context, dp_diag *diag);
 
-/* A stroke texture from a PNG of any kind, at most 8192 px wide and high; what of it is ink:
- * dp_texture_create. DP_ERR_IO, DP_ERR_FORMAT, DP_ERR_LIMIT, DP_ERR_MEMORY. */
+/* Makes a stroke texture of a PNG of any kind, at most 8192 px wide and high; its ink
+ * is told as by dp_texture_create. The caller destroys *out. DP_ERR_IO, DP_ERR_FORMAT,
+ * DP_ERR_LIMIT, DP_ERR_MEMORY. */
 DP_API dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator,
                                     dp_texture **out, dp_diag *diag);
-/* A picture as read: freed by dp_io_free_pixels. */
+
+/* A picture that was read; dp_io_free_pixels frees it. */
 typedef struct dp_io_pixels {
     uint8_t *rgba; /* [height][width][4], not premultiplied */
     uint32_t width, height;
@@ -69,9 +72,10 @@ typedef enum dp_mesh_file {
     DP_MESH_FILE_OBJ
 } dp_mesh_file;
 
-/* Writes a source as a model file, streaming; the same care as for pictures. Numbers have a decimal
- * point, whatever locale the application has set. PLY and OBJ weld vertices only within what the
- * source itself indexes. The source must be rewindable for PLY. */
+/* Writes a source as a model file, batch by batch, and renames it when complete (as pictures).
+ * Numbers have a decimal point in every locale. PLY and OBJ share a vertex only where the source's
+ * indices do. PLY needs a rewindable source. `progress`: as in dp_io_picture. DP_ERR_IO,
+ * DP_ERR_MEMORY, DP_ERR_ARGUMENT, and the source's own errors. */
 DP_API dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *source,
                                   int (*progress)(void *user, double fraction), void *user,
                                   dp_diag *diag);

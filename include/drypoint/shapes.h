@@ -11,10 +11,9 @@ extern "C" {
 /* One generated model. `name` is one of dp_shape_name(0 … dp_shape_count() - 1). */
 typedef struct dp_shape {
     const char *name;
-    uint64_t
-        triangles; /* about how many; 0 means the shape's own default (smallest for plane ones) */
-    double size;   /* extent, world units; 0 means 2 */
-    uint32_t seed; /* of shapes with noise (terrain) */
+    uint64_t triangles; /* about; 0 means the shape's own default (plane shapes: the fewest) */
+    double size;        /* extent, world units; 0 means 2 */
+    uint32_t seed;      /* of shapes with noise (terrain) */
     const dp_allocator *allocator;
 } dp_shape;
 
@@ -22,8 +21,9 @@ DP_API uint32_t dp_shape_count(void);
 DP_API const char *dp_shape_name(uint32_t index);  /* "cube" */
 DP_API const char *dp_shape_about(uint32_t index); /* "twelve ridges, …", one line */
 
-/* Batches are generated as they are asked for: memory does not grow with `triangles`.
- * DP_ERR_ARGUMENT for an unknown name, with the nearest known one in the message. */
+/* Makes a source that generates each batch when it is read: memory does not grow with `triangles`.
+ * The caller destroys *out. DP_ERR_ARGUMENT for an unknown name (the message names the nearest
+ * known one), DP_ERR_MEMORY. */
 DP_API dp_result dp_source_from_shape(const dp_shape *shape, dp_source **out, dp_diag *diag);
 
 #ifdef __cplusplus

@@ -19,35 +19,34 @@ extern "C" {
 
 typedef struct dp_source dp_source;
 
-/* What corners carry besides a position. A corner's value is that of number `indices[corner]`, or
- * of its vertex's number where there are no indices; a number out of range (UINT32_MAX, say) is
- * none. */
+/* What corners carry besides a position. A corner has value number `indices[corner]`, or, without
+ * indices, that of its vertex's number. A number out of range (UINT32_MAX, say) means no value. */
 typedef struct dp_attribute {
-    const float *values;     /* NULL: there is none */
+    const float *values;     /* [count][2 or 3]; NULL: none */
     size_t stride;           /* bytes from one to the next, a multiple of 4; 0: tight */
-    size_t count;            /* how many values */
-    const uint32_t *indices; /* corner_count value numbers, or NULL */
+    size_t count;            /* of values */
+    const uint32_t *indices; /* [corner_count] value numbers, or NULL */
 } dp_attribute;
 
 /* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
- * `stable` is set, until the source is destroyed. Numbers are read where they lie: pointers to
- * floats and to uint32_t must be multiples of 4, and so must strides (of groups: 2); copy what is
- * packed otherwise. Whoever takes a batch refuses another with DP_ERR_ARGUMENT. */
+ * `stable` is set, until the source is destroyed. Pointers to floats and to uint32_t, and strides,
+ * must be multiples of 4, pointers to groups of 2; copy data that is packed otherwise. Calls refuse
+ * any other batch with DP_ERR_ARGUMENT. */
 typedef struct dp_batch {
-    const float *positions;  /* x, y, z of vertex v at (const char *)positions + v * stride */
-    size_t position_stride;  /* bytes from one vertex to the next, a multiple of 4; 0 means 12 */
-    size_t vertex_count;     /* at most UINT32_MAX */
-    const uint32_t *indices; /* corner_count vertex numbers; NULL: corner c is vertex c */
-    size_t corner_count;     /* triangles without `firsts`: 3 * polygon_count */
-    const uint32_t *firsts;  /* polygon_count + 1 ascending corner numbers; NULL: triangles */
-    size_t polygon_count;    /* 0: the source is at its end */
-    const uint8_t
-        *edge_flags;        /* per corner: 0 = the edge to the next corner never draws; or NULL */
-    const uint16_t *groups; /* per polygon: its group (object, material, …), or NULL: group 0 */
-    dp_attribute normals;   /* x, y, z each, of any length; length 0 is none. For shading: what is a
-                               front and what a line follows from the positions alone */
-    dp_attribute texcoords; /* u, v each */
-    bool stable;            /* the memory stays as it is while the source lives */
+    const float *positions;    /* x, y, z of vertex v at (const char *)positions + v * stride */
+    size_t position_stride;    /* bytes from one vertex to the next, a multiple of 4; 0 means 12 */
+    size_t vertex_count;       /* at most UINT32_MAX */
+    const uint32_t *indices;   /* [corner_count] vertex numbers; NULL: corner c is vertex c */
+    size_t corner_count;       /* triangles without `firsts`: 3 * polygon_count */
+    const uint32_t *firsts;    /* [polygon_count + 1] ascending corner numbers; NULL: triangles */
+    size_t polygon_count;      /* 0: end of the source */
+    const uint8_t *edge_flags; /* [corner_count]: 0: the edge to the next corner never draws; or
+                                  NULL */
+    const uint16_t *groups; /* [polygon_count]: group (object, material, …); NULL: all group 0 */
+    dp_attribute normals;   /* x, y, z, any length; length 0: none. For shading only: facing and
+                                  lines follow from the positions */
+    dp_attribute texcoords; /* u, v */
+    bool stable;            /* the memory does not change while the source lives */
 } dp_batch;
 
 /* An application's own source. */
@@ -65,18 +64,19 @@ typedef struct dp_source_callbacks {
     /* The colour of group `group`, 0xRRGGBBAA, or 0: none. Optional. May be called from several
      * threads at once. */
     uint32_t (*group_color)(void *user, uint32_t group);
-    /* A sentence about what was missing or wrong, though the source can be drawn; or NULL.
+    /* A sentence on what is missing or wrong although the source can be drawn; or NULL.
      * Optional. */
     const char *(*remark)(void *user);
 } dp_source_callbacks;
 
-/* Makes a source of one batch that the caller owns and keeps alive and unchanged while the source
- * is being drawn (positions may change between frames: deforming meshes need no new source).
- * `*out` is to be destroyed by the caller. DP_ERR_ARGUMENT, DP_ERR_MEMORY. */
+/* Makes a source of one batch, whose memory the caller owns and must not change while the source is
+ * drawn. Positions may change between drawings: deforming meshes need no new source. The caller
+ * destroys *out. DP_ERR_ARGUMENT, DP_ERR_MEMORY. */
 DP_API dp_result dp_source_from_arrays(const dp_batch *arrays, const dp_allocator *allocator,
                                        dp_source **out, dp_diag *diag);
 
-/* Makes a source of an application's callbacks (copied). Takes charge of `user` on success only. */
+/* Makes a source of an application's callbacks (copied). It owns `user` on success only; the caller
+ * destroys *out. DP_ERR_ARGUMENT, DP_ERR_MEMORY. */
 DP_API dp_result dp_source_from_callbacks(const dp_source_callbacks *callbacks,
                                           const dp_allocator *allocator, dp_source **out,
                                           dp_diag *diag);
@@ -85,57 +85,56 @@ typedef enum dp_file_format {
     DP_FORMAT_AUTO = 0, /* by content first, then by the name's ending */
     DP_FORMAT_STL,      /* ASCII or binary */
     DP_FORMAT_PLY,      /* ASCII, binary little or big endian; faces or tristrips */
-    DP_FORMAT_OBJ, /* v, vn, vt, f, g, o, usemtl; relative indices; of its mtllib the colours */
-    DP_FORMAT_OFF  /* OFF and COFF, NOFF, … without their extras; ASCII */
+    DP_FORMAT_OBJ,      /* v, vn, vt, f, g, o, usemtl; relative indices; colours of its mtllib */
+    DP_FORMAT_OFF       /* OFF and COFF, NOFF, … without their extras; ASCII */
 } dp_file_format;
 
 typedef struct dp_file_options {
     dp_file_format format;
     const dp_allocator *allocator;
-    /* Called now and then while reading, by dp_source_next too (so `user` must outlive the source);
-     * fraction in [0, 1], or negative when the size is unknown. A non-zero return stops with
-     * DP_ERR_CANCELLED. */
+    /* Called now and then while reading, also by dp_source_next: `user` must outlive the source.
+     * fraction: in [0, 1], or negative when the size is unknown. A non-zero return stops with
+     * DP_ERR_CANCELLED. NULL allowed. */
     int (*progress)(void *user, double fraction);
     void *user;
 } dp_file_options;
 
 /* Opens a model file ("-": standard input) with the library's own readers; drypoint/io.h opens
- * every other format too. Options may be NULL. Indexed formats are read whole here; STL is
- * streamed: it is read batch by batch by dp_source_next, twice when drawn twice (once from a pipe).
- * DP_ERR_IO, DP_ERR_FORMAT (with line or offset), DP_ERR_MEMORY, DP_ERR_LIMIT,
- * DP_ERR_UNSUPPORTED for a format that is not among these. */
+ * every other format too. Options may be NULL. Indexed formats are read whole by this call; STL is
+ * read batch by batch by dp_source_next, each time it is drawn (only once from a pipe). The caller
+ * destroys *out. DP_ERR_IO, DP_ERR_FORMAT (with line or offset), DP_ERR_MEMORY, DP_ERR_LIMIT,
+ * DP_ERR_UNSUPPORTED for any other format. */
 DP_API dp_result dp_source_open(const char *path, const dp_file_options *options, dp_source **out,
                                 dp_diag *diag);
 
 /* A model file that lies in memory, and the files beside it. */
 typedef struct dp_memory_file {
-    const void *data; /* the file's bytes; borrowed and to stay as they are until
-                         dp_source_destroy: STL is read from them batch by batch */
+    const void *data; /* the file's bytes; borrowed, and must not change until dp_source_destroy:
+                         STL is read from them batch by batch */
     size_t size;      /* bytes */
-    /* "bolt.obj", say: its ending tells the format where the content does not. NULL allowed. */
-    const char *name;
-    /* Finds a file that this one names (an OBJ's `mtllib`): `name` as it stands there, but with `/`
-     * between folders. False: it is not there (a remark, no failure). Called only while the source
-     * is being opened, perhaps more than once for a name. NULL: nothing lies beside the file, and
-     * its materials have no colours. No folder of the system is ever looked into. */
+    const char *name; /* "bolt.obj", say: its ending tells the format where the content does not.
+                         NULL allowed */
+    /* Finds a file that this one names (an OBJ's `mtllib`). `name`: as written there, but with `/`
+     * between folders. False: there is none (a remark, not a failure). Called only while the source
+     * is opened, perhaps more than once for a name. NULL: there are no other files, and materials
+     * have no colours. The library never looks into the file system instead. */
     bool (*open_beside)(void *user, const char *name, const void **data, size_t *size);
-    /* Called once for each that was found, as soon as it is read. NULL allowed. */
+    /* Called once for each file that was found, as soon as it is read. NULL allowed. */
     void (*close_beside)(void *user, const void *data, size_t size);
     void *user;
 } dp_memory_file;
 
-/* The same for a file in memory, *file itself needed during the call only:
+/* As dp_source_open, for a file in memory. *file itself is needed only during the call:
  *
  *     const dp_memory_file file = {.data = bytes, .size = count, .name = "bolt.stl"};
  *     dp_source_open_memory(&file, NULL, &source, &diag);
  *
- * The source can always be rewound; all else, errors too, is as if the bytes lay in a file (whose
- * name no message repeats either: who opens it knows it).
- * DP_ERR_ARGUMENT where data is NULL and size is not 0. */
+ * The source can always be rewound. DP_ERR_ARGUMENT where data is NULL and size is not 0; other
+ * errors as for a file. Messages do not contain the file's name. */
 DP_API dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_options *options,
                                        dp_source **out, dp_diag *diag);
 
-/* Next batch (zero polygons at the end), back to the start, whether that is possible. */
+/* The next batch (polygon_count 0 at the end); back to the first; whether that is possible. */
 DP_API dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag);
 DP_API dp_result dp_source_rewind(dp_source *source, dp_diag *diag);
 DP_API bool dp_source_rewindable(const dp_source *source);
@@ -144,22 +143,24 @@ DP_API bool dp_source_rewindable(const dp_source *source);
 DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);
 /* Its colour (that of its material, say), 0xRRGGBBAA; 0 where it has none. */
 DP_API uint32_t dp_source_group_color(const dp_source *source, uint32_t group);
-/* What was missing or wrong when it was opened, though it can be drawn: a file of materials that is
- * not there, say. Borrowed; NULL: nothing. */
+/* What is missing or wrong although the source can be drawn: an absent file of materials, say.
+ * Borrowed; NULL: nothing. */
 DP_API const char *dp_source_remark(const dp_source *source);
 
 /* NULL allowed. */
 DP_API void dp_source_destroy(dp_source *source);
 
-/* Extent of a source: reads it to the end and rewinds it when it can. */
+/* What dp_source_extent finds. */
 typedef struct dp_extent {
     float min[3], max[3]; /* of the finite corners that polygons use */
-    uint64_t polygons;    /* all that the source handed out */
+    uint64_t polygons;    /* all of the source */
     uint64_t corners;
     uint64_t vertices;
     uint64_t not_finite; /* polygons with a NaN or infinite coordinate */
     uint64_t bad_index;  /* polygons with an index out of range */
 } dp_extent;
+
+/* Reads a source to its end, and rewinds it if it can be. Errors are those of the source. */
 DP_API dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag);
 
 #ifdef __cplusplus

@@ -1,10 +1,15 @@
-/* drypoint/style.h: which lines, how wide, in which colour, found and inked how.
+/* drypoint/style.h: which lines are drawn, how they are found, their widths and colours.
  *
- * Words (docs/lines.md): a silhouette is an edge between a front-facing and a back-facing polygon;
- * a border has one polygon; the dihedral angle is measured between the front sides' insides, 180
- * degrees = flat; a ridge has a dihedral angle <= ridge_angle (theta), a valley one > valley_angle
- * (phi), both between two front-facing polygons; an intersection is where the interiors of two
- * polygons cross. */
+ * The classes of lines (Raskar 2001, 1 and 2; docs/lines.md):
+ *
+ *     silhouette    edge between a front-facing and a back-facing polygon
+ *     ridge         edge between two front-facing polygons, dihedral angle <= ridge_angle (theta)
+ *     valley        edge between two front-facing polygons, dihedral angle >  valley_angle (phi)
+ *     border        edge with one polygon
+ *     intersection  where the interiors of two polygons cross
+ *
+ * The dihedral angle is that of Raskar 2001, 2.2: 180 degrees minus the angle between the normals
+ * on a convex edge, plus it on a concave one; flat = 180. */
 #ifndef DRYPOINT_STYLE_H
 #define DRYPOINT_STYLE_H
 
@@ -40,29 +45,31 @@ typedef enum dp_line {
 
 /* How the added polygons of DP_INK_QUADS get their shape. */
 typedef enum dp_method {
-    DP_METHOD_EXACT = 0, /* built on the screen: widths exact in pixels, plane depth with a limit */
-    DP_METHOD_PAPER      /* the formulas of Raskar 2001, sections 2.1 to 2.3, as printed */
+    DP_METHOD_EXACT = 0, /* built on the screen: exact widths in px; the plane's depth, limited */
+    DP_METHOD_PAPER      /* the formulas of Raskar 2001, 2.1 to 2.3, as printed */
 } dp_method;
 
-/* How valleys and intersections are told from what is merely hidden, with DP_INK_QUADS
- * (Raskar 2001, 2.3, 2.4). */
+/* The between-test of DP_INK_QUADS, which tells valleys and intersections from what is merely
+ * hidden (Raskar 2001, 2.3 and 2.4). */
 typedef enum dp_between {
-    DP_BETWEEN_PLANE = 0, /* two passes: the planes cross within half a line width; order-free */
-    DP_BETWEEN_INTERVAL,  /* the paper's two depth buffers z1, z2 = z1 + offset, one pass */
-    DP_BETWEEN_STENCIL    /* the appendix: one depth and one stencil buffer, three passes */
+    DP_BETWEEN_PLANE = 0, /* two passes: the planes cross within half a line width; independent of
+                             the polygons' order */
+    DP_BETWEEN_INTERVAL,  /* two depth buffers z1, z2 = z1 + offset, one pass (Raskar 2001, 2.3) */
+    DP_BETWEEN_STENCIL    /* one depth and one stencil buffer, three passes (Raskar 2001, 7) */
 } dp_between;
 
 /* Where lines come from. */
 typedef enum dp_edges {
-    DP_EDGES_EMERGENT = 0, /* from the tiles: nothing is known about neighbours beforehand */
-    DP_EDGES_ADJACENCY /* from adjacency, built once per topology (Hermosilla and Vázquez 2010, 2.3)
-                        */
+    DP_EDGES_EMERGENT = 0, /* from the tiles, without knowledge of neighbours */
+    DP_EDGES_ADJACENCY     /* from adjacency, built once per topology (Hermosilla and Vázquez 2010,
+                              2.3) */
 } dp_edges;
 
 typedef enum dp_ink {
-    DP_INK_STROKES = 0, /* visible feature segments, drawn as round strokes */
-    DP_INK_QUADS        /* the added polygons are the line, as in the paper; nothing tells a border
-                           from a ridge there: it is drawn as one, or with ridges off in its own colour */
+    DP_INK_STROKES = 0, /* visible segments, drawn as strokes with round ends */
+    DP_INK_QUADS        /* the added polygons themselves are the line (Raskar 2001). A border cannot
+                           be told from a ridge: it is drawn as a ridge, or in its own colour when
+                           ridges are off */
 } dp_ink;
 
 typedef struct dp_line_style {
@@ -81,23 +88,25 @@ typedef struct dp_style {
     dp_method method;
     dp_between between;
     dp_ink ink;
-    int passes;           /* 0 means the first of these.
-                             strokes: 2 or 1; 1: a source that is streamed is read once (dp_draw).
-                             quads: how often a tile's polygons are gone through; plane 2, interval 1 (as
-                             printed) or 2 (it does not depend on their order), stencil 3.
-                             DP_EDGES_ADJACENCY: 1 or 2, to the same picture */
-    float between_offset; /* interval, stencil: z2 - z1 in units of px seen at the surface; 0: 1 */
+
+    /* How often polygons are gone through; 0 means the first value.
+     *     strokes             2, 1   1: a streamed source is read once (dp_draw)
+     *     quads, plane        2
+     *     quads, interval     1, 2   1: as printed; 2: independent of the polygons' order
+     *     quads, stencil      3
+     *     DP_EDGES_ADJACENCY  1, 2   the same picture */
+    int passes;
+    float between_offset; /* interval, stencil: z2 - z1, in pixel sizes at the surface; 0 means 1 */
     dp_color paper;       /* 0 means white */
     dp_color surface;     /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
     bool cull_back_faces; /* do not paint back faces as surface (closed models lose nothing) */
-    bool edge_table_off; /* strokes only: resolve no edge by the tile's table, let every line emerge
-                          */
-    dp_shade shade;      /* how surfaces look (shade.h) */
-    dp_edge_map edge_map; /* off by default */
-    dp_mirror mirror;     /* none by default */
+    bool edge_table_off;  /* strokes: do not resolve edges in the tile's table; all lines emerge */
+    dp_shade shade;       /* shading of surfaces */
+    dp_edge_map edge_map; /* default: off */
+    dp_mirror mirror;     /* default: none */
 } dp_style;
 
-/* The style with every default filled in. DP_ERR_ARGUMENT names the member that is out of range. */
+/* Fills in every default. With DP_ERR_ARGUMENT, *diag names the member that is out of range. */
 DP_API dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag);
 
 /* "silhouette", "ridge", "valley", "intersection", "border". */
