@@ -24,7 +24,7 @@ typedef uint32_t dp_color;
 typedef enum dp_shading {
     DP_SHADING_FLAT = 0, /* the surface's colour, without light */
     DP_SHADING_PAPER,    /* the paper's colour; hides what is behind */
-    DP_SHADING_LAMBERT,  /* the colour times (1 + N·L) / 2 */
+    DP_SHADING_LAMBERT,  /* the colour times 0.3 + 0.7 max(N·L, 0) */
     DP_SHADING_GOOCH,    /* cool to warm (Gooch et al. 1998) */
     DP_SHADING_TOON,     /* N·L indexes a row of shades (Lake et al. 2000) */
     DP_SHADING_HATCH,    /* prioritized strokes, smooth threshold (Freudenberg et al. 2002) */
