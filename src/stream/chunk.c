@@ -1,14 +1,19 @@
 /* Edges between the triangles of a chunk, and which way triangles face.
  *
- * Data structure: open addressing over edges, by keys that kernels have made of their ends'
- * positions (stream/classify.inc). A slot holds half of the key as well, so that looking at positions
- * is nearly always looking at the edge that is sought. Invariant: at most half of the slots are
- * used. */
+ *     for each edge of each live triangle:      open addressing, by the key of the ends' positions
+ *         first met here                        -> alone
+ *         met by one triangle, run the other way -> pair
+ *         otherwise                             -> fan: all of its edges may be lines
+ *     pair, nearly flat or both back-facing     -> plain: forgotten
+ *     any other pair                            -> both edges may be lines
+ *
+ * A slot also holds half of the key, so that nearly every comparison of positions is with the edge
+ * sought. Invariant: at most half of the slots are used. */
 #include "stream/chunk.h"
 
 /* ------- facing ------- */
 
-/* In double precision, for triangles that are thin or seen nearly edge-on. */
+/* dp_triangle_facing in double precision, for triangles that are thin or seen nearly edge-on. */
 static bool slow_facing(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 c, float normal[4],
                         uint8_t *state) {
     const dp_vec3 u = dp_sub(b, a), v = dp_sub(c, a), n = dp_cross(u, v);
@@ -64,7 +69,7 @@ static bool same_position(const uint8_t *p, const uint8_t *q) {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; /* -0 is 0 */
 }
 
-/* 1: the edges run opposite ways, as they should; -1: the same way; 0: they are different edges. */
+/* 1: one edge in opposite directions, as it should be; -1: in the same direction; 0: two edges. */
 static int compare_edges(const dp_triangles *triangles, uint32_t t, uint32_t e, uint32_t u,
                          uint32_t f) {
     enum { CORNER = 3 * sizeof(float) };
@@ -82,7 +87,7 @@ static void meet(dp_chunk *chunk, dp_chunk_edge *e, uint32_t t, uint32_t edge, b
         e->b = (uint16_t)t, e->edge_b = (uint8_t)edge, e->met = 2;
         return;
     }
-    if (e->met < 3) { /* a fan: the whole picture must decide */
+    if (e->met < 3) { /* a fan: decided later, from all of its triangles */
         chunk->lines[e->a] |= (uint8_t)(1u << e->edge_a);
         if (e->met == 2) chunk->lines[e->b] |= (uint8_t)(1u << e->edge_b);
         e->met = 3;

@@ -1,18 +1,20 @@
-/* A chunk's triangles classified, before anything is binned.
+/* Classifies a chunk's triangles, before anything is binned.
  *
- * In a model larger than memory nearly all triangles are far below a sample: what they cost is
- * decided here. A triangle is dropped that lies outside the picture, or well behind what is already
- * known of the surface; and one whose box holds no sample point covers nothing, but may still have
- * edges. In the second reading those are left that touch a pixel that is looked at.
+ * In a model larger than memory nearly all triangles are far below a sample; this file decides what
+ * they cost.
  *
- * Kernels do so for most (stream/classify.inc), this is the general way: what has to be clipped, is
- * seen nearly edge-on or reaches over more than two pixels or blocks. Both decide the same of what
- * both can. */
+ *     outside the picture                              -> dropped
+ *     well behind the surface drawn so far             -> dropped
+ *     first reading: the box holds no sample point     -> covers nothing; may still have edges
+ *     second reading: touches no pixel of interest     -> dropped
+ *
+ * Kernels decide most triangles (classify.inc). This file decides the others: those to be clipped,
+ * seen nearly edge-on, or wider than two pixels or blocks. Invariant: both decide alike. */
 #include "stream/chunk.h"
 
 enum { NOT_FINITE = 128 };
 
-/* Its place on the screen; x NaN where *outcode is not 0: dp_outcode, or NOT_FINITE. */
+/* A corner's position on the screen. *outcode: dp_outcode, or NOT_FINITE; if not 0, x is NaN. */
 static dp_point place_corner(const dp_view *view, const float *p, int *outcode) {
     const dp_clip_point c = dp_to_clip(view, dp_v3f(p));
     *outcode = isfinite(c.x + c.y + c.z + c.w) ? dp_outcode(view, c) : NOT_FINITE;
@@ -38,7 +40,7 @@ static bool is_outside(const box *b, const dp_view *view) {
            b->y0 > (float)view->height + DP_CLASSIFY_MARGIN;
 }
 
-/* Well behind the surface in every block around it. */
+/* Does the box lie well behind the surface in every block around it? */
 static bool is_hidden(const box *b, const dp_chunk_view *v) {
     const float x0 = b->x0 - 1, y0 = b->y0 - 1, x1 = b->x1 + 1, y1 = b->y1 + 1;
     if (!(x0 >= 0 && y0 >= 0 && x1 < (float)(v->tiles_x * DP_TILE) &&
@@ -67,7 +69,7 @@ bool dp_triangle_is_hidden(const dp_chunk_view *view, const float *a, const floa
     return !(outcodes[0] | outcodes[1] | outcodes[2]) && is_hidden(&at, view);
 }
 
-/* Does the box hold a sample point? Also true for boxes of more than two pixels' side. */
+/* Does the box hold a sample point? Also true for boxes wider than two pixels. */
 static bool holds_sample(const box *b, const dp_sampling *s) {
     const float x0 = b->x0 - DP_CLASSIFY_ROUNDING, y0 = b->y0 - DP_CLASSIFY_ROUNDING,
                 x1 = b->x1 + DP_CLASSIFY_ROUNDING, y1 = b->y1 + DP_CLASSIFY_ROUNDING;
@@ -145,7 +147,7 @@ static void classify_triangle(dp_chunk *chunk, uint32_t t, const dp_triangles *t
         return;
     }
     if (all || (!any && is_outside(&at, view->view))) return;
-    if (view->wanted) { /* few pixels are: this is the sieve that counts then */
+    if (view->wanted) { /* few pixels are, so this drops most triangles */
         const uint8_t state =
             (any || holds_pixel(&at, view, view->wanted) ? DP_TRIANGLE_COVERS : 0) |
             (any || holds_pixel(&at, view, view->flagged) ? DP_TRIANGLE_FLAGGED : 0);
@@ -177,7 +179,7 @@ void dp_chunk_classify(dp_chunk *chunk, const dp_triangles *triangles, const dp_
 
 /* ------- maps of pixels ------- */
 
-/* Sets one of two bits of every pixel that is in `rows`, which may have bits beyond the tile. */
+/* Sets one of the two bits of every pixel in `rows`, which may have bits beyond the tile. */
 static void mark_pixels(const dp_chunk_view *v, const uint64_t *rows, uint32_t bit) {
     const uint64_t in = ~(uint64_t)0 >> (64 - DP_TILE);
     for (uint32_t tile = 0; tile < v->tiles_x * v->tiles_y; tile++)

@@ -1,14 +1,17 @@
-/* Intersections of a streamed model.
+/* Intersections of a streamed model (Raskar 2001, 2.4; find/intersect.c).
  *
- * While faces are drawn, pixels where two of them come close are noted for the whole picture, as in
- * a tile (intersect.c); what a sample holds from earlier lists counts too, by the way it faces. In
- * the second reading every triangle that touches such a pixel, or one beside it, and is not hidden
- * joins the intersection candidates. In the end the intersection candidates is a mesh: in each tile its faces are drawn by themselves,
- * into samples that start empty, so that candidate pixels, pairs and crossings are found there as they
- * would be among all triangles. Where there are candidate pixels the intersection candidates are all there is to be seen, so
- * it hides what is hidden; elsewhere along a crossing the picture's samples do.
+ *     first reading     each list, each tile: note candidate pixels, and samples with back faces
+ *     between           flagged = candidate pixels that are not alone, and their neighbours;
+ *                         those of a front and a back face: only where back faces are seen
+ *     second reading    each triangle that touches a flagged pixel and is not hidden joins the
+ *                         intersection candidates
+ *     at the end        each tile: draw the candidates alone into empty samples, find candidate
+ *                         pixels, pairs and crossings as among all triangles
  *
- * In one pass nobody comes by again: the intersection candidates are the pairs found within each list. */
+ * A drawing of the candidates alone is enough: in flagged pixels they are all that can be seen, so
+ * they hide what is hidden; elsewhere along a crossing the picture's samples do.
+ *
+ * One reading: the intersection candidates are the pairs found within each list. */
 #include "stream/draw.h"
 
 #include "base/sort.h"
@@ -17,7 +20,7 @@
 
 /* ------- first reading ------- */
 
-/* Which samples show a back face. */
+/* Notes which samples show a back face; samples that the list did not win stay as they were. */
 static void note_facing(const dp_finder *w, uint64_t *away) {
     for (size_t word = 0; word < w->tile.frame->tile_samples / 64; word++) {
         const uint32_t *const winner = w->tile.winner + 64 * word;
@@ -31,7 +34,7 @@ static void note_facing(const dp_finder *w, uint64_t *away) {
     }
 }
 
-/* One pass: the triangles of a list that cross others. */
+/* One reading: notes the triangles of a list that cross others. */
 static void note_pairs(const dp_stream_draw *s, const dp_finder *w, dp_stream_worker *own) {
     for (uint32_t i = 0; i < w->lines.candidate_count; i++) {
         const uint32_t ids[2] = {w->lines.candidates[i].a, w->lines.candidates[i].b};
@@ -62,7 +65,7 @@ void dp_stream_note_candidate_pixels(dp_stream_draw *s, dp_finder *w, dp_stream_
 
 /* ------- between the readings ------- */
 
-/* Pixels that show nothing but back faces: on the outlines of fine meshes single samples do. */
+/* Pixels whose samples all show back faces; single samples do on the outlines of fine meshes. */
 static void find_away(const dp_stream_draw *s, uint32_t tile, uint64_t rows[DP_TILE]) {
     const dp_frame *const f = s->frame;
     const uint64_t *const away = s->away + (size_t)tile * f->tile_samples / 64;
@@ -93,7 +96,7 @@ static int by_number(const void *left, const void *right) {
     return (l->number > r->number) - (l->number < r->number);
 }
 
-/* All workers' triangles in order, each once. */
+/* Merges all workers' triangles, in order, each once. */
 static bool gather_pairs(dp_stream_draw *s) {
     size_t count = 0;
     for (uint32_t i = 0; i < s->worker_count; i++) count += s->workers[i].intersecting_count;
@@ -123,7 +126,7 @@ bool dp_stream_choose_flagged(dp_stream_draw *s) {
 
 /* ------- at the end ------- */
 
-/* Adds a tile's crossings to the lines it has. */
+/* Adds a tile's crossings to its lines; their polygons are counted from `first`. */
 static bool add_lines(const dp_stream_draw *s, const dp_finder *w, uint32_t first,
                       dp_tile_lines *lines) {
     const dp_tile_lines own = {w->lines.candidates, w->lines.probes, w->lines.candidate_count,

@@ -7,23 +7,26 @@
 #include "stream/pending.h"
 #include "stream/stream.h"
 
-/* What a chunk leaves behind. */
+/* A chunk's output. */
 typedef struct dp_chunk_output {
-    float (*corners)[9]; /* [DP_CHUNK] of triangles that may cover samples (or wanted pixels) */
-    uint32_t *numbers;   /* [DP_CHUNK] */
-    uint32_t covering;
-    uint32_t first;               /* where they go in the drawing's list */
-    size_t pending_first;         /* and the others in stream->pending */
+    /* Triangles that may cover samples (or wanted pixels). */
+    float (*corners)[9]; /* [DP_CHUNK] */
+    uint32_t *numbers;   /* [DP_CHUNK] in the stream */
+    uint32_t covering;   /* how many */
+    uint32_t first;      /* their place in the stream's list */
+
+    /* Pending triangles, or (second reading) intersection candidates. */
+    size_t pending_first;         /* their place in stream->pending */
     dp_pending_triangle *pending; /* [DP_CHUNK] */
     uint32_t pending_count;
-    uint32_t *pixels; /* [DP_CHUNK] of the intersection candidates: where they are counted */
+    uint32_t *pixels; /* [DP_CHUNK] intersection candidates: dp_chunk_pixel */
     dp_result result;
     dp_diag diag;
 } dp_chunk_output;
 
 typedef struct dp_fan dp_fan; /* fans.c */
 
-/* A triangle that has an edge which is thought to be a line. */
+/* A triangle of the second reading that has a candidate's edge. */
 typedef struct dp_partner {
     uint32_t fan, number;
     float corner[3]; /* not on the edge */
@@ -34,9 +37,9 @@ typedef struct dp_partner {
 typedef struct dp_stream_worker {
     dp_chunk *chunk;
     uint8_t *buffer;
-    dp_pending_triangle *intersecting; /* one pass: triangles that cross others */
+    dp_pending_triangle *intersecting; /* one reading: triangles that cross others */
     size_t intersecting_cap, intersecting_count;
-    dp_partner *partners; /* of the part at hand */
+    dp_partner *partners; /* of the current part */
     size_t partners_cap, partner_count;
     float *depth; /* of a tile's samples, while others may read those of the picture */
     size_t depth_cap;
@@ -65,41 +68,42 @@ struct dp_stream_draw {
     dp_chunk_view view;
     dp_stream_worker *workers; /* [worker_count] */
 
-    dp_chunk_output *outputs; /* [chunks] of the part at hand */
+    dp_chunk_output *outputs; /* [chunks] of the current part */
     uint32_t chunks;
-    float (*corners)[9]; /* triangles to be drawn next; [part] */
-    uint32_t *numbers;   /* theirs */
-    uint32_t covering;   /* how many */
+    float (*corners)[9]; /* [part] the list: triangles to be drawn next */
+    uint32_t *numbers;   /* [part] their numbers in the stream */
+    uint32_t covering;   /* length of the list */
 
     dp_pending pending;
-    size_t joined;    /* triangles of it whose edges have met; the others came with the last part */
-    float *positions; /* frame->polygons */
+    size_t joined;    /* pending triangles whose edges have met; others came with the last part */
+    float *positions; /* of frame->polygons, and so the next three */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
     size_t positions_cap, flags_cap, numbers_cap, source_cap;
-    uint32_t mesh_count; /* polygons: what is kept, then the intersection candidates */
+    uint32_t mesh_count; /* polygons: pending triangles, then intersection candidates */
 
-    dp_pending_triangle *intersecting; /* triangles where faces may cross; numbers ascend */
+    dp_pending_triangle *intersecting; /* the intersection candidates; numbers ascend */
     size_t intersecting_cap, intersecting_count, intersecting_limit;
     uint64_t *away; /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
-    uint64_t (*candidate_pixels)[2][DP_TILE]; /* by tile, as in dp_finder */
-    uint64_t *flagged;                        /* dp_chunk_view */
-    dp_fan *fans;                             /* edges that are thought to be lines */
-    uint32_t *fan_slots;                      /* [fan_slot_count] 1 + fan, 0: free */
-    uint32_t fan_count, fan_slot_count;
-    uint64_t
-        *fan_filter; /* [fan_filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
-    uint32_t fan_filter_bits;
-    uint8_t *
-        intersecting_counts; /* [tile][DP_TILE][DP_TILE] triangles of the intersection candidates that begin in a pixel */
+    uint64_t (*candidate_pixels)[2][DP_TILE]; /* [tile], as in dp_tile */
+    uint64_t *flagged;                        /* of dp_chunk_view */
 
-    float *farthest; /* dp_chunk_view */
-    uint64_t *wanted;
-    dp_tile_lines *lines; /* by tile */
+    dp_fan *fans;        /* [fan_count] edges of candidates */
+    uint32_t *fan_slots; /* [fan_slot_count] 1 + fan; 0: free */
+    uint32_t fan_count, fan_slot_count;
+    uint64_t *fan_filter; /* [fan_filter_bits / 64] a bit for each edge key (chunk.h) */
+    uint32_t fan_filter_bits;
+
+    /* [tile][DP_TILE][DP_TILE] intersection candidates that begin in each pixel */
+    uint8_t *intersecting_counts;
+
+    float *farthest;      /* of dp_chunk_view */
+    uint64_t *wanted;     /* of dp_chunk_view */
+    dp_tile_lines *lines; /* [tile] */
     uint64_t triangles;   /* in the stream */
     bool read_again;
-    bool thinned;        /* lines were left out where there were too many */
-    bool waited_in_vain; /* edges were given up whose other triangles may still have come */
+    bool thinned;        /* too many lines: some were left out */
+    bool waited_in_vain; /* waiting edges were given up */
     double done;         /* share of the work, for progress */
 };
 
@@ -110,38 +114,41 @@ typedef enum dp_reading {
     DP_READ_HIDERS     /* triangles hide sample points */
 } dp_reading;
 
-/* One reading from the start: part after part, chunk by chunk (readings.c). Progress goes from
- * `from` to `to`. Only the first counts in the setup's statistics. */
+/* One reading, from the start of the source (readings.c). Progress goes from `from` to `to`. Only
+ * the first reading counts in the setup's statistics. */
 dp_result dp_stream_read(dp_stream_draw *stream, dp_reading reading, double from, double to,
                          dp_diag *diag);
 
-/* Draws stream->corners and forgets them (tiles.c). False when memory is out. */
+/* Draw the list, as faces or as what hides sample points, and empty it (tiles.c). False when memory
+ * is out. */
 bool dp_stream_draw_faces(dp_stream_draw *stream);
 bool dp_stream_hide_probes(dp_stream_draw *stream);
 
-/* After the first reading: the target's surface, and the lines among what is kept. When the source
- * is not read again, samples hide the lines' sample points (samples.c). */
+/* After the first reading: the target's surface, and the lines of the pending triangles. If there
+ * is no second reading, depth samples hide the lines' sample points (samples.c). */
 bool dp_stream_find_lines(dp_stream_draw *stream);
 void dp_stream_hide_by_samples(dp_finder *worker);
-/* Makes frame->polygons longer by triangles; false when memory is out. */
+/* Appends triangles to frame->polygons; false when memory is out. */
 bool dp_stream_add_polygons(dp_stream_draw *stream, const dp_pending_triangle *triangles,
                             size_t count);
 
-/* Intersections (crossings.c). While faces are drawn, in draw_faces; after the first reading; while
- * the source is read again; at the end. */
+/* Intersections (crossings.c): after a list is drawn in a tile; after the first reading; at the
+ * end. False when memory is out. */
 void dp_stream_note_candidate_pixels(dp_stream_draw *stream, dp_finder *worker,
                                      dp_stream_worker *own);
 bool dp_stream_choose_flagged(dp_stream_draw *stream);
 bool dp_stream_find_crossings(dp_stream_draw *stream);
 
-/* Edges that are thought to be lines (fans.c): a table of them; a triangle's edge from a to b,
- * with its corner c beside it, is looked for there; what was found in a part is noted; a tile's
- * lines. */
+/* Edges of more than two triangles (fans.c).
+ *     make_fans      makes the table of candidates' edges
+ *     look_for_fans  looks there for a triangle's edge from a to b; c is its third corner
+ *     join_fans      takes in what was found in a part
+ *     settle_fans    decides about a tile's lines */
 bool dp_stream_make_fans(dp_stream_draw *stream);
 void dp_stream_look_for_fans(const dp_stream_draw *stream, const float *a, const float *b,
                              const float *c, const float *triangle, uint32_t number,
                              dp_stream_worker *own);
-/* Without looking into the table: false means no. */
+/* May an edge be in the table? False is sure. */
 static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t edge_key) {
     const uint32_t bit = edge_key & (stream->fan_filter_bits - 1);
     return stream->fan_filter[bit / 64] >> bit % 64 & 1;
@@ -149,23 +156,23 @@ static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t e
 bool dp_stream_join_fans(dp_stream_draw *stream);
 void dp_stream_settle_fans(const dp_stream_draw *stream, dp_tile_lines *lines);
 
-/* Room for a tile's lines, in one block of memory; and puts the tile's own there, as candidates and
- * probes from those numbers on (tiles.c). False when memory is out. */
+/* make_lines allocates a tile's lines, in one block; false when memory is out. put_lines copies
+ * lines there, from these numbers of candidates and probes on (tiles.c). */
 bool dp_stream_make_lines(const dp_stream_draw *stream, uint32_t candidates, uint32_t probes,
                           dp_tile_lines *out);
 void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
                          uint32_t probe);
 
-/* From now on the tile draws into depth of the worker's own, whatever that holds, and not into the
+/* From now on the tile draws into the worker's own depth, which is not cleared, instead of the
  * picture's (tiles.c). False when memory is out. */
 bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_finder *worker, dp_stream_worker *own);
 
-/* Transforms and bins frame->polygons; runs a task over all tiles (tiles.c). False when memory is
- * out. */
+/* place_polygons transforms and bins frame->polygons; for_tiles runs a task over all tiles
+ * (tiles.c). False when memory is out. */
 bool dp_stream_place_polygons(dp_stream_draw *stream);
 bool dp_stream_for_tiles(dp_stream_draw *stream, dp_task *task);
 
-/* At the end: visible pieces into the tile workers. */
+/* At the end: collects the visible pieces in the finders. False when memory is out. */
 bool dp_stream_collect(dp_stream_draw *stream);
 
 #endif

@@ -1,14 +1,18 @@
-/* Edges at which more than two triangles meet, and not all were kept.
+/* Edges of more than two triangles, of which the first reading may have dropped some.
  *
- * Two of them may have been plain to each other, and forgotten, before the others came by; those
- * make a line among themselves, or wait for ever and emerge as an outline. In the second reading
- * all come by again: whoever has an edge that is thought to be a line is noted there, as the eye
- * sees it: on either side of the edge the triangle that rises most towards the eye hides the rest
- * (edges.c: resolve_fan). In the end the two that are left decide what line it is, if any. Edges at
- * which nobody new came by stay as they are.
+ * Two of them may have been plain to each other and been forgotten before the others came; those
+ * others then make a line among themselves, or wait for ever and emerge as an outline.
  *
- * Data structure: open addressing over edges of candidates; what is noted does not depend on the
- * order. */
+ *     between      make_fans      a table of all edges of candidates, with one triangle each
+ *     2nd reading  look_for_fans  each triangle of a chunk with such an edge is noted
+ *                  join_fans      on either side of the edge on the screen, the triangle that rises
+ *                                   most towards the eye stays (as resolve_fan in find/edges.c)
+ *     at the end   settle_fans    the two that are left decide which line it is, if any
+ *
+ * Edges at which no new triangle came by stay as they are.
+ *
+ * Data structure: open addressing over edges of candidates, and a bit filter before it. The result
+ * does not depend on the order of triangles. */
 #include "stream/draw.h"
 
 #include "raster/kernels.h"
@@ -26,7 +30,7 @@ typedef struct incident_face {
 
 struct dp_fan {
     uint32_t corner;       /* of frame->polygons, where the edge begins */
-    bool met;              /* others came by */
+    bool met;              /* a triangle came by that the edge table had not seen */
     incident_face side[2]; /* left and right of the edge on the screen */
 };
 
@@ -70,7 +74,7 @@ static void offer(dp_fan *fan, int side, const incident_face *f) {
         *best = *f;
 }
 
-/* As kernels make it of a chunk's edges. */
+/* The key that kernels make of a chunk's edges. */
 static uint32_t edge_key(const dp_stream_draw *s, const float *a, const float *b) {
     dp_vertex v[2];
     dp_raster_kernels_for(s->frame->lanes)
@@ -112,7 +116,7 @@ bool dp_stream_make_fans(dp_stream_draw *s) {
     const uint32_t tiles = s->frame->tiles_x * s->frame->tiles_y;
     size_t count = 0;
     for (uint32_t t = 0; t < tiles; t++) count += s->lines[t].candidate_count;
-    if (!count || count > s->intersecting_limit / 2) return true; /* too many to be looked after */
+    if (!count || count > s->intersecting_limit / 2) return true; /* too many to look after */
     s->fan_slot_count = 64;
     while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
     s->fan_slots = dp_alloc_zeroed(s->memory, dp_times(s->fan_slot_count, sizeof *s->fan_slots));
@@ -157,7 +161,7 @@ void dp_stream_look_for_fans(const dp_stream_draw *s, const float *a, const floa
     }
 }
 
-/* Is the partner among what was kept, with this edge? Then the edge table has seen it. */
+/* Is the partner a pending triangle, with this edge? Then the edge table has seen it. */
 static bool is_known(const dp_stream_draw *s, const dp_fan *fan, uint32_t number) {
     uint32_t lo = 0, hi = s->mesh_count;
     while (hi - lo > 1) {
@@ -184,7 +188,7 @@ bool dp_stream_join_fans(dp_stream_draw *s) {
             dp_fan *const fan = &s->fans[partner->fan];
             int side;
             incident_face f;
-            /* sides are told along the fan's own edge */
+            /* left and right are those of the fan's own edge */
             if (!make_incident_face(s, position(s, fan->corner),
                                     position(s, next_corner(fan->corner)), partner->corner,
                                     partner->triangle, partner->number, &side, &f))

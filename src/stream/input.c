@@ -1,9 +1,10 @@
-/* Reading a source in parts of many chunks, as triangles.
+/* Reads a source in parts of many chunks, as triangles.
  *
- * Where the source has records (a binary STL), a part is only a range of numbers: each chunk reads
- * its own, in its own thread. Otherwise polygons are taken out of batches one after the other, and
- * split where they have more than three corners; the diagonals never draw. Either way a triangle's
- * number is its place in the stream, the same in every reading. */
+ * A source with records (a binary STL): a part is a range of record numbers, and each chunk reads
+ * its own records in its own thread. Any other source: polygons are copied from batches one after
+ * the other and split where they have more than three corners; diagonals never draw.
+ *
+ * Invariant: a triangle's number is its place in the stream, the same in every reading. */
 #include "stream/input.h"
 
 #include "base/diag.h"
@@ -78,7 +79,7 @@ static bool reserve_scratch(dp_input *input, size_t n) {
            dp_reserve(input->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
 }
 
-/* The corners' positions; false where one is not usable, which is counted. */
+/* Finds the corners' positions; false, and counted, where one cannot be used. */
 static bool locate(dp_input *input, size_t first, size_t n) {
     const dp_batch *const batch = &input->batch;
     for (size_t i = 0; i < n; i++) {
@@ -98,7 +99,7 @@ static bool locate(dp_input *input, size_t first, size_t n) {
     return true;
 }
 
-/* False: the part has no room for it. */
+/* False: the part has no room for the polygon, or *result says what went wrong. */
 static bool take_polygon(dp_input *input, size_t polygon, dp_result *result, dp_diag *diag) {
     const dp_batch *const batch = &input->batch;
     const size_t first = batch->firsts ? batch->firsts[polygon] : 3 * polygon;

@@ -9,9 +9,10 @@ struct dp_chunk_view;
 struct dp_triangles;
 
 typedef struct dp_stream_kernels {
-    /* Sets state and edge keys of a chunk's triangles, and lists those that are left to the general
-     * way: in the first reading, with their normals, and in the second (classify.inc,
-     * stream/classify.c). */
+    /* Set states and edge keys of a chunk's triangles, and list those that they leave undecided:
+     *     classify   first reading; sets normals too
+     *     touch      second reading
+     * classify.c decides the others. */
     void (*classify)(struct dp_chunk *chunk, const struct dp_triangles *triangles,
                      const struct dp_chunk_view *view);
     void (*touch)(struct dp_chunk *chunk, const struct dp_triangles *triangles,

@@ -1,13 +1,18 @@
-/* A reading of the source: parts are cut into chunks, chunks are classified in parallel, and what is
- * left of them is put together in order.
+/* One reading of the source.
  *
- * Most triangles end in their chunk. Those that may cover a sample are listed until the list is
- * full and then go through the ordinary stages; those with an edge that matters are kept (pending.c).
- * Order is that of the stream, whatever thread classified which chunk.
+ *     for each part:
+ *         in parallel   first task: edges of the last part's pending triangles meet (pending.c)
+ *                       the others: classify a chunk -> covering and pending triangles
+ *         in order      covering triangles -> the list; when it is full, it is drawn (tiles.c)
+ *                       pending triangles  -> stream->pending
+ *                       flagged triangles  -> stream->intersecting (second reading)
  *
- * The edges of what is kept meet one after the other, in one thread; the others classify the next part
- * meanwhile. Nothing in a chunk depends on that: what edges are followed is said when its part
- * begins, and edges that are put off by then are dropped when it is their turn. */
+ * Most triangles end in their chunk. Order is that of the stream, whichever thread classified which
+ * chunk.
+ *
+ * Invariant: a chunk's output does not depend on the edges that meet meanwhile. The share of edges
+ * that is followed is fixed when the part begins; edges that are put off after that are dropped
+ * when they would meet. */
 #include "stream/draw.h"
 
 #include "base/diag.h"
@@ -18,12 +23,12 @@ typedef struct job {
     dp_stream_draw *stream;
     dp_reading reading;
     dp_pending_share share; /* of edges that are followed */
-    bool joins;             /* the first task lets the last part's edges meet */
-    bool failed;            /* it is out of memory */
+    bool joins;             /* the first task joins the last part's edges */
+    bool failed;            /* that task is out of memory */
 } job;
 
-/* Lists the triangles whose state has one of the flags. Written without asking, and counted where
- * it is meant: what comes next cannot be foretold. */
+/* Lists the triangles whose state has one of the flags. Writes every triangle and advances for
+ * those listed: a branch could not be predicted. */
 static uint32_t list_triangles(dp_chunk *chunk, const uint8_t *states, uint8_t flags) {
     uint32_t count = 0;
     for (uint32_t t = 0; t < chunk->count; t++) {
@@ -115,12 +120,12 @@ static void classify_chunk(const job *j, uint32_t index, uint32_t worker) {
     if (j->reading == DP_READ_HIDERS) look_for_fans(s, w->chunk, number, &triangles, w);
     if (j->reading == DP_READ_HIDERS || !s->frame->lines) return;
     dp_chunk_edges(w->chunk, &triangles, &s->view);
-    /* lines within the chunk are known since the first reading */
+    /* the first reading has found the lines within the chunk */
     if (j->reading == DP_READ_EDGES) memset(w->chunk->lines, 0, w->chunk->count);
     leave_pending(w->chunk, number, &triangles, &s->input, j->share, output);
 }
 
-/* Edges that came with the last part meet. */
+/* Joins the edges that came with the last part. */
 static bool join_edges(dp_stream_draw *s) {
     const bool sound = s->pending.count == s->joined || dp_pending_join(&s->pending, s->joined);
     s->joined = s->pending.count;
@@ -145,7 +150,8 @@ static void list_chunk(void *arg, uint32_t index, uint32_t worker) {
     memcpy(s->numbers + output->first, output->numbers, output->covering * sizeof *s->numbers);
 }
 
-/* Pixels without a sample point in sight are wanted no more. */
+/* Draws the list. In the second reading, pixels without a visible sample point are wanted no
+ * more. */
 static bool draw_listed(dp_stream_draw *s, dp_reading reading) {
     if (reading != DP_READ_HIDERS) return dp_stream_draw_faces(s);
     if (!dp_stream_hide_probes(s)) return false;
@@ -153,7 +159,7 @@ static bool draw_listed(dp_stream_draw *s, dp_reading reading) {
     return true;
 }
 
-/* Adds what the chunks left to the list; draws the list first when it has no room. */
+/* Adds the chunks' covering triangles to the list; draws the list first if it has no room. */
 static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading) {
     uint32_t sum = 0;
     for (uint32_t i = 0; i < chunks; i++) sum += s->outputs[i].covering;
@@ -166,7 +172,7 @@ static bool list_covering(dp_stream_draw *s, uint32_t chunks, dp_reading reading
     return true;
 }
 
-static void keep_chunk(void *arg, uint32_t index, uint32_t worker) {
+static void copy_pending(void *arg, uint32_t index, uint32_t worker) {
     dp_stream_draw *const s = arg;
     const dp_chunk_output *const output = &s->outputs[index];
     (void)worker;
@@ -174,27 +180,27 @@ static void keep_chunk(void *arg, uint32_t index, uint32_t worker) {
            output->pending_count * sizeof *output->pending);
 }
 
-/* Their edges meet while the next part is classified. */
-static bool keep_edges(dp_stream_draw *s, uint32_t chunks) {
-    dp_pending *const kept = &s->pending;
-    size_t sum = kept->count;
+/* Adds the chunks' pending triangles. Their edges meet while the next part is classified. */
+static bool add_pending(dp_stream_draw *s, uint32_t chunks) {
+    dp_pending *const pending = &s->pending;
+    size_t sum = pending->count;
     for (uint32_t i = 0; i < chunks; i++) {
         s->outputs[i].pending_first = sum;
         sum += s->outputs[i].pending_count;
     }
-    if (sum == kept->count) return true;
-    if (!dp_reserve(s->memory, &kept->triangles, &kept->cap, sum, sizeof *kept->triangles))
+    if (sum == pending->count) return true;
+    if (!dp_reserve(s->memory, &pending->triangles, &pending->cap, sum, sizeof *pending->triangles))
         return false;
-    dp_parallel(s->frame->threads, chunks, keep_chunk, s);
-    kept->count = sum;
+    dp_parallel(s->frame->threads, chunks, copy_pending, s);
+    pending->count = sum;
     return true;
 }
 
-/* Surfaces seen at a grazing angle put thousands of triangles into a pixel; what crosses there is
- * no line that could be seen. */
+/* Triangles per pixel: surfaces seen at a grazing angle put thousands into one, and a crossing
+ * there cannot be seen. */
 enum { INTERSECTING_MOST = 128 };
 
-/* Beyond the limit crossings are given up. */
+/* Adds the chunks' intersection candidates; beyond the limit they are given up. */
 static bool add_intersecting(dp_stream_draw *s, uint32_t chunks) {
     for (uint32_t i = 0; i < chunks; i++) {
         const dp_chunk_output *const output = &s->outputs[i];
@@ -233,7 +239,7 @@ static dp_result read_part(dp_stream_draw *s, dp_reading reading, dp_diag *diag)
         }
     if (!list_covering(s, chunks, reading) ||
         !(reading == DP_READ_HIDERS ? add_intersecting(s, chunks) && dp_stream_join_fans(s)
-                                    : keep_edges(s, chunks)))
+                                    : add_pending(s, chunks)))
         return out_of_memory(diag);
     return DP_OK;
 }

@@ -1,16 +1,19 @@
 /* One reading: the picture's depth samples hide sample points of lines.
  *
- * A point is visible when some sample beside it shows what lies no nearer than the line's own
- * polygons do there: the surface that the line lies on, or what is behind it. How far a sample may
- * lie from the point is what one pass costs: lines end up to a pixel late behind the outline of
- * something nearer, and what is finer than a pixel may show through. */
+ * A point is visible when a sample of its pixel or of the four beside it is no nearer than the
+ * planes of the line's own polygons there: it then shows the surface that the line lies on, or what
+ * is behind it.
+ *
+ * Not exact: behind the outline of something nearer, lines end up to a pixel late, and lines may
+ * show through what is narrower than a pixel. */
 #include "stream/draw.h"
 
-/* How much nearer a sample may be and still not hide, in pixel sizes, and per px of slope beside
- * that. */
+/* Pixel sizes: a sample that is nearer by at most SLACK does not hide; planes steeper than STEEPEST
+ * per px count as level. */
 static const double SLACK = 2, STEEPEST = 8;
 
-/* Depth of a kept triangle's plane at tile place (x, y), as far as it is not seen edge-on. */
+/* Depth d0 + dx x + dy y of a pending triangle's plane, x and y in the tile; level where it is seen
+ * nearly edge-on. */
 typedef struct plane {
     double d0, dx, dy;
 } plane;
@@ -36,7 +39,7 @@ static const float *samples_at(const dp_frame *frame, uint32_t x, uint32_t y) {
            (size_t)(y % DP_TILE * DP_TILE + x % DP_TILE) * frame->target.samples;
 }
 
-/* Does some sample of a pixel (tile place px, py) leave the point visible? */
+/* Does some sample of pixel (px, py) of the tile leave the point visible? */
 static bool is_clear(const dp_finder *w, const plane own[2], double slack, int px, int py) {
     const int x = px + (int)w->tile.tile_x, y = py + (int)w->tile.tile_y;
     if (x < 0 || y < 0 || x >= (int)w->tile.frame->target.width ||
@@ -66,7 +69,7 @@ static bool is_visible(const dp_finder *w, const dp_candidate *c, uint32_t probe
 }
 
 void dp_stream_hide_by_samples(dp_finder *w) {
-    dp_hide_points(w); /* what is kept hides exactly */
+    dp_hide_points(w); /* the pending triangles hide exactly */
     for (uint32_t i = 0; i < w->lines.candidate_count; i++) {
         const dp_candidate *const c = &w->lines.candidates[i];
         for (uint32_t k = 0; k < c->k1 - c->k0; k++) {

@@ -1,14 +1,17 @@
 /* Drawing a source that does not fit into memory.
  *
- *   first reading      chunks -> faces into the picture's depth; edges that matter are kept
- *   more readings      only where the order of triangles is such that too many edges wait: a share
- * each in between         what was kept is a small mesh: its lines are candidates with sample
- * points second reading     chunks -> triangles over sample points hide them
+ *     first reading    chunks -> faces into the picture's depth; triangles with an edge that may be
+ *                        a line are kept
+ *     more readings    only where the order of triangles makes too many edges wait: a share each
+ *     in between       the triangles kept are a small mesh; its lines are candidates with sample
+ *                        points
+ *     second reading   chunks -> triangles over sample points hide them
+ *     afterwards       segments and ink, as from memory
  *
- * Then segments and ink are made as ever. Memory is that of the picture (depth, surface, sample
- * points on lines) and that of one part of the source and of what is kept, which are bounded,
- * whatever the length of the source. With one pass, sample points are hidden by the depth of the
- * picture's samples instead. */
+ * With one reading, the picture's depth samples hide sample points instead (samples.c).
+ *
+ * Memory: that of the picture (depth, surface, sample points on lines), one part of the source, and
+ * the pending triangles; the last two are bounded, however long the source. */
 #include "stream/draw.h"
 
 #include "base/diag.h"
@@ -16,18 +19,19 @@
 
 #include <string.h>
 
-/* What memory is spent on, bytes: per triangle gathered and drawn from memory (positions, vertices,
- * bins); for a chunk of a part (what it leaves, listed, drawn, in the largest tile of each of two
- * workers); per triangle kept (and its part of the mesh, table and lines). */
+/* Bytes that are spent on
+ *     GATHERED      a triangle drawn from memory: positions, vertices, bins
+ *     PER_CHUNK     a chunk of a part: its output, the list, the list drawn in the largest tile of
+ *                     each of two workers
+ *     PER_PENDING   a pending triangle: itself, its share of mesh, table and lines */
 enum {
     GATHERED = 132,
     PER_CHUNK = 2 << 20,
     PER_PENDING = 160,
     CHUNKS_LEAST = DP_TUNED(1, 2),
     CHUNKS_MOST = DP_TUNED(64, 2),
-    PENDING_LEAST = 65536,
-    PENDING_MOST =
-        1 << 28 /* of their edges twice as many slots, a power of two, are counted in 32 bits */
+    PENDING_LEAST = 65536, /* triangles */
+    PENDING_MOST = 1 << 28 /* triangles: slots, 2 per edge, a power of two, fit 32 bits */
 };
 
 bool dp_stream_is_large(const dp_source *source, size_t memory) {
@@ -106,7 +110,7 @@ static bool make_outputs(dp_stream_draw *s) {
     return s->outputs && s->corners && s->numbers;
 }
 
-/* What lasts as long as the picture: nothing is covered yet. */
+/* Makes what lasts as long as the picture, with nothing covered yet. */
 static bool make_picture(dp_stream_draw *s) {
     const dp_frame *const f = s->frame;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y, blocks = tiles * DP_BLOCKS * DP_BLOCKS;
@@ -162,7 +166,7 @@ static void add_stats(dp_stream_draw *s) {
     }
 }
 
-/* Readings for edges that were put off, until none is left. */
+/* Reads again for edges that were put off, until none is left. */
 static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *diag) {
     bool enough;
     while (dp_pending_next_share(&s->pending, &enough)) {
@@ -178,7 +182,7 @@ static dp_result read_edges(dp_stream_draw *s, bool may, double *done, dp_diag *
     return enough ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for the lines");
 }
 
-/* First reading, and more where edges were put off. */
+/* The first reading, and more where edges were put off. */
 static dp_result read_model(dp_stream_draw *s, dp_source *source, dp_diag *diag) {
     const dp_frame *const f = s->frame;
     s->read_again = f->lines && f->styles[0].passes != 1 && dp_source_rewindable(source);
@@ -208,7 +212,7 @@ dp_result dp_stream_read_model(const dp_stream_setup *setup, dp_source *source,
     return read_model(s, source, diag);
 }
 
-/* What the second reading looks at. */
+/* From now on chunks are classified by the pixels that the second reading looks at. */
 static bool want_pixels(dp_stream_draw *s) {
     dp_chunk_view *const v = &s->view;
     v->wanted = s->wanted;

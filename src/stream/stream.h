@@ -5,15 +5,14 @@
 #include "find/finder.h"
 #include "raster/stages.h"
 
-/* Memory beyond the picture, bytes: what is taken when nothing is said, and the least that
- * works. */
+/* Memory beyond the picture's, bytes: the default, and the least that works. */
 #define DP_MEMORY_DEFAULT ((size_t)256 << 20)
 #define DP_MEMORY_LEAST   ((size_t)48 << 20)
 
-/* Progress of a drawing when all of the source is read. */
+/* Progress of a drawing when the last reading is over. */
 #define DP_STREAMED 0.95
 
-/* Is a source of records, whose size is known, too large to be gathered within `memory` bytes? */
+/* Is this a source of records (of known size) too large to be gathered within `memory` bytes? */
 bool dp_stream_is_large(const dp_source *source, size_t memory);
 
 /* What a streamed drawing takes; all borrowed. */
@@ -24,14 +23,17 @@ typedef struct dp_stream_setup {
     uint32_t workers;
     size_t limit;    /* bytes beyond the picture */
     dp_stats *stats; /* counts are added */
-    /* Is told the share of the reading that is done, 0 to 1; what it returns ends the drawing. */
+    /* Takes the share of the work that is done, 0 to 1; negative: unknown. An error that it
+     * returns ends the drawing. */
     dp_result (*report)(void *arg, double done, dp_diag *diag);
     void *arg;
 } dp_stream_setup;
 
-/* In place of dp_draw's stages up to the tiles: first all that the faces and edges of the source
- * tell; then the target's surface, the finders' pieces, and frame->polygons, which then holds only
- * the triangles that have lines. What was kept stays with *stream until dp_stream_free. */
+/* Takes the place of dp_draw's stages up to the tiles.
+ *     dp_stream_read_model  the first reading: faces into frame->depth, pending edges
+ *     dp_stream_find        the target's surface, the finders' pieces, and frame->polygons: only
+ *                           the triangles that have lines, owned by *stream
+ * dp_stream_free frees *stream, also after an error. */
 typedef struct dp_stream_draw dp_stream_draw;
 dp_result dp_stream_read_model(const dp_stream_setup *setup, dp_source *source,
                                dp_stream_draw **stream, dp_diag *diag);

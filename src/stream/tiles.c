@@ -1,18 +1,19 @@
-/* The tiles of a streamed drawing: the ordinary stages, over what a reading has listed or kept.
+/* The tiles of a streamed drawing: the ordinary stages, over lists and pending triangles.
  *
- * First reading: each list of triangles is drawn into the depth that stays for the whole picture.
- * Then the triangles that were kept are a small mesh whose edge flags mark the edges that matter;
- * its lines are found by the same edge table and by emergence, and their sample points stay with
- * the tiles. Second reading: every triangle that touches a pixel with sample points is rasterized
- * onto them, so that what is hidden is exactly what the whole model hides.
+ *     first reading    draw_faces   each list of triangles is drawn into frame->depth
+ *     in between       find_lines   the pending triangles are a small mesh, whose edge flags mark
+ *                                     the edges that may be lines. The edge table and emergence
+ *                                     find its lines, whose sample points stay with the tiles
+ *     second reading   hide_probes  every triangle that touches a pixel with sample points is
+ *                                     rasterized onto them: exactly what the whole model hides
  *
- * Invariant: frame->polygons is the list at hand while a list is drawn, and what was kept from
- * dp_stream_find_lines on at all other times. */
+ * Invariant: frame->polygons is the list while a list is drawn; at all other times, from
+ * dp_stream_find_lines on, it is the mesh of pending triangles. */
 #include "stream/draw.h"
 
 #include <string.h>
 
-static const float MARGIN = 0.75f; /* px, as in draw.c */
+static const float MARGIN = 0.75f; /* px, as in draw/draw.c */
 
 /* Transforms and bins frame->polygons. */
 bool dp_stream_place_polygons(dp_stream_draw *s) {
@@ -46,7 +47,7 @@ bool dp_stream_for_tiles(dp_stream_draw *s, dp_task *task) {
 
 /* ------- faces ------- */
 
-/* Normals of the pixels that this list has won. */
+/* Writes the normals of the pixels that this list has won. */
 static void put_normals(const dp_finder *w) {
     const dp_target *const target = &w->tile.frame->target;
     for (uint32_t y = 0; y < DP_TILE && w->tile.tile_y + y < target->height; y++)
@@ -87,7 +88,7 @@ bool dp_stream_draw_faces(dp_stream_draw *s) {
     return sound;
 }
 
-/* ------- what was kept, as a mesh ------- */
+/* ------- the pending triangles as a mesh ------- */
 
 bool dp_stream_add_polygons(dp_stream_draw *s, const dp_pending_triangle *triangles, size_t count) {
     const size_t first = s->mesh_count, all = first + count;
@@ -126,7 +127,7 @@ static bool make_mesh(dp_stream_draw *s) {
 
 /* ------- surface ------- */
 
-/* Which samples hold any surface is all that one colour needs to know. */
+/* One colour needs to know only which samples hold a surface, not which. */
 static void paint_surface(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_finder *const w = &s->finders[worker];
@@ -139,7 +140,7 @@ static void paint_surface(void *arg, uint32_t tile, uint32_t worker) {
 
 /* ------- lines ------- */
 
-/* The pixels that hold sample points still visible. */
+/* The pixels that hold visible sample points. */
 static void want_pixels(const dp_tile_lines *lines, uint64_t rows[DP_TILE]) {
     memset(rows, 0, DP_TILE * sizeof *rows);
     for (uint32_t i = 0; i < lines->probe_count; i++) {
@@ -173,7 +174,7 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
            from->candidate_count * sizeof *from->candidates);
     for (uint32_t i = 0; i < from->candidate_count; i++) {
         to->candidates[candidate + i].probe += probe;
-        to->candidates[candidate + i].geometry = 0; /* they stay with the worker */
+        to->candidates[candidate + i].geometry = 0; /* geometry stays with the worker */
     }
     if (!bytes) return;
     memcpy(to->probes.x + probe, from->probes.x, bytes);
@@ -195,9 +196,9 @@ static bool store_lines(const dp_stream_draw *s, dp_finder *w, dp_tile_lines *ou
     return true;
 }
 
-/* When lines were thinned, an edge known to be a line whose other triangle is not there does not
- * emerge (else the other is hidden, and it does); nor does any other when edges were given up,
- * because then its other triangle may be anywhere. */
+/* Which unpaired edges do not emerge, because their other triangle may be missing:
+ *     edges known to be lines    when lines were thinned (otherwise the other triangle is hidden)
+ *     edges that are alone       when waiting edges were given up */
 static void drop_halves(const dp_stream_draw *s, dp_finder *w) {
     uint32_t left = 0;
     for (uint32_t i = 0; i < w->emergence.unpaired_count; i++) {
@@ -217,7 +218,8 @@ bool dp_stream_draw_apart(const dp_stream_draw *s, dp_finder *w, dp_stream_worke
     return true;
 }
 
-/* In one reading, samples beside the tile are looked at too, which others may be drawing again. */
+/* With one reading, samples beside the tile are looked at, which other workers may be redrawing:
+ * the tile then draws into a copy. */
 static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_finder *const w = &s->finders[worker];
@@ -253,7 +255,7 @@ bool dp_stream_find_lines(dp_stream_draw *s) {
 
 /* ------- second reading ------- */
 
-/* Where a triangle of the stream stands in the list at hand; UINT32_MAX - 1: nowhere. */
+/* Index of the stream's triangle in the list; UINT32_MAX - 1: it is not there. */
 static uint32_t place_in_list(const dp_stream_draw *s, uint32_t number) {
     uint32_t lo = 0, hi = s->covering;
     while (hi - lo > 1) {
@@ -266,7 +268,7 @@ static uint32_t place_in_list(const dp_stream_draw *s, uint32_t number) {
     return hi && s->numbers[lo] == number ? lo : UINT32_MAX - 1;
 }
 
-/* The candidates' own polygons by the numbers of the list at hand. */
+/* Finds the candidates' own polygons in the list. */
 static bool find_owners(const dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
     if (!dp_reserve(s->memory, &own->owners, &own->owners_cap, w->lines.candidate_count,
                     sizeof *own->owners))
@@ -299,7 +301,7 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
     w->tile.finds_edges = false;
     dp_finder_open(w, tile);
     swap_lines(w, lines);
-    w->tile.tests_near_depth = false; /* the faces are drawn again, which changes nothing */
+    w->tile.tests_near_depth = false; /* depth is final: drawing the faces again changes nothing */
     dp_tile_assemble(&w->tile);
     dp_tile_faces(&w->tile);
     w->tile.tests_near_depth = tests_near_depth;
@@ -314,9 +316,9 @@ static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
 
 bool dp_stream_hide_probes(dp_stream_draw *s) {
     if (!s->covering) return true;
-    const dp_polygons kept = s->frame->polygons;
+    const dp_polygons mesh = s->frame->polygons;
     const bool sound = place_list(s) && dp_stream_for_tiles(s, hide_probes);
-    s->frame->polygons = kept;
+    s->frame->polygons = mesh;
     s->covering = 0;
     return sound;
 }
