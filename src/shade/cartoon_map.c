@@ -1,7 +1,9 @@
-/* The cartoon map (Nienhaus and Döllner 2003, 5): the cartoon-shaded picture, sampled around each
- * pixel to smooth the jaggies between its patches. Weights 1 2 1 in both directions; neighbours of
- * another group, beyond a step in distance or beyond the surface do not count, so that outlines
- * stay sharp. */
+/* The cartoon map (Nienhaus and Döllner 2003, 5, "Edge-Enhanced Cartoon-Style Rendering"): the
+ * cartoon-shaded picture, smoothed where its patches of one shade meet.
+ *
+ * Each pixel becomes a mean of its 3 x 3 pixels, weights 1 2 1 in both directions. Neighbours of
+ * another group, beyond a step in distance or outside the surface do not count, so that outlines
+ * stay sharp. The loop for pixels inside the picture is in cartoon.inc; both give the same bits. */
 #include "shade/passes.h"
 
 static const float STEP = 12; /* pixel sizes between neighbours of one surface */
@@ -12,7 +14,7 @@ static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_
     const size_t at = (size_t)y * g->stride + x;
     const float z = g->distance[at], near = STEP * (g->perspective ? z : 1) / g->fy;
     const uint8_t *const centre = s->color + 4 * ((size_t)y * g->width + x);
-    if (g->id[at] == 1 + DP_MIRROR_GROUP) { /* a picture, and smooth already */
+    if (g->id[at] == 1 + DP_MIRROR_GROUP) { /* a picture that is smooth already */
         for (int k = 0; k < 4; k++) out[k] = centre[k];
         return;
     }
@@ -32,7 +34,7 @@ static void smooth_pixel(const dp_shade_store *s, uint32_t x, uint32_t y, uint8_
     out[3] = centre[3];
 }
 
-/* A row of a tile all around which there is picture. */
+/* A row of a tile, if all its neighbours lie in the picture. */
 static void smooth_row(const dp_shade_store *s, uint32_t x, uint32_t y, uint64_t mask) {
     const dp_gbuffer *const g = &s->gbuffer;
     const size_t at = (size_t)y * g->stride + x, pixel = 4 * ((size_t)y * g->width + x);

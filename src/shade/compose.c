@@ -1,18 +1,20 @@
-/* Composition: edges over shades, then pixels that several surfaces share.
+/* Composition: edges over shades, and pixels that several surfaces share.
  *
- * Edges in the paper's order (5, Technical Illustrations): between the shade and the inner edges'
- * colour first, weighed by the map's RGB, then between the result and the profile edges' colour,
- * weighed by its A.
+ * Edges, in the order of Nienhaus and Döllner 2003, 5, "Technical Illustrations":
  *
- * Resolving: a pixel's own surface covers `share` of it; the rest is the paper, or a surface that
- * one of the pixels around shows, the one whose distance comes nearest to `other`. Colours are not
- * premultiplied. */
+ *     color = mix(color, inner edges' colour,   inner strength)      the map's RGB
+ *     color = mix(color, profile edges' colour, profile strength)    the map's A
+ *
+ * Resolving: a pixel's own surface covers `share` of it. The rest is the paper, or the surface of
+ * the one of the eight neighbours whose distance comes nearest to `other`.
+ *
+ * Colours are not premultiplied. */
 #include "gbuffer/edge_map.h"
 #include "shade/passes.h"
 
 #include <string.h>
 
-/* c + (edge - c) * strength, for all four channels; an edge's own alpha weakens it. */
+/* Lays an edge of this strength (times its alpha) over colour c. */
 static void blend(uint8_t c[4], dp_color edge, float strength) {
     const float s = strength * (float)(edge & 0xff) / 255, under = (float)c[3] / 255,
                 alpha = s + under * (1 - s);
@@ -80,7 +82,7 @@ static void mix_colors(const uint8_t a[4], const uint8_t b[4], uint32_t share, u
     out[3] = (uint8_t)((sum + 127) / 255);
 }
 
-/* A pixel that is shared. */
+/* Resolves a pixel that surfaces share. */
 static void resolve_pixel(const dp_shade_store *s, const uint8_t background[4], uint32_t x,
                           uint32_t y) {
     const dp_gbuffer *const g = &s->gbuffer;
@@ -91,7 +93,7 @@ static void resolve_pixel(const dp_shade_store *s, const uint8_t background[4], 
                s->frame->target.rgba + (size_t)y * s->frame->target.rgba_stride + 4 * (size_t)x);
 }
 
-/* A run of ones in `bits`, from the lowest on, is taken out of them. */
+/* Takes the lowest run of ones, [*from, *to), out of *bits. */
 static void take_run(uint64_t *bits, uint32_t *from, uint32_t *to) {
     *from = (uint32_t)__builtin_ctzll(*bits);
     const uint64_t gaps = ~*bits & ~(((uint64_t)1 << *from) - 1);
@@ -99,7 +101,7 @@ static void take_run(uint64_t *bits, uint32_t *from, uint32_t *to) {
     *bits = *to == 64 ? 0 : *bits & ~(((uint64_t)1 << *to) - 1);
 }
 
-/* Paper where nothing was painted: background of tiles that hold polygons. */
+/* Paints paper where a tile with polygons shows none. */
 static void paper_row(const dp_shade_store *s, const uint8_t background[4], uint64_t bits,
                       uint32_t tile_x, uint32_t y) {
     const dp_target *const target = &s->frame->target;
@@ -111,7 +113,7 @@ static void paper_row(const dp_shade_store *s, const uint8_t background[4], uint
     }
 }
 
-/* What tiles inked already, over the shaded surfaces. */
+/* Lays what the tiles have inked over the shaded surfaces. */
 static void ink_row(const dp_shade_store *s, uint32_t tile_x, uint32_t width, uint32_t y) {
     const dp_target *const target = &s->frame->target;
     const uint8_t *ink = s->frame->ink_layer + 4 * ((size_t)y * target->width + tile_x);
@@ -136,7 +138,7 @@ void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
             paper_row(s, background, ~bits & ~(uint64_t)0 >> (64 - width), tile_x, y);
         uint8_t *const out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)tile_x;
         const uint8_t *const own = s->shown + 4 * ((size_t)y * g->width + tile_x);
-        while (bits) { /* all as it is, then those pixels again that are shared */
+        while (bits) { /* first all pixels, then the shared ones again */
             uint32_t from, to;
             take_run(&bits, &from, &to);
             memcpy(out + 4 * (size_t)from, own + 4 * (size_t)from, 4 * (size_t)(to - from));

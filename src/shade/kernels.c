@@ -1,16 +1,16 @@
 /* The operators on runs of pixels at the width DP_LANES; compiled once for each width
- * (CMakeLists.txt). Runs are worked on in whole vectors; what lies beyond their end is nobody's. */
+ * (CMakeLists.txt). They work in whole vectors: what they write beyond a run's end is not used. */
 #include "shade/shade.h"
 
 #include "base/vec.h"
 #include "base/lanes.h"
 
-/* x of the pixels' centres from column `first` on, px. */
+/* x of pixel centres from column `first` on, px. */
 DP_LANES_INLINE dp_lf columns(uint32_t first) {
     return l_splat((float)(int32_t)first) + l_steps() + l_splat(0.5f);
 }
 
-/* Pixels that show anything but paper. */
+/* Pixels that show a surface. */
 DP_LANES_INLINE dp_lm are_surface(const dp_shade_run *run, uint32_t i) {
     float shows[DP_LANES];
     for (uint32_t l = 0; l < DP_LANES; l++) shows[l] = run->id[i + l] ? 1.0f : 0.0f;
@@ -25,7 +25,7 @@ DP_LANES_INLINE dp_lm are_surface(const dp_shade_run *run, uint32_t i) {
 
 #include "shade/cartoon.inc"
 
-/* All in one colour. */
+/* Sets all pixels to one colour. */
 static void paint(const float rgba[4], dp_shade_run *run) {
     for (uint32_t i = 0; i < run->n; i += DP_LANES) {
         for (int k = 0; k < 3; k++) l_store(run->color[k] + i, l_splat(rgba[k]));
@@ -38,7 +38,7 @@ DP_LANES_INLINE dp_lu to_byte(dp_lf v) {
                              l_splat(0.5f));
 }
 
-/* To pixels of four bytes, the first one red. */
+/* To pixels of four bytes: red, green, blue, alpha. */
 static void pack(const dp_shade_run *run, uint32_t *words) {
     enum {
         BIG = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__,

@@ -1,10 +1,15 @@
 /* The passes over the whole picture, between finding lines and inking them (Nienhaus and Döllner
- * 2003, "Rendering Passes"): the G-buffer was filled with the tiles; then 0  shade      G-buffer ->
- * color               (right after its tile is filled, where it looks at no other) 1  cartoon color
- * -> smooth                  (toon) 2  store      G-buffer to 8 bits, if asked for 3  edges
- * G-buffer -> edge map, over color 4  resolve    color -> target Every pass runs over tiles in
- * parallel and reads what earlier passes left around its pixels; it looks only at the spans of rows
- * that hold a surface, so that background costs nothing. */
+ * 2003, 4, "Rendering Passes"). The tiles have filled the G-buffer.
+ *
+ *     0  SHADE    G-buffer -> color        right after the tile is filled, if the style needs no
+ *                                            other pixel
+ *     1  CARTOON  color -> smooth          toon with a cartoon map
+ *     2  STORE    G-buffer to 8 bits       only if asked for
+ *     3  EDGES    G-buffer -> edge map, and its edges over color (or smooth)
+ *     4  RESOLVE  color (or smooth) -> target
+ *
+ * Each pass runs over tiles in parallel and reads what earlier passes left around its pixels. It
+ * visits only the spans of rows that hold a surface, so that background costs nothing. */
 #include "shade/passes.h"
 
 #include "base/kernels.h"
@@ -15,7 +20,7 @@
 
 enum { SHADE, CARTOON, STORE, EDGES, RESOLVE };
 
-/* Looked up from N·L = -1 to 1: what the light does not reach is one shade. */
+/* Toon, from N·L = -1 to 1. All that the light does not reach has one shade. */
 static const uint8_t built_in_shades[8][4] = {
     {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},
     {156, 156, 156, 255}, {208, 208, 208, 255}, {208, 208, 208, 255}, {255, 255, 255, 255}};
@@ -107,7 +112,7 @@ static bool make_graphite(dp_shade_store *s, uint32_t tones, const dp_allocator 
     return s->graphite_tones;
 }
 
-/* The pencil's textures, and the plane that says which polygon a pixel shows. */
+/* Sets up the pencil's textures, and the plane that says which polygon each pixel shows. */
 static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
     const dp_shade *const shade = &s->setup.shade;
     dp_gbuffer *const g = &s->gbuffer;
@@ -206,7 +211,7 @@ static void to_floats(dp_color c, float rgba[4]) {
     for (int k = 0; k < 4; k++) rgba[k] = (float)(c >> (24 - 8 * k) & 0xff) / 255;
 }
 
-/* Stretches of one group, each in its colour. */
+/* Paints each stretch of one group in that group's colour. */
 static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
     for (uint32_t i = 0, end; i < run->n; i = end) {
         float rgba[4];
@@ -243,7 +248,7 @@ static void end_run(const dp_shade_store *s, const dp_shade_run *run) {
     memcpy(s->color + 4 * ((size_t)run->y * s->gbuffer.width + run->x), words, 4 * (size_t)run->n);
 }
 
-/* The mirror shows the picture of the reflected scene: its pixels are its stencil. */
+/* Where a pixel shows the mirror, puts the picture of the reflected scene. */
 static void put_mirror(const dp_shade_store *s, const dp_shade_run *run) {
     const size_t at = (size_t)run->y * s->gbuffer.width + run->x;
     for (uint32_t i = 0; i < run->n; i++)
@@ -269,7 +274,7 @@ static void shade_tile(dp_shade_store *s, uint32_t tile) {
     }
 }
 
-/* Strokes along texture coordinates look around them. */
+/* Strokes along texture coordinates take their scale from neighbouring pixels. */
 static bool looks_around(const dp_shade_store *s) { return s->gbuffer.textured; }
 
 bool dp_shade_at_once(dp_shade_store *s, uint32_t tile) {

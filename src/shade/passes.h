@@ -1,16 +1,15 @@
-/* The screen-space passes besides shading, over one tile each (passes.c conducts). */
+/* The screen-space passes besides shading, over one tile each (called by passes.c). */
 #ifndef DP_SHADE_PASSES_H
 #define DP_SHADE_PASSES_H
 
 #include "shade/shade.h"
 
-/* Cartoon map: the toon colours, each the mean of itself and its neighbours of the same surface:
- * color -> smooth. */
+/* Cartoon map, color -> smooth: each pixel is the mean of itself and its neighbours of the same
+ * surface. */
 void dp_cartoon_map_tile(dp_shade_store *store, uint32_t tile);
-/* Edge map, and its edges over `color`: inner first, then profile. Fills the target's edge map
- * too. */
+/* Edge map -> the target's edge map; its edges over `shown`, inner first, then profile. */
 void dp_edges_tile(dp_shade_store *store, uint32_t tile);
-/* Colours of pixels that several surfaces share are put together: color -> target. */
+/* shown -> target; mixes the colours of pixels that several surfaces share. */
 void dp_resolve_tile(dp_shade_store *store, uint32_t tile);
 
 #endif

@@ -1,21 +1,22 @@
 /* Pencil rendering (Hermosilla and Vázquez 2010, 2.4, after Lee, Kwon and Lee 2006).
  *
- *   vertex stage     dp_pencil_vertices: the direction of least curvature, turned to the camera, x
- * and y of it geometry stage   the G-buffer keeps which polygon a pixel shows, so that a pixel gets
- * the three directions of its polygon's corners as they are, without interpolation and without a
- * copy of any vertex (Listing 2.4) pixel stage      three look-ups at screen coordinates turned by
- * the three directions, blended by thirds; then tone = value ^ ((1 - max(N·L, 0)) S + O)
- * (Listing 2.5)
+ *     vertex stage    for each vertex:  angle of its direction of minimal curvature on the screen
+ *     geometry stage  the G-buffer holds each pixel's polygon, so that a pixel reads its three
+ *                       corners' directions without interpolation (Listing 2.4)
+ *     pixel stage     for each pixel:   for each of three corners: look up the stroke texture at
+ *                                         screen coordinates turned by the corner's angle
+ *                                       value = mean of the three look-ups
+ *                                       tone  = value ^ ((1 - max(N·L, 0)) S + O)  (Listing 2.5)
  *
- * As printed each pixel's coordinates are turned by its corners' exact angles. Far from the origin
- * two angles that hardly differ lead to different places in the texture, so that strokes break at
- * every edge: on fine meshes they turn into noise. Here angles are told apart in DP_TURNS steps,
- * and between two steps their textures are cross-faded: neighbours that agree have the same
- * strokes. `pencil_printed` is as printed.
+ * As printed (`pencil_printed`), angles are exact. Far from the origin, two angles that hardly
+ * differ lead to different parts of the texture, so that strokes break at every edge, and on fine
+ * meshes turn into noise. By default angles have DP_TURNS steps, and textures of neighbouring steps
+ * are cross-faded: neighbours that agree have the same strokes.
  *
- * Brightness, light and tone are looked up in a table of bytes.
- * Tones (Lee et al.): a row of textures with more and more strokes instead of the power; two are
- * mixed. */
+ * tone is a table of bytes, by value and light. `pencil_tones` (Lee et al. 2006): a row of textures
+ * with more and more strokes instead of the power; two are mixed.
+ *
+ * Not handled: polygons of more than three corners use three of them. */
 #include "shade/pencil.h"
 
 #include "base/elementary.h"
@@ -65,7 +66,7 @@ void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn 
 
 /* ------- pixel stage ------- */
 
-/* The run's surface, pixel by pixel, with the turns of three corners of each one's polygon. */
+/* The pixels of a run that show a surface, with the turns of three corners of their polygons. */
 typedef struct corners {
     uint32_t count;
     uint32_t pixel[DP_TILE];
@@ -73,7 +74,7 @@ typedef struct corners {
     dp_turn turn[DP_TILE][3];
 } corners;
 
-/* In loops of their own: memory answers to many look-ups at once. */
+/* In separate loops, so that many memory reads are under way at once. */
 static void find_corners(const dp_shading_setup *setup, const dp_shade_run *run, corners *c) {
     const dp_polygons *const polygons = &setup->frame->polygons;
     const uint32_t *const shown = setup->g->polygon + (size_t)run->y * setup->g->stride + run->x;
@@ -84,9 +85,8 @@ static void find_corners(const dp_shading_setup *setup, const dp_shade_run *run,
     }
     for (uint32_t i = 0; i < c->count; i++) {
         const uint32_t polygon = shown[c->pixel[i]], first = dp_first_corner(polygons, polygon);
-        const uint32_t n = polygons->firsts ? dp_corner_count(polygons, polygon)
-                                            : 3; /* of more corners: three of them */
-        for (uint32_t k = 0; k < 3; k++)
+        const uint32_t n = polygons->firsts ? dp_corner_count(polygons, polygon) : 3;
+        for (uint32_t k = 0; k < 3; k++) /* of more corners: three of them */
             c->vertex[i][k] = dp_corner_vertex(polygons, first + k * n / 3);
     }
     for (uint32_t i = 0; i < c->count; i++)
@@ -108,13 +108,13 @@ static inline void put_strand(dp_strands *s, uint32_t at, uint32_t pixel, float 
     s->pixel[at] = (int32_t)pixel, s->c[at] = cosine, s->s[at] = sine, s->weight[at] = weight;
 }
 
-/* The steps of one pixel. */
+/* One pixel's steps and their weights. */
 typedef struct shares {
     uint32_t count, step[DP_STRANDS_PER_PIXEL];
     float weight[DP_STRANDS_PER_PIXEL];
 } shares;
 
-/* A share goes to its step if that is there already, else it is a new one. */
+/* Adds a weight to its step, which is a new one if it is not there yet. */
 static inline void add_share(shares *s, uint32_t step, float weight) {
     uint32_t i = 0;
     while (i < s->count && s->step[i] != step) i++;
@@ -138,8 +138,8 @@ static void add_differing(const dp_pencil_table *p, const dp_turn turn[3], uint3
         put_strand(s, s->count++, pixel, p->c[of.step[i]], p->s[of.step[i]], of.weight[i]);
 }
 
-/* Mostly the three corners have the same step, and its strand, and the next one's if any has a part
- * of it, are all. */
+/* Usually the three corners have the same step: one look-up, and one of the next step if any corner
+ * has a part of it. */
 static void find_strands(const dp_pencil_table *p, const corners *c, dp_strands *s) {
     s->count = 0;
     for (uint32_t i = 0; i < c->count; i++) {
@@ -154,11 +154,12 @@ static void find_strands(const dp_pencil_table *p, const corners *c, dp_strands 
                    p->weight[255 - a] + p->weight[255 - b] + p->weight[255 - d]);
         put_strand(s, s->count + 1, pixel, p->c[next], p->s[next],
                    p->weight[a] + p->weight[b] + p->weight[d]);
-        s->count += 1 + ((a | b | d) != 0); /* without a jump, which nobody could foresee */
+        s->count += 1 + ((a | b | d) != 0); /* not a branch: it could not be predicted */
     }
 }
 
-/* As printed: each corner's exact angle. Neighbours with the same corners have the same. */
+/* As printed: each corner's exact angle. Neighbouring pixels of one polygon share cosine and sine.
+ * */
 static void find_strands_printed(const corners *c, dp_strands *s) {
     s->count = 3 * c->count;
     for (uint32_t i = 0; i < c->count; i++)

@@ -1,5 +1,5 @@
-/* Shading: from the G-buffer to colours, one operator per style; and the passes that put all
- * together. */
+/* Shading: from the G-buffer to colours, one operator per style, and the passes around it
+ * (Nienhaus and Döllner 2003, 5; the passes are listed in passes.c). */
 #ifndef DP_SHADE_SHADE_H
 #define DP_SHADE_SHADE_H
 
@@ -7,36 +7,35 @@
 #include "gbuffer/gbuffer.h"
 #include "mesh/curvature.h"
 
-/* One run of pixels of a row on its way through an operator; colours in [0, 1], planes of
- * floats. */
+/* What an operator works on: a run of pixels of one row. Colours in [0, 1], in planes. */
 typedef struct dp_shade_run {
     const float *nx, *ny, *nz, *distance; /* camera space; world units */
     const float *u, *v;                   /* texture coordinates, NaN where none; or NULL */
     const uint16_t *id;
-    size_t stride;           /* from row to row of the six above, below and beside may be read */
-    uint32_t x, y, n;        /* px of the first pixel; how many */
-    float color[3][DP_TILE]; /* in: the surface's own; out: as shaded */
+    size_t stride;           /* from row to row of these; rows and columns around may be read */
+    uint32_t x, y, n;        /* first pixel, px; number of pixels */
+    float color[3][DP_TILE]; /* in: the surface's colour; out: as shaded */
     float alpha[DP_TILE];
 } dp_shade_run;
 
-/* A texture of one channel, which repeats itself in both directions. */
+/* A texture of one channel, tiled in both directions. */
 typedef struct dp_strokes_texture {
     const uint8_t *values;
     uint32_t width, height;
 } dp_strokes_texture;
 
-/* Half a turn is divided into so many steps. */
+/* Steps of half a turn. */
 enum { DP_TURNS = 18 };
-/* A direction on the screen, which has no sign: the step below it, and in the low byte how much of
- * the next. With pencil_printed: half a turn in 65536 parts. */
+/* A direction on the screen, without sign: the step below it (high byte), and how much of the next
+ * step (low byte). With pencil_printed: half a turn in 65536 parts. */
 typedef uint16_t dp_turn;
 
-/* Cosines and sines of the steps; what each of 255 parts of one of three corners weighs. */
+/* Cosines and sines of the steps; weight[i]: i / 255 of one of three corners. */
 typedef struct dp_pencil_table {
     float c[DP_TURNS], s[DP_TURNS], weight[256];
 } dp_pencil_table;
 
-/* What an operator needs to know besides. */
+/* What an operator reads besides; all borrowed. */
 typedef struct dp_shading_setup {
     dp_shade shade; /* resolved; light of length 1 */
     const dp_gbuffer *g;
@@ -45,46 +44,49 @@ typedef struct dp_shading_setup {
     uint32_t shade_count;
     float ink[3];
 
-    const dp_frame *frame; /* pencil: whose polygons */
-    const dp_turn *turns;  /* by vertex */
+    /* pencil */
+    const dp_frame *frame; /* its polygons */
+    const dp_turn *turns;  /* [vertex] */
     const dp_pencil_table *pencil;
-    const uint8_t *powers; /* [256][256] */
+    const uint8_t *powers; /* [256][256]: dp_make_powers */
     dp_strokes_texture tones[8];
     uint32_t tone_count;
-    const int8_t *tooth; /* of the paper: texture/graphite.h */
+    const int8_t *tooth; /* the paper's: texture/graphite.h */
 } dp_shading_setup;
 
 typedef void dp_shade_operator(const dp_shading_setup *setup, dp_shade_run *run);
 
-/* DP_TILE pixels of a row on their way through the cartoon map; what lies one row or column beside
- * may be read. */
+/* What the cartoon map works on: DP_TILE pixels of a row. Rows and columns beside may be read. */
 typedef struct dp_smooth_run {
     const uint8_t *color; /* [4]; `width` pixels from row to row */
     uint8_t *out;         /* [DP_TILE][4] */
     const uint16_t *id;   /* `stride` from row to row */
     const float *distance;
     size_t width, stride;
-    float step, fy; /* neighbours of one surface are so far apart at most: pixel sizes; of which fy
-                       are 1 at distance 1 */
+    float step; /* pixel sizes: neighbours of one surface differ by no more in distance */
+    float fy;   /* pixel sizes per world unit at distance 1 */
     bool perspective;
 } dp_smooth_run;
 
-/* The operators, compiled for several kinds of processors (rows_….c); all give the same bits. They
- * work in whole strips (DP_GBUFFER_STRIP): so far rows and arrays of a run are read. */
+/* The operators, compiled for each width of vectors (kernels.c); all give the same bits. They read
+ * a run's rows and arrays in whole strips (DP_GBUFFER_STRIP). */
 typedef struct dp_shaders {
     uint32_t lanes;                              /* floats per vector */
-    dp_shade_operator *styles[DP_SHADING_COUNT]; /* NULL: stays as it is, or is not one of these */
-    dp_shade_operator
-        *highlight; /* Phong's, (r·v)^50 times strength, added towards white; part of the styles */
-    void (*paint)(const float rgba[4], dp_shade_run *run);  /* all in one colour */
-    void (*pack)(const dp_shade_run *run, uint32_t *words); /* as pixels of four bytes; [DP_TILE] */
-    void (*smooth)(const dp_smooth_run *run,
-                   uint64_t pixels); /* cartoon map; where `pixels` has no bit nothing sensible */
+    dp_shade_operator *styles[DP_SHADING_COUNT]; /* NULL: none (flat, paper), or pencil */
+
+    /* Phong's highlight, strength (r·v)^50 towards white; the styles call it. */
+    dp_shade_operator *highlight;
+    /* All pixels in one colour. */
+    void (*paint)(const float rgba[4], dp_shade_run *run);
+    /* To pixels of four bytes, words[DP_TILE]. */
+    void (*pack)(const dp_shade_run *run, uint32_t *words);
+    /* Cartoon map. Where `pixels` has no bit, the output is arbitrary. */
+    void (*smooth)(const dp_smooth_run *run, uint64_t pixels);
 } dp_shaders;
 
 DP_KERNEL_TABLES(dp_shaders);
 
-/* The built-in stroke textures: priorities (strokes.c). 256 x 256, the same every time. */
+/* The built-in stroke textures: priorities, [256][256], always the same (strokes.c). */
 enum { DP_STROKES_SIZE = 256 };
 void dp_make_hatching(uint8_t *values);
 void dp_make_halftone(uint8_t *values);
@@ -94,57 +96,57 @@ void dp_make_halftone(uint8_t *values);
 /* What shading keeps from frame to frame. Zero is empty. */
 typedef struct dp_shade_store {
     dp_gbuffer gbuffer;
-    uint8_t *color,
-        *smooth;    /* [height][width][4], not premultiplied, where the G-buffer holds a surface */
-    uint8_t *shown; /* the one of the two that is shown: smooth with a cartoon map */
-    uint8_t *inked; /* [height][width][4] ink of the tiles, where they ink before they are shaded */
+    uint8_t *color;  /* [height][width][4], not premultiplied; set where there is a surface */
+    uint8_t *smooth; /* the same, of the cartoon map */
+    uint8_t *shown;  /* smooth with a cartoon map, else color */
+    uint8_t *inked;  /* [height][width][4] ink of the tiles that ink before shading */
     size_t color_cap, smooth_cap, inked_cap;
     uint8_t *hatching, *halftone;
 
-    dp_curvature_store curvature; /* pencil: directions of least curvature */
+    /* pencil */
+    dp_curvature_store curvature; /* directions of minimal curvature */
     dp_turn *turns;               /* the same on the screen */
-    uint8_t *powers;              /* of powers_of: S and O */
-    float powers_of[2];
+    uint8_t *powers;              /* [256][256] for powers_of */
+    float powers_of[2];           /* S, O */
     dp_pencil_table pencil;
-    uint32_t *polygon; /* the G-buffer's plane */
+    uint32_t *polygon; /* plane for dp_gbuffer.polygon */
     uint8_t *graphite; /* [graphite_tones] textures */
     int8_t *tooth;
     size_t turns_cap, polygon_cap;
     uint32_t graphite_tones;
     const dp_shaders *shaders; /* for this processor */
     bool active;               /* this frame has a G-buffer */
-    bool colored;              /* … and colours */
+    bool colored;              /* this frame is shaded or has edges */
     dp_shading_setup setup;
     const dp_frame *frame;
-    const dp_source *source; /* whose groups' colours are shown; NULL: none */
-    const uint8_t *mirrored; /* [height][width][4] what pixels of DP_MIRROR_GROUP show, borrowed;
-                                NULL: no mirror */
+    const dp_source *source; /* of the groups' colours; NULL: none */
+    const uint8_t *mirrored; /* [height][width][4] picture in the mirror, shown by pixels of
+                                DP_MIRROR_GROUP; borrowed; NULL: no mirror */
 } dp_shade_store;
 
 void dp_shade_store_free(dp_shade_store *store, const dp_allocator *memory);
 
-/* Before the tiles. False when memory is out. */
+/* Begins a frame, before the tiles. False when memory is out. */
 bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);
 
-/* Do this frame's normals have to be made? */
+/* Must this frame's normals be computed? */
 bool dp_shade_needs_normals(const dp_shade_store *store);
 
-/* Once polygons are gathered: the G-buffer's memory, the pencil's vertex stage. False when memory
- * is out. */
+/* After polygons are gathered: allocates the G-buffer, runs the pencil's vertex stage. False when
+ * memory is out. */
 bool dp_shade_gathered(dp_shade_store *store);
 
-/* The shading pass over a tile, as soon as that is filled; false where it needs its neighbours and
- * so is left to the passes. */
+/* Shades a tile right after it is filled; false if the style needs other tiles, and the passes
+ * shade it later. */
 bool dp_shade_at_once(dp_shade_store *store, uint32_t tile);
 
-/* The passes over tiles, in order, once all tiles are filled; each is over before the next
- * begins. */
+/* The passes over tiles, in order, after all tiles are filled. Each ends before the next begins. */
 enum { DP_SHADE_PASSES = 5 };
 bool dp_shade_pass_runs(const dp_shade_store *store, int pass);
 void dp_shade_pass(dp_shade_store *store, int pass, uint32_t tile);
-/* After a pass: what no tile can do alone. */
+/* After each pass, once: what reaches over all tiles. */
 void dp_shade_pass_ends(dp_shade_store *store, int pass);
-/* Between filling and the first pass: what no tile can do alone. */
+/* Before the first pass, once: what reaches over all tiles. */
 void dp_shade_prepare(dp_shade_store *store);
 
 #endif

@@ -1,13 +1,13 @@
-/* The built-in stroke textures, made, not shipped: every texel holds its priority, the tone below
- * which it is inked (Freudenberg, Masuch, Strothotte, Real-Time Halftoning, 2002). The same numbers
- * every time: an integer generator, and lattices that wrap around.
+/* The built-in stroke textures. Every texel holds its priority: the tone below which it is inked
+ * (Freudenberg, Masuch and Strothotte, Real-Time Halftoning, 2002). They are computed, always the
+ * same: an integer generator, and lattices that wrap around.
  *
- * Hatching: three directions of strokes. Of the first, lines come in bit-reversed order, so that
- * the first ones are far apart and every later one falls between; each is broken into strokes of
- * uneven length that waver a little. The second direction joins in for dark tones, the third for
- * the darkest. Across a stroke the priority falls off: it begins thin and grows as it gets darker.
- * Dots: the cosine screen, turned by 22.6 degrees; how high a texel lies in it is how early it is
- * inked. */
+ * Hatching: three directions of strokes, the second for dark tones, the third for the darkest.
+ * Within a direction, lines come in bit-reversed order, so that the first ones are far apart and
+ * each later one falls between them. A line is broken into strokes of uneven length that waver a
+ * little. Priority falls off across a stroke: it begins thin and widens as it gets darker.
+ *
+ * Dots: the cosine screen, turned by 22.6 degrees; a texel's height in it is its priority. */
 #include "shade/shade.h"
 
 #include "base/elementary.h"
@@ -31,15 +31,14 @@ static uint32_t reversed(uint32_t v, uint32_t bits) {
     return r;
 }
 
-/* Direction d: 0 along u, 1 along v, 2 along the diagonal; (a, b) along and across. All wrap
- * around. */
+/* Texel (a, b) along and across direction d: 0 along u, 1 along v, 2 diagonal. Wraps around. */
 static uint8_t *texel(uint8_t *values, int d, int a, int b) {
     const int u = d == 0 ? a : b, v = d == 0 ? b : d == 1 ? a : a + b;
     const int x = d == 2 ? a : u;
     return &values[(v & (SIZE - 1)) * SIZE + (x & (SIZE - 1))];
 }
 
-/* A stroke from `from`, `length` texels long, at `across`, its priority 0 to 255. */
+/* Draws a stroke from `from` on, `length` texels long, at `across`. priority: 0 to 255. */
 static void draw_stroke(uint8_t *values, int d, int from, int length, float across, float priority,
                         uint32_t *seed) {
     const float bend = between(seed, -2, 2), tilt = between(seed, -1, 1);
@@ -84,10 +83,8 @@ void dp_make_hatching(uint8_t *values) {
 }
 
 void dp_make_halftone(uint8_t *values) {
-    enum {
-        A = 24,
-        B = 10
-    }; /* waves per side, so that the lattice of dots, 26 per side, wraps around */
+    /* Waves per side: the lattice of dots, hypot(A, B) = 26 per side, wraps around. */
+    enum { A = 24, B = 10 };
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             const double step = 2 * 3.14159265358979323846 / SIZE;
