@@ -1,7 +1,10 @@
-/* The edge map: one run of pixels through a detector, groups as a third source, then thresholds.
+/* The edge map (Nienhaus and Döllner 2003, 4.1.2).
  *
- * A strength is how far 1 - I lies between a threshold and the threshold plus softness; as printed
- * it is 1 - I itself, clamped. Pixels of groups that are not enhanced have none. */
+ *     I_N, I_Z  = detector (detect.h)
+ *     strength  = as printed: 1 - I;  else: clamp((1 - I - threshold) / softness)
+ *     profile   = 1 where groups meet                     beyond the paper
+ *     strength  = 0 for groups that are not enhanced
+ */
 #include "gbuffer/edge_map.h"
 
 #include "base/elementary.h"
@@ -22,8 +25,8 @@ static dp_depth_measure measure_of(const dp_gbuffer *g, const dp_edge_map *map) 
                               .both_sides = map->far_side};
 }
 
-/* C1 adds up to 1/2 along a straight step, of whose eight neighbours three lie beyond: twice that
- * is whole. */
+/* The C1 operator. Along a straight step three of eight neighbours lie beyond it, and their weights
+ * add up to 1/2: by default, twice the sum is a whole step. */
 static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, uint32_t x0,
                       uint32_t y, uint32_t n, float *i_z) {
     const dp_depth_measure m = measure_of(g, map);
@@ -46,8 +49,8 @@ static void detect_c1(const dp_gbuffer *g, const dp_edge_map *map, dp_rows z, ui
     for (uint32_t i = 0; i < n; i++) i_z[i] = 1 - dp_minf(whole * i_z[i], 1);
 }
 
-/* Neighbours of another group that lie behind, or beside where this group's number is the
- * larger. */
+/* Does a neighbour of another group lie behind, or level with a smaller number? So that only one
+ * side has the edge. */
 static bool meets_group(const dp_gbuffer *g, const dp_edge_map *map, size_t at) {
     const size_t r = map->radius, down = r * g->stride;
     const size_t neighbours[4] = {at - down - r, at - down + r, at + down - r, at + down + r};
@@ -70,7 +73,7 @@ static void add_groups(const dp_gbuffer *g, const dp_edge_map *map, size_t at, d
     }
 }
 
-/* Only some groups have edges. */
+/* Drops the edges of groups that are not enhanced. */
 static void drop_others(const dp_gbuffer *g, const dp_edge_map *map, size_t at, dp_edge_run *out) {
     for (uint64_t bits = out->strong; bits; bits &= bits - 1) {
         const uint32_t i = (uint32_t)__builtin_ctzll(bits);
@@ -81,7 +84,7 @@ static void drop_others(const dp_gbuffer *g, const dp_edge_map *map, size_t at, 
     }
 }
 
-/* As printed a strength is 1 - I itself. */
+/* As printed, a strength is 1 - I. */
 static dp_threshold threshold_of(const dp_edge_map *map, float at, float softness) {
     return map->as_printed ? (dp_threshold){0, 1} : (dp_threshold){at, 1 / softness};
 }

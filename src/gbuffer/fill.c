@@ -1,16 +1,22 @@
-/* The first pass: what the samples of a tile hold becomes one surface per pixel.
+/* Fills the G-buffer: a tile's samples become one surface per pixel (Nienhaus and Döllner 2003,
+ * 4.1.1, which has one sample per pixel).
  *
- * A pixel's samples that lie on one surface (near each other in depth, or on one plane) are taken
- * together; the greatest such part is the pixel's surface, the nearer one of two halves. How great
- * it is (`share`) and how far away the rest lies (`other`) is kept, so that colours can be put
- * together again later: this is what multisampling resolves, at the price of one shading per pixel.
+ *     for each row:      pick       each pixel: the polygon it shows, or that it is mixed
+ *         mixed pixels   put_part   the largest part of the samples that lie on one surface (near
+ *                                     in depth, or on one plane); the nearer of two halves
+ *     one row later:     touch      prefetch corner normals
+ *     two rows later:    collect    planes, weights, interpolated normals
+ *         odd pixels     collect_odd
+ *                        finish     distance at the pixel's centre, unit normals -> planes
+ *                        share      mixed pixels: share of the surface, distance of the rest, so
+ *                                     that colours can be mixed later
  *
- * The normal is interpolated, right in perspective, at a sample that the polygon covers; the
- * distance is that of the polygon's plane at the pixel's centre, so that neighbours differ as the
- * surface does and not as their samples' places do. What the polygons give is first collected for a
- * row; turning, facing and normalizing then run over the whole row. The loops that nearly all
- * pixels go through are in fill.inc; here is what conducts them, and the general way: pixels of
- * several surfaces, polygons that were clipped or have more than three corners. */
+ * That is multisampling at one shading per pixel. The normal is interpolated (in perspective) at a
+ * sample that the polygon covers. The distance is the plane's at the pixel's centre, so that
+ * neighbours differ as the surface does, not as their samples' places do.
+ *
+ * Most pixels go through the kernels (fill.inc). Here: mixed pixels, and odd ones, whose polygon
+ * was clipped or has more than three corners. */
 #include "core/piece.h"
 #include "gbuffer/fill.h"
 
@@ -19,7 +25,7 @@
 /* What a pixel shows. */
 typedef struct picked {
     uint32_t polygon; /* of the tile */
-    float x, y, d;    /* where it is sampled */
+    float x, y, d;    /* where it is sampled, tile space */
     uint8_t share;
     float other; /* depth of the rest; DP_DEPTH_EMPTY: paper */
 } picked;
@@ -28,7 +34,7 @@ static float step_at(const dp_fill *f, float d) {
     return f->g->perspective ? f->step * d : f->step;
 }
 
-/* Which of the samples lie on the surface that sample `s` shows, as a set. */
+/* The set of samples that lie on the surface of sample `s`. */
 static uint32_t samples_with(const dp_fill *f, size_t lane, uint32_t s, float px, float py) {
     const dp_tile *const w = f->w;
     const uint32_t n = w->frame->target.samples, *const winner = w->winner + lane;
@@ -45,7 +51,7 @@ static uint32_t samples_with(const dp_fill *f, size_t lane, uint32_t s, float px
     return set;
 }
 
-/* The pixel holds more than one polygon, or not only polygons. */
+/* Picks the surface of a mixed pixel: that of the larger of its first two parts. */
 static void pick_part(const dp_fill *f, size_t lane, float px, float py, picked *out) {
     const dp_tile *const w = f->w;
     const uint32_t n = w->frame->target.samples, *const winner = w->winner + lane;
@@ -73,7 +79,7 @@ static void pick_part(const dp_fill *f, size_t lane, float px, float py, picked 
         out->other = w->depth[lane + (uint32_t)__builtin_ctz(left)];
 }
 
-/* A pixel that holds more than one polygon, or not only polygons. */
+/* Puts a mixed pixel into the row. */
 static void put_part(const dp_fill *f, uint32_t x, dp_fill_row *r) {
     picked p;
     pick_part(f, dp_pixel_lane(&f->w->sampling, x, r->y), (float)x, (float)r->y, &p);
@@ -82,7 +88,7 @@ static void put_part(const dp_fill *f, uint32_t x, dp_fill_row *r) {
     r->share[x] = p.share, r->other[x] = p.other;
 }
 
-/* Any number of samples: pixels whose samples all show one polygon, and others. */
+/* As the kernel `pick`, for any number of samples. */
 static void pick_row(const dp_fill *f, dp_fill_row *r) {
     const dp_tile *const w = f->w;
     const uint32_t n = w->frame->target.samples;
@@ -109,9 +115,8 @@ static float cross2(dp_vertex a, dp_vertex b, float x, float y) {
     return (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x);
 }
 
-/* Of the triangles (0, i - 1, i) of the polygon's fan the one that holds the point, or comes
- * nearest to it. Areas on the screen times depth are weights in space (perspective), but for a
- * common factor. */
+/* Weights in the triangle (0, i - 1, i) of the polygon's fan that holds the point, or is nearest:
+ * areas on the screen, in perspective times depth; up to a common factor. */
 static void screen_weights(const dp_tile *w, const dp_tile_polygon *p, float x, float y,
                            weights *out) {
     const dp_vertex *const at = w->points + p->point;
@@ -132,7 +137,7 @@ static void screen_weights(const dp_tile *w, const dp_tile_polygon *p, float x, 
     }
 }
 
-/* The same in space, for a polygon whose points are not its corners any more. */
+/* The same in space, for a clipped polygon, whose points are not its corners. */
 static void space_weights(const dp_tile *w, const dp_tile_polygon *p, float x, float y, float d,
                           weights *out) {
     const dp_polygons *const polygons = &w->frame->polygons;
@@ -159,7 +164,7 @@ static void space_weights(const dp_tile *w, const dp_tile_polygon *p, float x, f
     }
 }
 
-/* The weighted sum of the corners' normals; 0 where there are none. */
+/* The weighted sum of the corners' normals; 0 if there are none. */
 static void sum_normals(const dp_fill *f, const weights *at, float sign, float out[3]) {
     const dp_polygons *const polygons = &f->w->frame->polygons;
     const int16_t *n[3];
@@ -185,7 +190,7 @@ static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
     if (sum > 0) f->g->u[pixel] = uv[0] / sum, f->g->v[pixel] = uv[1] / sum;
 }
 
-/* A pixel whose polygon's points are not its three corners. */
+/* `collect` for a pixel whose polygon's points are not its three corners. */
 static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row *r) {
     const dp_tile *const w = f->w;
     const dp_tile_polygon *const p = &w->polygons[r->polygon[x]];
@@ -216,7 +221,7 @@ static uint16_t id_of(const dp_polygons *polygons, uint32_t polygon) {
     return group < UINT16_MAX ? (uint16_t)(1 + group) : UINT16_MAX;
 }
 
-/* Groups, and which polygons those are. */
+/* Writes groups, and polygons if asked for. */
 static void put_ids(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_t n, size_t pixel) {
     const dp_polygons *const polygons = &f->w->frame->polygons;
     const dp_gbuffer *const g = f->g;
@@ -233,8 +238,8 @@ static void put_ids(const dp_fill *f, const dp_fill_row *r, uint32_t x0, uint32_
     }
 }
 
-/* Pixels that surfaces share: how much is whose, what lies beside, and which are partial pixels. After
- * finishing. */
+/* After `finish`: writes a mixed pixel's share and the distance of the rest. If most of it is
+ * paper, it becomes a partial pixel. */
 static void share_pixel(const dp_fill *f, float other, uint8_t share, size_t pixel) {
     dp_gbuffer *const g = f->g;
     const bool paper = other <= DP_DEPTH_EMPTY;
@@ -261,7 +266,7 @@ static size_t row_place(const dp_fill *f, uint32_t y) {
     return (size_t)(f->w->tile_y + y) * f->g->stride + f->w->tile_x;
 }
 
-/* What each pixel of row y shows; background where that is nothing. */
+/* Finds what each pixel of row y shows; writes background where that is nothing. */
 static void begin_row(const dp_fill *f, uint32_t y, uint32_t width, dp_fill_row *r) {
     const size_t row = row_place(f, y);
     r->y = y, r->x0 = r->x1 = 0;
@@ -284,7 +289,7 @@ static void begin_row(const dp_fill *f, uint32_t y, uint32_t width, dp_fill_row 
     f->g->fillers->find(f, r);
 }
 
-/* Which pixels something else has a share in. */
+/* Writes the mixed pixels' shares; returns the pixels that are shared. */
 static uint64_t share_pixels(const dp_fill *f, const dp_fill_row *r, size_t row) {
     uint64_t shared = 0;
     for (uint64_t bits = r->mixed & r->mask; bits; bits &= bits - 1) {
@@ -312,12 +317,12 @@ static void end_row(const dp_fill *f, dp_fill_row *r) {
     if (g->textured) put_texcoords(f, r, row);
 }
 
-/* Rows are begun two rows ahead: of each first its polygons, then their corners, then the normals
- * come out of memory, and nearly all the time would go into waiting. */
+/* Rows are begun two rows ahead: polygons, corners and normals come from memory, one after the
+ * other, and waiting for them would take most of the time. */
 static void fill_rows(const dp_fill *f, uint32_t width, uint32_t height) {
     enum { AHEAD = 2, KEPT = AHEAD + 1 };
     dp_fill_row rows[KEPT];
-    memset(rows, 0, sizeof rows); /* lanes that are not looked at are numbers all the same */
+    memset(rows, 0, sizeof rows); /* unused lanes must be numbers too */
     for (uint32_t y = 0; y < height + AHEAD; y++) {
         if (y < height) begin_row(f, y, width, &rows[y % KEPT]);
         if (y > 0 && y <= height && !f->facets) f->g->fillers->touch(f, &rows[(y - 1) % KEPT]);
@@ -338,8 +343,8 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *w, dp_normals normals) {
                        .step = (float)(1 / w->frame->view.focal)};
     memset(mask, 0, DP_TILE * sizeof *mask);
     memset(g->shared + (size_t)w->index * DP_TILE, 0, DP_TILE * sizeof *mask);
-    if (empty && g->clean[w->index]) return; /* it still holds background */
+    if (empty && g->clean[w->index]) return; /* background is written already */
     if (!empty) fill_rows(&f, width, height);
     for (uint32_t y = 0; empty && y < height; y++) fill_background(g, row_place(&f, y), width);
-    g->clean[w->index] = empty; /* the margin beside it is not yet */
+    g->clean[w->index] = empty; /* 1: the margin beside it is not written yet */
 }

@@ -1,7 +1,7 @@
 /* The G-buffer's planes: memory, background, margin, the range of distances.
  *
- * All planes lie in one block, each (tiles' width + 2 margins) x (height + 2 margins), rows padded
- * to 16 floats: tiles are filled in whole vectors. */
+ * All planes lie in one block, each (tiles' width + 2 margins) x (height + 2 margins). Rows are
+ * padded to 16 floats, as tiles are filled in whole vectors. */
 #include "gbuffer/gbuffer.h"
 
 #include "gbuffer/detect.h"
@@ -38,7 +38,7 @@ static void place_planes(dp_gbuffer *g, size_t plane) {
     g->share = (uint8_t *)(ids + plane) + origin;
 }
 
-/* Where rays go, from the view's rows: camera space is its view matrix without scale. */
+/* Takes rays and rotation from the view; camera space is that of its view matrix, without scale. */
 static void take_camera(dp_gbuffer *g, const dp_frame *frame) {
     const dp_view *const view = &frame->view;
     const double w = 1, d = view->perspective ? 1 / w : -w; /* at distance 1 */
@@ -73,7 +73,7 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     const size_t plane = g->stride * ((size_t)height + 2 * DP_GBUFFER_MARGIN);
     const size_t tiles = (size_t)g->tiles_x * g->tiles_y;
     if (!reserve(g, frame, plane, tiles)) {
-        g->width = 0; /* nothing is right any more */
+        g->width = 0; /* the planes are not valid any more */
         return false;
     }
     place_planes(g, plane);
@@ -82,8 +82,8 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
     return true;
 }
 
-/* Repeats the border of one tile in one plane: its rows to the left and right, then what these rows
- * have become above and below. Tiles inside have none. */
+/* Repeats the picture's border beside one tile of one plane: its rows to the left and right, then
+ * the rows so extended above and below. */
 static void pad_tile(const dp_gbuffer *g, uint32_t tile, void *plane_at, size_t size) {
     const uint32_t tx = tile % g->tiles_x, ty = tile / g->tiles_x;
     const bool left = tx == 0, right = tx == g->tiles_x - 1, top = ty == 0,
@@ -128,7 +128,7 @@ typedef struct range {
 
 static void extend(range *r, const dp_frame *frame, uint32_t vertex) {
     const dp_vertex v = frame->vertices[vertex];
-    if (v.x != v.x) return; /* to be clipped, or not finite */
+    if (v.x != v.x) return; /* NaN: to be clipped, or not finite */
     const float z = (float)dp_distance(&frame->view, v.d);
     r->least = dp_minf(z, r->least), r->most = dp_maxf(z, r->most);
 }

@@ -1,9 +1,8 @@
-/* The G-buffer as the paper keeps it: RGB normals and alpha distance of 8 bits each, expanded
- * again. Shows what 8 bits do to edges; near and far fit the enhanced groups as closely as they
- * can. */
+/* The G-buffer in 8 bits per channel, as the paper's texture stores it: RGB normals, alpha distance
+ * between near and far (Nienhaus and Döllner 2003, 4.1.1). Shows what 8 bits do to edges. */
 #include "gbuffer/gbuffer.h"
 
-/* To one of 256 steps of [0, 1]. */
+/* Rounds to 256 steps of [0, 1]. */
 static inline float to_steps(float v) {
     const float clamped = dp_minf(dp_maxf(v, 0), 1);
     return (float)(int32_t)(clamped * 255 + 0.5f) * (1 / 255.0f);
