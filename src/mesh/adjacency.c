@@ -1,15 +1,21 @@
-/* Adjacency: for every edge of every polygon, the edge of the other polygon that it is.
+/* Adjacency: for every edge of every polygon, the edge of the other polygon that coincides with it.
  *
- * Vertices are named by position (the first vertex there stands for all), so that index buffers,
- * split vertices and bare soups give the same adjacency. Edges are then sorted by the lower of
- * their two vertices, with one counting sort, and matched within each vertex's bucket: linear in
- * the number of edges, and in parallel, since both sides of an edge lie in one bucket.
+ *     weld          stands_for[v] = the first vertex at v's position, so that index buffers, split
+ *                     vertices and soups give the same adjacency
+ *     fill_buckets  counting sort: each corner into the bucket of its edge's lower vertex
+ *     match         each bucket, in parallel: sort by higher vertex; for each run of one edge
+ *                     1 corner     open
+ *                     2 corners    pair, flipped if both run the edge the same way
+ *                     more: a fan  sort by angle about the edge; pair neighbours whose fronts face
+ *                                    each other (they bound one wedge of the outside), again and
+ *                                    again; pair the others as they come
+ *     note_odd      polygons with an open or flipped edge, for who looks at them separately
+ *     note_fans     corners of fans
  *
- * Invariant: across[across[c]] == c, flipped or not. Two polygons at an edge are each other's
- * neighbours, however wound. Of more than two, those are neighbours that bound one wedge of the
- * outside, found by going round the edge: fronts that look at each other. What is left over is
- * paired as it comes, or stays open. Not handled: neighbours that share no corner (T-junctions);
- * their edges are open. */
+ * Linear in the number of edges. Invariant: across[across[c]] == c, flipped or not.
+ *
+ * Not handled: neighbours that share no corner (T-junctions); their edges are open. Beyond
+ * LARGEST_FAN polygons at an edge, the others are open. */
 #include "mesh/adjacency.h"
 
 #include "base/elementary.h"
@@ -34,7 +40,7 @@ typedef struct builder {
     const dp_polygons *polygons;
     uint32_t *stands_for; /* [vertices] the first vertex at its position */
     uint32_t *first;      /* [vertices + 1] bucket of a lower vertex */
-    uint32_t *bucket;     /* corners, sorted by lower vertex, then as they come */
+    uint32_t *bucket;     /* corners by lower vertex; within it in order, until matched */
 } builder;
 
 void dp_adjacency_free(dp_adjacency *a, const dp_allocator *memory) {
@@ -53,7 +59,7 @@ uint64_t dp_adjacency_bytes(const dp_adjacency *a) {
            a->fan_corners_cap * sizeof *a->fan_corners;
 }
 
-/* ------- what was built from ------- */
+/* ------- is it still valid? ------- */
 
 static uint32_t corner_total(const dp_polygons *p) {
     return p->firsts ? p->firsts[p->count] : 3 * p->count;
@@ -130,8 +136,7 @@ static void name_polygons(builder *b) {
         for (uint32_t c = p->firsts[i]; c < p->firsts[i + 1]; c++) b->out->polygon_of[c] = i;
 }
 
-/* Counts per lower vertex, then places: a counting sort. Corners without an edge are set to
- * DP_ACROSS_NONE. */
+/* Counting sort by lower vertex. Corners without an edge become DP_ACROSS_NONE. */
 static void fill_buckets(builder *b) {
     const dp_polygons *const p = b->polygons;
     memset(b->first, 0, ((size_t)p->vertex_count + 1) * sizeof *b->first);
@@ -152,9 +157,8 @@ static void fill_buckets(builder *b) {
         uint32_t sum = 0, last = 0;
         for (uint32_t v = 0; v <= p->vertex_count; v++) {
             const uint32_t count = b->first[v];
-            b->first[v] = placing
-                              ? last
-                              : sum; /* placing moved each start to its end, the next one's start */
+            /* placing has moved each start to its end, which is the next one's start */
+            b->first[v] = placing ? last : sum;
             sum += count, last = count;
         }
     }
@@ -172,15 +176,14 @@ static void pair(const builder *b, uint32_t c, uint32_t d) {
 typedef struct incident_face {
     double angle; /* about the edge, from lower to higher vertex */
     uint32_t corner;
-    bool
-        forward; /* it runs the edge from lower to higher: its front looks towards growing angles */
+    bool forward; /* runs the edge from lower to higher: its front faces growing angles */
 } incident_face;
 
 static int by_angle(const void *left, const void *right) {
     const incident_face *const l = left, *const r = right;
     if (l->angle != r->angle) return l->angle < r->angle ? -1 : 1;
     if (l->forward != r->forward)
-        return l->forward ? 1 : -1; /* two sides of a sheet: the inside lies between them */
+        return l->forward ? 1 : -1; /* two sides of a sheet, with the inside between them */
     return (l->corner > r->corner) - (l->corner < r->corner);
 }
 
@@ -199,8 +202,8 @@ static incident_face make_incident_face(const builder *b, uint32_t corner, dp_ve
     return (incident_face){dp_atan2(dp_dot(w, y), dp_dot(w, x)), corner, e.from == lower(e)};
 }
 
-/* Takes pairs of neighbours in the circle that look at each other out of it, until there are
- * none. */
+/* Pairs neighbours in the circle whose fronts face each other, and takes them out, until there are
+ * none; returns how many are left. */
 static uint32_t pair_wedges(const builder *b, incident_face *faces, uint32_t n) {
     for (bool found = true; found && n > 1;) {
         found = false;
@@ -220,7 +223,7 @@ static uint32_t pair_wedges(const builder *b, incident_face *faces, uint32_t n) 
 
 static void match_fan(const builder *b, const uint32_t *corners, uint32_t n) {
     incident_face faces[LARGEST_FAN];
-    if (n > LARGEST_FAN) n = LARGEST_FAN; /* the rest stays open */
+    if (n > LARGEST_FAN) n = LARGEST_FAN; /* the others stay open */
     const edge e = edge_at(b, corners[0]);
     const dp_vec3 from = position(b, lower(e)), d = dp_unit(dp_sub(position(b, higher(e)), from));
     const dp_vec3 axis = fabs(d.x) < 0.6 ? dp_v3(1, 0, 0) : dp_v3(0, 1, 0);
@@ -231,7 +234,7 @@ static void match_fan(const builder *b, const uint32_t *corners, uint32_t n) {
     for (uint32_t i = 0; i + 1 < left; i += 2) pair(b, faces[i].corner, faces[i + 1].corner);
 }
 
-/* An entry of a bucket with what it is sorted by. */
+/* An entry of a bucket with its key. */
 typedef struct entry {
     uint32_t higher, corner;
 } entry;
@@ -249,7 +252,7 @@ static void match_run(const builder *b, const uint32_t *corners, uint32_t n) {
         match_fan(b, corners, n);
 }
 
-/* Sorts a bucket in place: by insertion, which suits a vertex's few edges. */
+/* Sorts a bucket by insertion, which is fast for the few edges of most vertices. */
 static void sort_small(const builder *b, uint32_t *corners, uint32_t n) {
     for (uint32_t i = 1; i < n; i++) {
         const uint32_t corner = corners[i], key = higher(edge_at(b, corner));
@@ -259,7 +262,7 @@ static void sort_small(const builder *b, uint32_t *corners, uint32_t n) {
     }
 }
 
-/* The same for a vertex of very many edges; `entries` is as large as the bucket. */
+/* The same for a vertex with many edges; `entries` has room for the bucket. */
 static void sort_large(const builder *b, uint32_t *corners, uint32_t n, entry *entries) {
     for (uint32_t i = 0; i < n; i++)
         entries[i] = (entry){higher(edge_at(b, corners[i])), corners[i]};
@@ -338,7 +341,7 @@ static bool note_fan(const builder *b, const uint32_t *corners, uint32_t n,
     return true;
 }
 
-/* Runs of more than two in the buckets, which matching has sorted. */
+/* Notes runs of more than two in the buckets, which matching has sorted. */
 static bool note_fans(const builder *b, const dp_allocator *memory) {
     b->out->fan_count = 0;
     for (uint32_t v = 0; v < b->polygons->vertex_count; v++) {
@@ -359,7 +362,7 @@ const dp_fan_corner *dp_fan_at(const dp_adjacency *a, uint32_t corner) {
     return a->fan_count ? bsearch(&key, a->fan_corners, a->fan_count, sizeof key, by_corner) : NULL;
 }
 
-/* Polygons with an edge that is open, or whose neighbour is wound the other way. */
+/* Notes polygons with an edge that is open or whose neighbour is wound the other way. */
 static void note_odd(const builder *b) {
     for (uint32_t i = 0; i < b->polygons->count; i++) {
         const uint32_t first = dp_first_corner(b->polygons, i), n = dp_corner_count(b->polygons, i);

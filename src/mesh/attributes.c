@@ -1,4 +1,4 @@
-/* Attributes of several batches: values one behind the other, and an index for every corner. */
+/* Attributes of several batches: all values in a row, and an index for every corner. */
 #include "mesh/attributes.h"
 
 #include <string.h>

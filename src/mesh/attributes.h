@@ -1,32 +1,31 @@
-/* Normals and texture coordinates of corners, while the polygons of several batches are put
- * together. */
+/* Normals and texture coordinates of corners, gathered from several batches. */
 #ifndef DP_MESH_ATTRIBUTES_H
 #define DP_MESH_ATTRIBUTES_H
 
 #include "base/memory.h"
 #include <drypoint/source.h>
 
-/* One attribute of all batches so far. Zero is empty. Invariant: while `used`, every corner that
- * was added has an index, UINT32_MAX where its batch had no value for it. */
+/* One attribute of all batches so far. Zero is empty. Invariant: if `used`, every corner added has
+ * an index; UINT32_MAX where its batch had no value for it. */
 typedef struct dp_attribute_store {
     float *values;
-    uint32_t *indices; /* per corner */
+    uint32_t *indices; /* [corners] */
     size_t values_cap, indices_cap, count;
-    bool used; /* a batch had some */
+    bool used; /* some batch had values */
 } dp_attribute_store;
 
 void dp_attribute_store_free(dp_attribute_store *store, const dp_allocator *memory);
 
-/* Takes a batch's values, `width` floats each; `corners` were added before. False when memory is
- * out. */
+/* Copies a batch's values, `width` floats each; `corners` have been added before. False when memory
+ * is out. */
 bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from, size_t width,
                              size_t corners, const dp_allocator *memory);
 
-/* Room for `corners` in all. */
+/* Makes room for `corners` in all. False when memory is out. */
 bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners,
                                   const dp_allocator *memory);
 
-/* The store as an attribute of the corners added. */
+/* The attribute of all corners added; borrowed. */
 dp_attribute dp_attribute_of_store(const dp_attribute_store *store, size_t width);
 
 /* The number of a corner's value, UINT32_MAX for none. */
@@ -40,7 +39,7 @@ static inline const float *dp_attribute_value(const dp_attribute *a, uint32_t nu
     return (const float *)(const void *)((const char *)a->values + (size_t)number * a->stride);
 }
 
-/* Adds corner number `to`: corner `corner` of the batch whose values were added last. */
+/* Sets corner `to`, which is corner `corner` of the batch whose values were added last. */
 static inline void dp_attribute_add_corner(dp_attribute_store *store, const dp_attribute *from,
                                            size_t corner, uint32_t vertex, size_t to) {
     if (!store->used) return;

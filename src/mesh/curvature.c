@@ -1,20 +1,22 @@
 /* Curvature: S. Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes",
  * 3DPVT 2004.
  *
- * On each triangle the second fundamental form is what explains best, by least squares, how the
- * corners' normals differ along its three edges. A vertex's form is the mean of those of its
- * triangles, each turned into the vertex's tangent plane and weighed by the part of its area that
- * is nearest to the vertex (Voronoi areas; Meyer et al. 2003). Its eigenvectors are the principal
- * directions. Corner normals are weighed as of a sphere (Max 1999): on a sphere they are exact.
+ *     find_forms      vertex normals, weighed as on a sphere (Max 1999): exact there
+ *                     each triangle: its second fundamental form, by least squares from how its
+ *                       corners' normals differ along its three edges
+ *                     each vertex:   the mean of its triangles' forms, turned into its tangent
+ *                       plane, weighed by Voronoi areas (Meyer et al. 2003)
+ *     curvature_at    eigenvectors: the principal directions; "least" is by absolute value, so
+ *                       that a pencil goes along a cylinder, seen from inside or outside
+ *     begin_vertex    Q = confidence (d d' - e e') + STEADY (f f' - g g')
+ *                       d: direction of least curvature, e across it; f: fixed, g across it
+ *     spread_vertex   Q = (Q + mean of neighbours' Q) / 2, in the tangent plane, n times
+ *     end_vertex      the direction of Q
  *
- * Directions for drawing. "Least" is by absolute value: a pencil goes along a cylinder, seen from
- * inside or outside. Where both curvatures are equal or opposite, or nearly zero, the direction is
- * noise. So each vertex has a tensor Q = confidence (d d' - e e')         d: least direction, e:
- * across it, in the tangent plane which is blind to the sign of d, and the confidence vanishes
- * there. Tensors are averaged with their neighbours' again and again, so that what is certain
- * spreads into what is not; a tiny tensor along a fixed direction (level lines, or what is nearest
- * to them) decides where nothing is certain at all. All of it lies on the mesh, not on the screen:
- * as the camera moves, nothing flickers. */
+ * Where the curvatures are equal, opposite or nearly 0, the direction is noise and its confidence
+ * is 0. Spreading carries certain directions into uncertain regions. Q does not depend on the sign
+ * of d. The fixed direction (level lines, or what is nearest to them) decides where nothing is
+ * certain. All this is on the mesh, not on the screen: nothing flickers as the camera moves. */
 #include "mesh/curvature.h"
 
 #include "base/elementary.h"
@@ -27,16 +29,15 @@
 #include <time.h>
 
 enum { LEAST_SPREADS = 8, MOST_SPREADS = 48 };
-static const double UNBENT =
-    0.15; /* curvature times the model's size below which a direction is uncertain */
+static const double UNBENT = 0.15; /* curvature times model size: below, a direction is uncertain */
 static const double STEADY = 0.02; /* weight of the fixed direction */
 
 typedef struct curvature_job {
     const dp_polygons *polygons;
-    const uint32_t *first; /* [vertices] who stands for a vertex */
+    const uint32_t *first; /* [vertices] the first vertex at the same position */
     float (*normal)[3];    /* [vertices] unit */
-    float *area;           /* [vertices] */
-    float (*form)[3];      /* [vertices] a, b, c in the vertex's frame */
+    float *area;           /* [vertices] sum of weights */
+    float (*form)[3];      /* [vertices] second fundamental form a, b, c in the vertex's frame */
 } curvature_job;
 
 static dp_vec3 at(const curvature_job *b, uint32_t vertex) {
@@ -50,21 +51,21 @@ static void add_to(float out[3], dp_vec3 v) {
     out[0] += (float)v.x, out[1] += (float)v.y, out[2] += (float)v.z;
 }
 
-/* The tangent frame of a normal: any, but always the same. */
+/* A tangent frame of a normal, always the same one. */
 static void frame_of(dp_vec3 n, dp_vec3 *u, dp_vec3 *v) {
     const dp_vec3 axis = fabs(n.x) < 0.6 ? dp_v3(1, 0, 0) : dp_v3(0, 1, 0);
     *u = dp_unit(dp_cross(axis, n));
     *v = dp_cross(n, *u);
 }
 
-/* A triangle of a polygon's fan, by who stands for its vertices; false where it has no area or is
- * broken. */
+/* A triangle of a polygon's fan. */
 typedef struct triangle {
-    uint32_t v[3];
+    uint32_t v[3];      /* first vertices at their positions */
     dp_vec3 p[3], e[3]; /* e[i] is opposite to corner i, from i + 1 to i + 2 */
-    dp_vec3 normal;     /* as long as twice the area */
+    dp_vec3 normal;     /* length: twice the area */
 } triangle;
 
+/* Fetches triangle (0, i - 1, i) of a polygon; false where it has no area or an index is bad. */
 static bool fetch(const curvature_job *b, uint32_t first, uint32_t i, triangle *t) {
     const uint32_t corners[3] = {first, first + i - 1, first + i};
     for (int k = 0; k < 3; k++) {
@@ -100,14 +101,13 @@ static void add_normals(curvature_job *b, const triangle *t) {
     }
 }
 
-/* The part of the triangle that is nearest to each corner; of an obtuse one as the midpoints of the
- * edges say. */
+/* Voronoi areas of the corners; of an obtuse triangle, cut off at its sides. */
 static void corner_areas(const triangle *t, double out[3]) {
     const double area = dp_length(t->normal) / 2;
     for (int k = 0; k < 3; k++) {
         const dp_vec3 p = t->e[(k + 1) % 3],
                       q = t->e[(k + 2) % 3]; /* q: k to k + 1; p: k + 2 to k */
-        if (dp_dot(p, q) < 0) continue;      /* the angle at k is at most a right one */
+        if (dp_dot(p, q) < 0) continue;      /* the angle at k is acute */
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         out[l] = -0.25 * dp_dot(q, q) * area / dp_dot(t->e[k], q);
         out[m] = -0.25 * dp_dot(p, p) * area / dp_dot(t->e[k], p);
@@ -125,7 +125,7 @@ static void corner_areas(const triangle *t, double out[3]) {
         out[k] = area * 0.5 * (weight[(k + 1) % 3] + weight[(k + 2) % 3]) / sum;
 }
 
-/* The form a, b, c in the triangle's plane: least squares over three edges. */
+/* The second fundamental form a, b, c in the triangle's plane, by least squares over its edges. */
 static bool triangle_form(const curvature_job *b, const triangle *t, dp_vec3 u, dp_vec3 v,
                           double out[3]) {
     double uu = 0, uv = 0, vv = 0, r[3] = {0, 0, 0};
@@ -136,9 +136,10 @@ static bool triangle_form(const curvature_job *b, const triangle *t, dp_vec3 u, 
         uu += x * x, uv += x * y, vv += y * y;
         r[0] += nx * x, r[1] += nx * y + ny * x, r[2] += ny * y;
     }
-    /* | uu  uv     0  | by Cramer's rule */
-    /* | uv  uu+vv  uv | */
-    /* | 0   uv     vv | */
+    /* By Cramer's rule:
+     *     | uu  uv     0  |   | a |   | r0 |
+     *     | uv  uu+vv  uv | * | b | = | r1 |
+     *     | 0   uv     vv |   | c |   | r2 | */
     const double mid = uu + vv, det = uu * (mid * vv - uv * uv) - uv * uv * vv;
     if (!(fabs(det) > 1e-300)) return false;
     out[0] = (r[0] * (mid * vv - uv * uv) - uv * (r[1] * vv - uv * r[2])) / det;
@@ -147,7 +148,7 @@ static bool triangle_form(const curvature_job *b, const triangle *t, dp_vec3 u, 
     return true;
 }
 
-/* A vector of the plane with normal `from`, turned with it to `to`. */
+/* Turns a vector of the plane with normal `from` into that with normal `to`. */
 static dp_vec3 turn(dp_vec3 x, dp_vec3 from, dp_vec3 to) {
     const double c = 1 + dp_dot(from, to);
     if (c < 1e-6) return x;
@@ -202,7 +203,7 @@ static void find_forms(curvature_job *b) {
     for_triangles(b, add_forms);
 }
 
-/* Eigenvalues and the direction of the one that is least by absolute value. */
+/* Principal curvatures, and the direction of the one least by absolute value. */
 static dp_curvature curvature_at(const curvature_job *b, uint32_t vertex) {
     dp_curvature out = {0, 0, {0, 0, 0}};
     if (!(b->area[vertex] > 0)) return out;
@@ -210,7 +211,7 @@ static dp_curvature curvature_at(const curvature_job *b, uint32_t vertex) {
     const double a = (double)b->form[vertex][0] * inverse, m = (double)b->form[vertex][1] * inverse,
                  c = (double)b->form[vertex][2] * inverse;
     const double mean = (a + c) / 2, half = dp_hypot((a - c) / 2, m);
-    const double angle = 0.5 * dp_atan2(2 * m, a - c); /* of the algebraically greatest */
+    const double angle = 0.5 * dp_atan2(2 * m, a - c); /* of the greater eigenvalue */
     const bool greatest = fabs(mean + half) <= fabs(mean - half);
     const double turned = greatest ? angle : angle + 1.5707963267948966;
     dp_vec3 u, v;
@@ -236,7 +237,7 @@ bool dp_curvatures(const dp_polygons *polygons, const dp_allocator *memory, dp_c
 
 /* ------- directions that can be drawn along ------- */
 
-/* Symmetric 3x3: xx, xy, xz, yy, yz, zz; and two zeros, for vectors of four. */
+/* Symmetric 3 x 3: xx, xy, xz, yy, yz, zz; two zeros make whole vectors of four. */
 typedef float tensor[8];
 
 static void add_tensor(tensor out, dp_vec3 d, double weight) {
@@ -251,7 +252,8 @@ static void add_cross(tensor out, dp_vec3 d, dp_vec3 e, double weight) {
     add_tensor(out, e, -weight);
 }
 
-/* The tensor seen in a tangent plane: (uu - vv) / 2 and uv, twice the direction's angle. */
+/* The tensor's part in a tangent plane: c = (uu - vv) / 2 and s = uv, which lie at twice the
+ * direction's angle. */
 static void in_plane(const tensor q, const float u[3], const float v[3], float *c, float *s) {
     const float ux = q[0] * u[0] + q[1] * u[1] + q[2] * u[2],
                 uy = q[1] * u[0] + q[3] * u[1] + q[4] * u[2];
@@ -263,7 +265,7 @@ static void in_plane(const tensor q, const float u[3], const float v[3], float *
     *s = v[0] * ux + v[1] * uy + v[2] * uz;
 }
 
-/* Level lines: across the model's height; where the surface lies level itself, along x. */
+/* Along level lines (y is height); along x where the surface is level. */
 static dp_vec3 steady_direction(dp_vec3 n) {
     const dp_vec3 level = dp_cross(dp_v3(0, 1, 0), n),
                   other = dp_sub(dp_v3(1, 0, 0), dp_scale(n, n.x));
@@ -277,23 +279,21 @@ static void make_tensor(const curvature_job *b, uint32_t v, double size, tensor 
     const double least = fabs((double)k.least), most = fabs((double)k.most);
     memset(q, 0, sizeof(tensor));
     if (!(dp_length(n) > 0)) return;
-    /* 0 where both are equal or opposite; and where there is hardly any */
+    /* 0 where both curvatures are equal or opposite; 0 where there is hardly any */
     const double contrast = most > 0 ? (most - least) / most : 0,
                  bent = most * size / (most * size + UNBENT);
     add_cross(q, d, e, contrast * bent);
     add_cross(q, f, dp_cross(n, f), STEADY);
 }
 
-/* Spreading: who is next to whom, as lists by vertex, and two sets of tensors that take turns.
- * Frames do not change: they are made once. */
+/* Spreading: neighbours as lists by vertex, and two sets of tensors that take turns. */
 typedef struct spreading {
     curvature_job *b;
-    uint32_t *start, *beside; /* the neighbours of v: beside[start[v]] to beside[start[v + 1]], as
-                                 often as they share triangles */
-    tensor *from, *to;
-    float (*across)[3]; /* [vertices] the frame's first axis, frame_of; the second is square to it
-                           and the normal */
-    const uint32_t *first; /* who stands for a vertex */
+    /* Neighbours of v: beside[start[v], start[v + 1]), each as often as it shares a triangle. */
+    uint32_t *start, *beside;
+    tensor *from, *to;     /* [vertices] */
+    float (*across)[3];    /* [vertices] first axis of the frame; the second: second_axis */
+    const uint32_t *first; /* as in curvature_job */
     double size;
     float (*out)[3];
 } spreading;
@@ -304,12 +304,12 @@ static uint64_t triangle_count(const dp_polygons *p) {
     return corners > 2 * (uint64_t)p->count ? corners - 2 * (uint64_t)p->count : 0;
 }
 
-/* Counts, then places: a counting sort by vertex. */
+/* Fills the lists of neighbours: a counting sort by vertex. */
 static void find_neighbours(const spreading *s) {
     const dp_polygons *const p = s->b->polygons;
     triangle t;
     memset(s->start, 0, ((size_t)p->vertex_count + 2) * sizeof *s->start);
-    uint32_t *const at = s->start + 1; /* one further, so that placing leaves starts behind */
+    uint32_t *const at = s->start + 1; /* shifted by one: placing moves it to the starts */
     for (int placing = 0; placing < 2; placing++) {
         for (uint32_t i = 0; i < p->count; i++) {
             const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
@@ -332,7 +332,7 @@ static void find_neighbours(const spreading *s) {
     }
 }
 
-/* c (u u' - v v') + s (u v' + v u') */
+/* The tensor c (u u' - v v') + s (u v' + v u'). */
 static void put_in_plane(tensor q, const float u[3], const float v[3], float c, float s) {
     q[0] = c * (u[0] * u[0] - v[0] * v[0]) + 2 * s * u[0] * v[0];
     q[1] = c * (u[0] * u[1] - v[0] * v[1]) + s * (u[0] * v[1] + v[0] * u[1]);
@@ -349,7 +349,7 @@ static void second_axis(const spreading *s, uint32_t v, float out[3]) {
     out[2] = n[0] * u[1] - n[1] * u[0];
 }
 
-/* The mean of a vertex's own tensor and its neighbours', back in its tangent plane. */
+/* The mean of a vertex's tensor and that of its neighbours, in its tangent plane. */
 static void spread_vertex(const spreading *s, uint32_t v) {
     const uint32_t first = s->start[v], last = s->start[v + 1];
     if (first == last) {
@@ -411,7 +411,7 @@ static void spread_once(spreading *s, dp_threads *threads) {
     s->from = s->to, s->to = swap;
 }
 
-/* The finer the mesh, the more steps the same way takes. */
+/* The same distance takes more steps on a finer mesh. */
 static int spreads_for(uint32_t vertices) {
     const int n = LEAST_SPREADS + (int)(sqrt((double)vertices) / 12);
     return n < MOST_SPREADS ? n : MOST_SPREADS;
@@ -469,7 +469,7 @@ void dp_curvature_store_free(dp_curvature_store *store, const dp_allocator *memo
     *store = (dp_curvature_store){0};
 }
 
-/* ------- made once ------- */
+/* ------- computed once ------- */
 
 static double now_ms(void) {
     struct timespec t;

@@ -1,8 +1,8 @@
-/* The extent of a source whose triangles lie as records: every corner read once, in threads.
+/* The extent of a source with records: every corner is read once, in parallel.
  *
- * Records are cut into blocks, a block is one task, and a worker keeps the box of what it has seen.
- * Which worker saw what does not matter to the sum. A triangle with a coordinate that is not finite
- * is counted and left out. */
+ * Records are cut into blocks, one task each; each worker keeps the box of what it has read, so the
+ * sum does not depend on which worker read what. A triangle with a coordinate that is not finite is
+ * counted and left out. */
 #include "mesh/source.h"
 
 #include "base/diag.h"
@@ -14,10 +14,10 @@
 
 enum {
     BLOCK = DP_TUNED(4096, 3),
-    PART = DP_TUNED(1024, 5) /* blocks between reports of progress */
+    PART = DP_TUNED(1024, 5) /* blocks between two reports of progress */
 };
 
-/* One worker's sum; larger than two cache lines, so that workers do not share them. */
+/* One worker's sum. Larger than two cache lines, so that workers share none. */
 typedef struct seen {
     float min[3];
     float max[3];
@@ -53,7 +53,7 @@ typedef int32_t i4 __attribute__((vector_size(16)));
 
 static f4 choose(i4 mask, f4 a, f4 b) { return (f4)((mask & (i4)a) | (~mask & (i4)b)); }
 
-/* All of a block at once, as long as all are finite; false: s is as it was. */
+/* Looks at a whole block of finite triangles; false if any is not finite, and s is unchanged. */
 static bool look_at_finite(seen *s, const uint8_t *records, uint32_t count, size_t stride) {
     enum { WORD = sizeof(float), STARTS = 3 };
     static const size_t from[STARTS] = {

@@ -1,5 +1,5 @@
-/* Fingerprints: blocks are hashed in parallel, four sums side by side, and their hashes one after
- * the other. */
+/* Fingerprints: blocks are hashed in parallel, four sums side by side, then their hashes in order.
+ * */
 #include "mesh/fingerprint.h"
 
 #include "base/hostile.h"
@@ -22,7 +22,7 @@ static uint64_t mix(uint64_t h) {
     return h ^ h >> 32;
 }
 
-/* So that the four multiplications overlap in the processor. */
+/* Four chains, so that their multiplications overlap in the processor. */
 static void hash_block(void *arg, uint32_t index, uint32_t worker) {
     const hashing *const h = arg;
     (void)worker;
@@ -60,7 +60,7 @@ bool dp_topology_fingerprint(const dp_polygons *p, dp_threads *threads, const dp
     return true;
 }
 
-/* Positions that do not lie next to each other are hashed one by one. */
+/* Positions that are not contiguous are hashed one by one. */
 static void add_positions(const dp_polygons *p, uint64_t *key) {
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         uint32_t bits[3];

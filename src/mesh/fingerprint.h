@@ -10,7 +10,7 @@
 bool dp_fingerprint(const uint32_t *words, size_t count, dp_threads *threads,
                     const dp_allocator *memory, uint64_t *key);
 
-/* Of corners and, where there are any, polygons' firsts. Never 0. */
+/* Fingerprint of corners and, if there are any, firsts. Never 0. False when memory is out. */
 bool dp_topology_fingerprint(const dp_polygons *polygons, dp_threads *threads,
                              const dp_allocator *memory, uint64_t *key);
 

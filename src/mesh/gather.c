@@ -1,8 +1,8 @@
-/* Reading a source into one set of convex polygons.
+/* Reads a source into one set of convex polygons.
  *
- * One stable batch of sound polygons is used where it lies: nothing is copied. Everything else is
- * appended to a store that the context keeps from frame to frame. A diagonal that splitting adds
- * has edge flag 0, so that it never draws. */
+ * One stable batch of sound polygons is used in place: nothing is copied. Everything else is
+ * appended to a store that the context keeps from frame to frame. Diagonals of split polygons have
+ * edge flag 0, so that they never draw. */
 #include "mesh/polygons.h"
 
 #include "base/diag.h"
@@ -47,8 +47,8 @@ static const float *batch_position(const dp_batch *batch, uint32_t vertex) {
                                          (size_t)vertex * batch->position_stride);
 }
 
-/* The corners' positions; false where an index is out of range or a coordinate is not finite
- * (binning will drop the polygon). */
+/* Finds the corners' positions; false if an index is out of range or a coordinate not finite
+ * (binning drops the polygon). */
 static bool locate(const dp_batch *batch, size_t first, size_t n, const float **at) {
     for (size_t i = 0; i < n; i++) {
         const uint32_t vertex = batch_vertex(batch, first + i);
@@ -66,7 +66,7 @@ static bool reserve_scratch(gatherer *g, size_t n) {
            dp_reserve(g->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
 }
 
-/* True when the pipe can take the polygons of a batch as they are. */
+/* Can the polygons of a batch be used as they are? */
 static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
     *result = DP_OK;
     if (batch->polygon_count > UINT32_MAX / 4 || !batch->firsts)
@@ -214,8 +214,8 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     return DP_OK;
 }
 
-/* Per vertex: position and place on the screen; per polygon: its number, group and place in
- * bins. */
+/* Memory of the store and of the stages after it. Per vertex: position, and vertex on the screen;
+ * per polygon: number, group, and entries in bins. */
 static bool is_beyond_limit(const dp_polygon_store *s) {
     enum { VERTEX = 28, CORNER = 5, POLYGON = 34 };
     return s->limit &&

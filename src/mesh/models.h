@@ -1,7 +1,7 @@
-/* Every generated model: a function that lays out its sheets for a given fineness.
+/* The builders of generated models: each adds a model's sheets for a given fineness.
  *
- * A builder gets a zeroed model with `fine` and `seed` set, adds sheets and sets extent and centre.
- * More triangles for a larger `fine`, from 1 on; y is up, z towards the viewer. */
+ * A builder gets a zeroed model with `fine` (>= 1) and `seed` set, adds sheets and sets extent and
+ * centre. The number of triangles grows with `fine`. y is up, z towards the viewer. */
 #ifndef DP_MESH_MODELS_H
 #define DP_MESH_MODELS_H
 

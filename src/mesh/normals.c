@@ -1,13 +1,13 @@
-/* Angle-weighted vertex normals with a crease angle, for any polygons.
+/* Angle-weighted vertex normals (Thürmer and Wüthrich 1998) with a crease angle, for any polygons.
  *
- * Vertices are joined by position (`place`), corners are listed by place (`around`), and then each
- * place stands alone: where all its polygons lie within the crease angle of each other its corners
- * share one normal, stored under the place's number; elsewhere every corner gets one of its own,
- * stored behind the places'. Everything but the hash table runs in parallel, over blocks, and
- * nothing depends on their order.
+ *     place[v]    the first vertex at v's position              hash table, one thread
+ *     around      corners, by place                             counting sort
+ *     each place, in parallel
+ *         all its polygons within the crease angle of each other -> one normal, numbered by place
+ *         otherwise -> one normal per corner, numbered after those of places
  *
- * A key of positions, corners and angle tells whether the normals of the last call still hold, so
- * that a still model pays for them once. */
+ * Nothing depends on the order of blocks. A key of positions, corners and angle tells whether the
+ * normals of the last call are still valid, so that a still model pays only once. */
 #include "mesh/normals.h"
 
 #include "base/elementary.h"
@@ -18,7 +18,7 @@
 
 enum {
     BLOCK = DP_TUNED(16384, 3),
-    CROWD = 512 /* polygons around a place beyond which creases are not looked for: quadratic */
+    MOST_AROUND = 512 /* polygons around a place: with more, creases are not sought (quadratic) */
 };
 
 static void free_scratch(dp_normal_store *s, const dp_allocator *memory) {
@@ -67,7 +67,7 @@ static uint64_t mix(uint64_t h, uint64_t v) {
 }
 
 static uint64_t hash_words(uint64_t h, const uint32_t *words, size_t count) {
-    uint64_t lanes[4] = {h, h + 1, h + 2, h + 3}; /* four chains at a time: multiplications wait */
+    uint64_t lanes[4] = {h, h + 1, h + 2, h + 3}; /* four chains: multiplications overlap */
     size_t i = 0;
     for (; i + 8 <= count; i += 8)
         for (size_t k = 0; k < 4; k++) {
@@ -124,7 +124,7 @@ static dp_vec3 position(const dp_polygons *p, uint32_t vertex) {
     return dp_v3f(dp_vertex_position(p, vertex));
 }
 
-/* Unit, by Newell's sum; zero where there is none. */
+/* Unit normal by Newell's sum; 0 if there is none. */
 static dp_vec3 facet_normal(const dp_polygons *p, uint32_t first, uint32_t n) {
     for (uint32_t i = 0; i < n; i++)
         if (dp_corner_vertex(p, first + i) >= p->vertex_count) return dp_v3(0, 0, 0);
@@ -175,7 +175,7 @@ static uint32_t position_hash(const uint32_t b[3]) {
     return (uint32_t)(h >> 32);
 }
 
-/* The first vertex at each position; -0 is 0. */
+/* Finds the first vertex at each position; -0 counts as 0. */
 static void find_places(const job *j, size_t slot_count) {
     const dp_polygons *const p = j->polygons;
     uint32_t *const slots = j->store->slots;
@@ -196,7 +196,7 @@ static void find_places(const job *j, size_t slot_count) {
     }
 }
 
-/* Corners by place: counted, then sorted in. Corners of polygons without a normal are left out. */
+/* Lists corners by place (a counting sort), except those of polygons without a normal. */
 static void list_corners(const job *j) {
     dp_normal_store *const s = j->store;
     const dp_polygons *const p = j->polygons;
@@ -224,8 +224,8 @@ static dp_vec3 mean_around(const dp_normal_store *s, uint32_t place) {
     return dp_unit(sum);
 }
 
-/* Do all polygons around the place lie within the crease angle of each other? A cone of half of it
- * around their mean proves it quickly; pairs decide where it does not. */
+/* Are all polygons around the place within the crease angle of each other? Quick proof: all are
+ * within half of it of their mean. Otherwise pairs decide. */
 static bool is_smooth(const job *j, uint32_t place) {
     const dp_normal_store *const s = j->store;
     const uint32_t first = s->starts[place], last = s->starts[place + 1];
@@ -235,7 +235,7 @@ static bool is_smooth(const job *j, uint32_t place) {
     for (uint32_t i = first; i < last && within; i++)
         within = dp_dot(mean, dp_v3f(s->facet[s->owner[s->around[i]]])) >= half;
     if (within) return true;
-    if (last - first > CROWD) return false;
+    if (last - first > MOST_AROUND) return false;
     for (uint32_t i = first; i < last; i++)
         for (uint32_t k = first; k < i; k++)
             if (dp_dot(dp_v3f(s->facet[s->owner[s->around[i]]]),
@@ -257,12 +257,12 @@ static void put(float to[3], dp_vec3 n) {
     to[0] = (float)n.x, to[1] = (float)n.y, to[2] = (float)n.z;
 }
 
-/* The mean of those around that lie within the crease angle of the corner's own polygon. */
+/* The mean normal of polygons within the crease angle of the corner's own. */
 static dp_vec3 creased(const job *j, uint32_t place, uint32_t corner) {
     const dp_normal_store *const s = j->store;
     const dp_vec3 own = dp_v3f(s->facet[s->owner[corner]]);
     const uint32_t first = s->starts[place], last = s->starts[place + 1];
-    if (last - first > CROWD) return own;
+    if (last - first > MOST_AROUND) return own;
     dp_vec3 sum = {0, 0, 0};
     for (uint32_t i = first; i < last; i++)
         if (dp_dot(own, dp_v3f(s->facet[s->owner[s->around[i]]])) >= (double)j->crease_cosine)
@@ -277,7 +277,7 @@ static void fill_places(void *arg, uint32_t index, uint32_t worker) {
     (void)worker;
     for (size_t v = (size_t)index * BLOCK; v < block_end(index, j->polygons->vertex_count); v++) {
         const uint32_t place = (uint32_t)v, first = s->starts[v], n = s->starts[v + 1] - first;
-        const uint32_t extra = s->extra[v]; /* first of its own normals, or UINT32_MAX */
+        const uint32_t extra = s->extra[v]; /* first of its corners' normals, or UINT32_MAX */
         put(s->values[v], extra == UINT32_MAX && n ? mean_around(s, place) : dp_v3(0, 0, 0));
         for (uint32_t i = 0; i < n; i++) {
             const uint32_t corner = s->around[first + i];
@@ -287,7 +287,7 @@ static void fill_places(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
-/* From counts to first numbers; the sum of both kinds. */
+/* Turns counts into first numbers; returns the number of normals of both kinds. */
 static size_t number_extra(const job *j) {
     size_t next = j->polygons->vertex_count;
     for (uint32_t v = 0; v < j->polygons->vertex_count; v++) {
@@ -353,7 +353,7 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
     if (key != store->key) {
         store->key = 0;
         const bool made = compute(&j, threads, memory);
-        free_scratch(store, memory); /* many times what is kept */
+        free_scratch(store, memory); /* many times as large as the result */
         if (!made) return false;
         store->key = key;
     }
@@ -382,7 +382,7 @@ static void pack_corners(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
-/* What all corners of a vertex agree on. */
+/* Packs the normal that all corners of a vertex share, or notes that they differ. */
 static void pack_vertices(const job *j) {
     enum { SHARED, DIFFER, UNKNOWN };
     const dp_polygons *const p = j->polygons;
@@ -422,7 +422,7 @@ static void hash_indices(void *arg, uint32_t index, uint32_t worker) {
         hash_words(index, (a->indices ? a->indices : j->polygons->corners) + first, last - first);
 }
 
-/* Of normals that a model brought. */
+/* The key of a model's own normals. */
 static uint64_t make_value_key(const job *j, dp_threads *threads) {
     const dp_attribute *const a = &j->polygons->normals;
     uint64_t h = mix(mix(a->count, j->corners), 77);
@@ -443,7 +443,7 @@ bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_thr
              .polygons = polygons,
              .corners = polygons->firsts ? polygons->firsts[polygons->count]
                                          : 3 * (size_t)polygons->count};
-    uint64_t key = store->key; /* of those that were made */
+    uint64_t key = store->key; /* of computed normals */
     if (store->count == 0 || a->values != store->values[0]) {
         j.hashes = dp_alloc_array(memory, blocks(j.corners > a->count ? j.corners : a->count),
                                   sizeof *j.hashes);

@@ -1,5 +1,4 @@
-/* Vertices by position: open addressing, at most half full; slots hold 1 + vertex. -0 and 0 are one
- * place. */
+/* Vertices by position. Open addressing, at most half full; slots hold 1 + vertex. -0 equals 0. */
 #include "mesh/places.h"
 
 #include <string.h>

@@ -1,10 +1,11 @@
-/* A source's mirror image, batch by batch, and a source with a quadrilateral behind it.
+/* A source's mirror image, batch by batch, and a source with a quadrilateral after it.
  *
- * A reflected batch has all of the batch's vertices, reflected, and behind them those where
- * polygons were cut; its corners name them, each polygon's in the opposite order. Polygons are
- * taken to be convex where they are cut. Invariant: arrays grow and stay for the next batch; every
- * corner has a vertex, a flag and, where the batch has them, numbers of its normal and texture
- * coordinate. A cut corner takes those of the corner that was kept. */
+ * A reflected batch has all vertices of the batch, reflected, and then those where polygons were
+ * cut; each polygon's corners are in reverse order. Polygons that are cut are taken to be convex.
+ *
+ * Invariant: every corner has a vertex, a flag and, if the batch has them, numbers of its normal
+ * and texture coordinate; a cut corner has those of the corner that was kept. Arrays stay for the
+ * next batch. */
 #include "mesh/reflect.h"
 
 #include "base/diag.h"
@@ -30,7 +31,7 @@ typedef struct reflection {
     size_t positions_cap, normals_cap, indices_cap, firsts_cap, normal_cap, texcoord_cap, flags_cap,
         groups_cap;
     size_t corners_cap, kept_cap;
-    size_t vertices, corner_count, polygons; /* of the batch that is made */
+    size_t vertices, corner_count, polygons; /* of the reflected batch */
 } reflection;
 
 static const float *position(const reflection *r, uint32_t vertex) {
@@ -63,7 +64,7 @@ static bool reserve_batch(reflection *r, const dp_batch *b) {
            RESERVE(r, groups, groups_cap, b->polygon_count + 1);
 }
 
-/* Room for one more polygon of up to n + 1 corners, two of them at new vertices. */
+/* Makes room for one more polygon of up to n + 1 corners, two of them at new vertices. */
 static bool reserve_polygon(reflection *r, size_t n) {
     const size_t corners = r->corner_count + n + 2;
     return dp_reserve(&r->memory, &r->positions, &r->positions_cap,
@@ -74,8 +75,8 @@ static bool reserve_polygon(reflection *r, size_t n) {
            RESERVE(r, corners, corners_cap, n) && RESERVE(r, kept, kept_cap, 2 * n + 2);
 }
 
-/* A vertex where the edge from a to b meets the plane; positions are reflected already, which
- * changes nothing there. */
+/* Adds the vertex where the edge from a to b meets the plane. Positions are reflected already,
+ * which does not move points of the plane. */
 static uint32_t cut(reflection *r, const corner *a, const corner *b) {
     const float *const p = position(r, a->vertex), *const q = position(r, b->vertex);
     const double t = a->side / (a->side - b->side);
@@ -84,7 +85,7 @@ static uint32_t cut(reflection *r, const corner *a, const corner *b) {
     return (uint32_t)r->vertices++;
 }
 
-/* Sutherland and Hodgman, one plane; the edge along it never draws. */
+/* Clips by the plane (Sutherland and Hodgman 1974); the edge along it never draws. */
 static size_t clip(reflection *r, size_t n) {
     size_t count = 0;
     for (size_t i = 0; i < n; i++) {
@@ -117,7 +118,7 @@ static void close_polygon(reflection *r, size_t n, uint16_t group) {
 static bool add_polygon(reflection *r, const dp_batch *b, size_t i) {
     const size_t first = b->firsts ? b->firsts[i] : 3 * i,
                  last = b->firsts ? b->firsts[i + 1] : 3 * i + 3, n = last - first;
-    size_t inside = 0, before = 0, wrong = 0; /* before: not only in the plane */
+    size_t inside = 0, before = 0, wrong = 0; /* before: on the near side, not only in the plane */
     if (!reserve_polygon(r, n)) return false;
     for (size_t c = first; c < last; c++) {
         const uint32_t v = b->indices ? b->indices[c] : (uint32_t)c;
@@ -163,7 +164,7 @@ static bool reflect_batch(reflection *r, const dp_batch *b) {
 static dp_result reflection_next(void *user, dp_batch *out, dp_diag *diag) {
     reflection *const r = user;
     dp_batch b;
-    do { /* a batch that lies wholly behind has no image, and an empty batch would be the end */
+    do { /* skip batches wholly behind the plane: an empty batch would be the end */
         const dp_result result = dp_source_next(r->source, &b, diag);
         if (result || !b.polygon_count) return result;
         if (!reflect_batch(r, &b))

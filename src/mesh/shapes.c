@@ -1,7 +1,7 @@
-/* Generated models by name: looks the name up, finds the fineness that comes nearest to the number
- * of triangles asked for, and hands the model to the sheet generator.
+/* Generated models by name: finds the builder, then by bisection the fineness that comes nearest to
+ * the number of triangles asked for, and makes a source of the sheets.
  *
- * Invariant: a builder's triangles grow with `fine`, so that a bisection finds the nearest. */
+ * Invariant: a builder's number of triangles grows with `fine`. */
 #include <drypoint/shapes.h>
 
 #include "base/diag.h"
@@ -38,7 +38,7 @@ const char *dp_shape_name(uint32_t index) { return index < ENTRIES ? entries[ind
 
 const char *dp_shape_about(uint32_t index) { return index < ENTRIES ? entries[index].about : NULL; }
 
-/* Letters to insert, remove or change to get from one name to the other; names are short. */
+/* Levenshtein distance of two names, which are short. */
 static uint32_t edit_distance(const char *a, const char *b) {
     enum { LONGEST = 32 };
     uint32_t row[LONGEST + 1];
@@ -80,7 +80,7 @@ static uint64_t build(dp_model *model, const entry *e, uint32_t fine, uint32_t s
     return dp_model_triangles(model);
 }
 
-/* Leaves the model built with the fineness that comes nearest. */
+/* Builds the model with the fineness that comes nearest. */
 static void build_nearest(dp_model *model, const entry *e, uint64_t triangles, uint32_t seed) {
     uint32_t low = 1, high = 2;
     while (high < 1u << 24 && build(model, e, high, seed) < triangles) high *= 2;

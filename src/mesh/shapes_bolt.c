@@ -2,10 +2,9 @@
  * right-handed helical thread that runs out at both ends.
  *
  * The thread is one sheet whose rows follow the helix, so that crests and roots are rows. A row
- * climbs one pitch per turn and goes on as the row of the turn above; places along the axis are
- * whole numbers, so both sides of that seam are the same points. Where rows leave the thread they
- * are held at its end, where its depth is zero: cells there shrink to nothing, and what is left
- * ends in a plain circle.
+ * climbs one pitch per turn and continues as the row of the turn above; places along the axis are
+ * integers, so both sides of that seam are the same points. Rows that would leave the thread stay
+ * at its end, where its depth is 0: cells there shrink to nothing, and the sheet ends in a circle.
  *
  * Lengths are in units of the shank's radius; proportions follow ISO 4014 with a coarser thread. */
 #include "mesh/models.h"
@@ -40,7 +39,7 @@ enum ring {
     RINGS
 };
 
-/* From the axis to the hexagon, at point k of n. */
+/* Distance from the axis to the hexagon at point k of n. */
 static double hexagon(uint32_t k, uint32_t n) {
     const uint32_t side = n / 6;
     const double from_middle = (double)(k % side) / side - 0.5;
@@ -95,7 +94,7 @@ static uint64_t row_place(const dp_model *model, uint32_t j, double *height) {
     return (uint64_t)turn * SIXTEENTHS * rows + part_start[part] * rows + part_width[part] * t;
 }
 
-/* Depth of the thread, as a share: grows over a pitch at the top, fades over one at the tip. */
+/* Depth of the thread, 0 to 1: grows over one pitch at the top, fades over one at the tip. */
 static double depth_at(uint64_t along, uint64_t whole) {
     const double from_top = TURNS * ((double)along / (double)whole);
     const double from_tip = TURNS * ((double)(whole - along) / (double)whole);
@@ -119,7 +118,7 @@ static void thread_point(const dp_model *model, const dp_sheet *sheet, uint32_t 
 
 /* ---- the model ---- */
 
-/* Cells along a length, at least one: twice as long as wide. */
+/* Number of cells along a length, at least one; cells are twice as long as wide. */
 static uint32_t cells(const dp_model *model, double length) {
     const double n = floor(length * model->fine + 0.5);
     return n < 1 ? 1 : (uint32_t)n;

@@ -1,9 +1,9 @@
 /* A bearing bracket: a base with two holes, an upright plate with a round top and a boss with a
  * bore, and a fillet between them. Base along z, plate along y, width along x.
  *
- * Faces with a hole are patches between their edge and a circle about the hole, whose points lie in
- * the direction of the edge's. Lengths are sixteenths, which are exact, so that a face's own sum
- * and its neighbour's are the same number. */
+ * A face with a hole is a patch between its edge and a circle about the hole, whose points lie in
+ * the directions of the edge's points. Lengths are sixteenths, which are exact, so that
+ * neighbouring faces compute the same points. */
 #include "mesh/models.h"
 
 #include <math.h>
@@ -19,8 +19,8 @@ static const double BORE = SIXTEENTHS(7), BOSS = SIXTEENTHS(11);
 static const double BOSS_END = SIXTEENTHS(9); /* its front along z */
 static const double HOLE = 0.21;              /* of the base; a half each side of the middle */
 
-/* Cells: half the width; the plate's straight side; its half circle; the base's side; half the
- * fillet; the thickness. */
+/* Numbers of cells: half the width; the plate's straight side and half circle; the base's side;
+ * half the fillet; the thickness. */
 enum { WIDE, TALL, ROUND, LONG, BEND, THROUGH };
 
 static double between(double a, double b, uint32_t k, uint32_t n) {

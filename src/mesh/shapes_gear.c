@@ -1,8 +1,8 @@
-/* A spur gear, axis z: hub with bore, thin web with six holes, contour, involute teeth.
+/* A spur gear, axis z: hub with bore, thin web with six holes, rim, involute teeth.
  *
- * The outline is seen from the axis at ever growing angles, so every ring of points uses the
- * outline's angles and the cells between rings never fold. A sixth of the web is a patch between
- * its edge, cut as the neighbours are, and the circle of a hole.
+ * The outline's angles about the axis always grow, so every ring of points uses them and the cells
+ * between rings never fold. A sixth of the web is a patch between its edge, divided as its
+ * neighbours are, and the circle of a hole.
  *
  * Lengths are in units of the outer radius. Teeth follow the usual proportions: pressure angle 20
  * degrees, addendum one module, dedendum 1.25 modules. */
@@ -27,8 +27,8 @@ static double involute(double r, double base) {
     return sqrt(r * r / (base * base) - 1) - dp_acos(base / r);
 }
 
-/* Half the angle of a tooth at radius r. Below the base circle the flank widens into a fillet; the
- * slight slope all along keeps angles growing where the involute is radial. */
+/* Half the angle of a tooth at radius r. Below the base circle the flank widens into a fillet. A
+ * slight slope keeps angles growing where the involute is radial. */
 static double half_tooth(double r) {
     const double pitch = MODULE * TEETH / 2, base = pitch * dp_cos(TURN / 18),
                  root = pitch - 1.25 * MODULE;
@@ -63,7 +63,7 @@ static void outline(const dp_model *model, uint32_t k, double *angle, double *ra
 
 /* ---- rings, from the bore outwards along the front and back along the rear ---- */
 
-static const double OUTLINE = 0; /* stands for a radius */
+static const double OUTLINE = 0; /* in place of a radius: the outline */
 
 static const struct {
     double radius, z;

@@ -1,6 +1,5 @@
-/* Models of plane faces: cube, tetrahedron, two crossing boxes, stairs. Finer means more and
- * smaller triangles in the same planes. Sides of faces are cut evenly, so neighbours agree on every
- * point. */
+/* Models of plane faces: cube, tetrahedron, two crossing boxes, stairs. Finer models have more
+ * triangles in the same planes. Sides are divided evenly, so that neighbours share every point. */
 #include "mesh/models.h"
 
 #include "base/elementary.h"
@@ -76,13 +75,13 @@ void dp_build_tetrahedron(dp_model *model) {
 
 /* ---- stairs ---- */
 
-/* Steps rise away from the viewer (towards -z). Points are whole numbers of a lattice whose unit is
- * a step / fine, so that the long sides and the short steps agree on every point. */
+/* Steps rise away from the viewer (towards -z). Points lie on a lattice of unit step / fine, so
+ * that the long sides and the short steps share every point. */
 enum { STEPS = 10, STEP_RISE = 17, STEP_RUN = 27, STEP_WIDTH = 200 }; /* cm, rule-of-thumb stairs */
 
 enum stair_part { TREAD, RISER, LEFT, RIGHT, BACK, BOTTOM };
 
-/* The lattice's numbers: x along the width, y up, z steps in from the front. */
+/* Lattice coordinates: x along the width, y up, z in steps from the front. */
 static void stair_lattice(const dp_sheet *sheet, uint32_t fine, uint32_t i, uint32_t j,
                           uint32_t at[3]) {
     const uint32_t step = (uint32_t)sheet->to, wide = sheet->nu, deep = STEPS * fine;

@@ -100,7 +100,7 @@ static uint32_t scramble(uint32_t x) {
     return x ^ x >> 16;
 }
 
-/* Slope of the noise at a lattice point, times the way to (x, y): one of 16 directions. */
+/* Gradient of the noise at a lattice point (one of 16 directions), times the offset of (x, y). */
 static double slope(uint32_t seed, int32_t ix, int32_t iy, double x, double y) {
     static const double direction[8] = {1, 0.9238795325,  0.7071067812,  0.3826834324,
                                         0, -0.3826834324, -0.7071067812, -0.9238795325};

@@ -1,13 +1,12 @@
 /* Turns a model of sheets into batches of triangles, a block of cells at a time.
  *
- * Invariant: a point that two sheets share comes out with the same bits from both, so that a closed
- * model is closed when its vertices are compared by position. That holds because points are
- * functions of whole numbers, because a weight of 0 or 1 is exact, and because sums of two products
- * commute (the compiler must not contract them: -ffp-contract=off). Minus zero is turned into zero
- * for the same reason. Within a batch equal positions are one vertex; triangles whose corners
- * coincide are left out, so a row of cells may shrink to a point or a line.
+ * Invariant: a point that two sheets share has the same bits in both, so that a closed model is
+ * closed when vertices are compared by position. That holds because points are functions of
+ * integers, weights of 0 and 1 are exact, sums of two products commute (-ffp-contract=off), and -0
+ * becomes 0. Within a batch equal positions are one vertex. Triangles whose corners coincide are
+ * left out, so a row of cells may shrink to a point or a line.
  *
- * Not here: anything that needs to know a neighbour. Memory is two blocks, whatever the model. */
+ * Memory is two blocks for any model. Not handled: points that depend on a neighbouring sheet. */
 #include "mesh/sheet.h"
 
 #include "base/diag.h"
@@ -21,14 +20,14 @@
 enum { BLOCK = 3, BATCH_TRIANGLES = 64 };
 #else
 enum {
-    BLOCK = 96,               /* cells a side: what is made in one piece */
-    BATCH_TRIANGLES = 1 << 16 /* but the terrain's, every default is one batch */
+    BLOCK = 96,               /* cells per side */
+    BATCH_TRIANGLES = 1 << 16 /* so that every default model except the terrain is one batch */
 };
 #endif
 enum {
     BLOCK_POINTS = (BLOCK + 1) * (BLOCK + 1),
     BATCH_POINTS = BATCH_TRIANGLES / 2 + 4 * BLOCK_POINTS,
-    SLOTS = 1 << 17 /* of the table that welds: over twice the points */
+    SLOTS = 1 << 17 /* of the welding table: over twice the points */
 };
 
 typedef struct slot {
@@ -60,7 +59,7 @@ void dp_between_points(const double a[3], const double b[3], uint32_t k, uint32_
 void dp_turn(uint32_t k, uint32_t n, double *c, double *s) {
     static const double full = 6.283185307179586;
     k %= n;
-    /* Within an eighth of a turn of an axis, so that all quadrants round alike. */
+    /* Angles within an eighth of a turn of an axis, so that all quadrants round alike. */
     const uint64_t eighths = 8 * (uint64_t)k / n;
     const uint64_t quarter = (eighths + 1) / 2;                      /* the nearest axis, 0 … 4 */
     const double rest = (4.0 * k - (double)quarter * n) / (4.0 * n); /* of a turn */
@@ -70,11 +69,11 @@ void dp_turn(uint32_t k, uint32_t n, double *c, double *s) {
     *s = table[quarter % 4][1];
 }
 
-/* The concentric map of a square: ring by ring, side by side. The square is turned so that the
- * corner (0, 0) is at angle 0 and (n, 0) at a quarter turn; its sides go counter-clockwise. */
+/* The concentric map from square to disc, ring by ring. The corner (0, 0) is at angle 0 and (n, 0)
+ * at a quarter turn; sides go counter-clockwise. */
 void dp_disc(uint32_t i, uint32_t j, uint32_t n, double *x, double *y) {
     const uint32_t di = i < n - i ? i : n - i, dj = j < n - j ? j : n - j;
-    const uint32_t ring = di < dj ? di : dj; /* 0 is the contour */
+    const uint32_t ring = di < dj ? di : dj; /* 0 is the outermost */
     const uint32_t side = n - 2 * ring;      /* cells along one side of the ring */
     *x = *y = 0;
     if (!side) return;
@@ -211,8 +210,8 @@ static float distance2(const generator *self, uint32_t a, uint32_t b) {
     return sum;
 }
 
-/* Both triangles of a cell whose corners a, b, c, d go round; the shorter diagonal splits it, and
- * of nearly equal ones always the first, or rounding would make a patchwork of them. */
+/* Adds the two triangles of a cell, split along the shorter diagonal. Of nearly equal diagonals
+ * always the first, or rounding would choose at random. */
 static void add_cell(generator *self, bool reversed, const uint32_t corner[4]) {
     const uint32_t a = corner[0], b = corner[1], c = corner[2], d = corner[3];
     if (distance2(self, a, c) <= 1.001F * distance2(self, b, d)) {
@@ -232,7 +231,7 @@ static void add_half_cell(generator *self, const dp_sheet *sheet, uint32_t rest,
 
 static uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-/* Only points on the block's edge can be another block's too, unless cells shrink to nothing. */
+/* Adds a block's points. Only those on its edge are welded, unless cells shrink to nothing. */
 static void add_points(generator *self, const dp_sheet *sheet, uint32_t i0, uint32_t j0, uint32_t w,
                        uint32_t h) {
     for (uint32_t j = 0; j <= h; j++)
@@ -265,7 +264,7 @@ static void add_block(generator *self, const dp_sheet *sheet, uint32_t i0, uint3
 
 /* ---- the source ---- */
 
-/* To the next block, the next sheet after the last. */
+/* Goes to the next block; after a sheet's last one, to the next sheet. */
 static void advance(generator *self, const dp_sheet *sheet) {
     self->block_i += BLOCK;
     if (self->block_i < sheet->nu) return;
@@ -284,7 +283,7 @@ static bool fits(const generator *self, const dp_sheet *sheet) {
            self->point_count + (w + 1) * (h + 1) <= BATCH_POINTS;
 }
 
-/* As many blocks as fit; possibly without any triangle, where all their cells have shrunk away. */
+/* Fills a batch with as many blocks as fit; it may have no triangle if all cells have shrunk. */
 static void fill(generator *self) {
     self->batch++;
     self->point_count = self->corner_count = 0;

@@ -1,7 +1,7 @@
-/* Polygon sources: the one interface between whoever has polygons and whoever wants them.
+/* Polygon sources: the interface between those that have polygons and those that read them.
  *
- * Invariant: a batch that leaves dp_source_next is well-formed as a table (corner counts add up,
- * firsts ascend); whether indices and coordinates make sense is for the consumer to check. */
+ * Invariant: a batch from dp_source_next is a well-formed table (corner counts add up, firsts
+ * ascend). The consumer checks indices and coordinates. */
 #include "mesh/source.h"
 
 #include "base/diag.h"
@@ -54,7 +54,7 @@ dp_result dp_check_alignment(const dp_batch *b, dp_diag *diag) {
     return DP_OK;
 }
 
-/* One batch of arrays, handed out once per rewind. */
+/* A source of one batch of arrays, which it returns once after each rewind. */
 typedef struct arrays {
     dp_batch batch;
     dp_allocator allocator;

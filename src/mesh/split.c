@@ -1,17 +1,17 @@
-/* Splitting polygons that are not convex or not planar into triangles, by clipping ears.
+/* Splits polygons that are not convex or not planar into triangles, by clipping ears.
  *
- * Works on the projection along the polygon's mean normal (Newell). Invariant: `links` threads the
- * corners that are left, in order; each cut removes one corner. A polygon that crosses itself runs
- * out of ears: then the corner that is next is cut anyway, so that n - 2 cuts always end it.
- * The cost is quadratic in the corners, so beyond MANY_CORNERS no ear is looked for. */
+ * Works on the projection along the polygon's mean normal (Newell). Data structure: `links`, a list
+ * of the corners that are left, in order. Invariant: each cut removes one corner. If there is no
+ * ear, as in a polygon that crosses itself, the next corner is cut, so that n - 2 cuts always end
+ * it. Quadratic in the corners; beyond MANY_CORNERS no ear is sought. */
 #include "base/elementary.h"
 #include "base/vec.h"
 #include "mesh/polygons.h"
 
 enum { MANY_CORNERS = 4096 };
 
-/* Beyond this share of its size out of the mean plane a polygon is not planar. Far below what shows
- * in depth, far above float32 rounding of coordinates. */
+/* A polygon is not planar if a corner lies more than this share of its size out of the mean plane:
+ * far less than depth shows, far more than float32 rounding. */
 static const double PLANAR = 1e-4;
 
 static dp_vec3 newell(const float *const *at, uint32_t n, double *size) {
@@ -39,7 +39,7 @@ bool dp_is_convex_planar(const float *const *at, uint32_t n) {
         turned += dp_atan2(turn, dp_dot(in, out));
     }
     return turned <
-           7; /* once around is 2 pi: a pentagram turns left everywhere, but twice around */
+           7; /* once around is 2 pi; a pentagram also turns left everywhere, but twice around */
 }
 
 typedef struct flat {
@@ -53,12 +53,12 @@ static double side(const flat *f, uint32_t a, uint32_t b, uint32_t c) {
     return dp_dot(ab, f->u) * dp_dot(ac, f->v) - dp_dot(ab, f->v) * dp_dot(ac, f->u);
 }
 
-/* A hole that is bridged to the outline has corners twice. */
+/* Corners of a bridge from a hole to the outline come twice. */
 static bool coincide(const flat *f, uint32_t a, uint32_t b) {
     return f->at[a][0] == f->at[b][0] && f->at[a][1] == f->at[b][1] && f->at[a][2] == f->at[b][2];
 }
 
-/* The triangle (a, b, c) turns left and no other corner that is left lies in it. */
+/* Does the triangle (a, b, c) turn left, with no other remaining corner in it? */
 static bool is_ear(const flat *f, const uint32_t *next, uint32_t a, uint32_t b, uint32_t c) {
     if (!(side(f, a, b, c) > 0)) return false;
     for (uint32_t p = next[c]; p != a; p = next[p])
