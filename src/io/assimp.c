@@ -1,15 +1,13 @@
-/* dp_io_open and dp_io_open_memory: the library's own formats first, and what they do not know
- * through Assimp.
+/* dp_io_open and dp_io_open_memory: the library's own readers first, then Assimp.
  *
  * The scene's nodes are walked with their transforms, so that every instance of a mesh becomes
- * vertices and polygons of its own in world space; where a transform mirrors, corners are turned
- * round so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or
- * triangulated, and everything but positions, normals, texture coordinates and faces is left out
- * early.
+ * vertices and polygons of its own in world space; where a transform mirrors, corners are reversed,
+ * so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or triangulated. Only
+ * positions, normals, texture coordinates and faces are imported.
  *
- * Does not handle: animation, segment geometry and morph targets (models come in their bind pose), points,
- * lines, reading from a pipe; progress is reported before and after, as Assimp cannot be stopped
- * from C. */
+ * Not handled: animation, bones and morph targets (models come in their bind pose), points, lines,
+ * reading from a pipe. Progress is reported only before and after, as Assimp cannot be stopped from
+ * C. */
 #include <drypoint/io.h>
 
 #include "base/diag.h"
@@ -26,9 +24,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DEEPEST = 1000 /* nodes in nodes: more is a loop, or would end the stack */ };
+enum { DEEPEST = 1000 /* depth of nodes: more is a loop, or overflows the stack */ };
 
-/* Rows of x, y, z, 1 to one coordinate. */
+/* Rows that take (x, y, z, 1) to one coordinate each. */
 typedef struct transform {
     double row[3][4];
 } transform;
@@ -57,7 +55,7 @@ static bool mirrors(const transform *t) {
     return determinant < 0;
 }
 
-/* Normals turn with the matrix of cofactors; a mirroring transform changes its sign. */
+/* Transforms a normal by the matrix of cofactors, negated if the transform mirrors. */
 static void turn_normal(const transform *t, struct aiVector3D n, float to[3]) {
     const double(*const m)[4] = t->row;
     const double sign = mirrors(t) ? -1 : 1, v[3] = {n.x, n.y, n.z};
@@ -162,7 +160,7 @@ static bool add_mesh(dp_builder *builder, const struct aiScene *scene, const str
 static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
                           const struct aiNode *node, const transform *parent, int depth,
                           dp_diag *diag) {
-    if (!node) return DP_OK; /* Assimp's RAW reader leaves such children */
+    if (!node) return DP_OK; /* Assimp's RAW reader has such children */
     if (depth > DEEPEST)
         return dp_fail(diag, DP_ERR_LIMIT, "nodes are nested more than %d deep: flatten the scene",
                        (int)DEEPEST);
@@ -194,7 +192,7 @@ static const struct aiScene *import(const char *path, struct aiFileIO *files) {
     return scene;
 }
 
-/* Assimp's words on one line, up to where they name the file, which is the caller's to name. */
+/* Copies Assimp's message as one line, up to where it names the file, which the caller names. */
 static void copy_error(const char *text, const char *path, char *line, size_t size) {
     const char *const named = *path ? strstr(text, path) : NULL;
     size_t length = named ? (size_t)(named - text) : strlen(text);
@@ -204,8 +202,8 @@ static void copy_error(const char *text, const char *path, char *line, size_t si
     line[length] = 0;
 }
 
-/* Every reader is tried on a file whose ending none claims; the last one's complaint says nothing
- * then, and `first` (what dp_source_open found) says more. */
+/* If no reader claims a file's ending, Assimp tries all, and the last one's message tells nothing:
+ * then `first`, from dp_source_open, is reported. */
 static dp_result import_failed(const char *path, const dp_diag *first, dp_diag *diag) {
     const char *const dot = strrchr(path, '.');
     if (!dot || !aiIsExtensionSupported(dot)) {
@@ -235,7 +233,7 @@ static dp_result build(const struct aiScene *scene, const dp_file_options *optio
     return result;
 }
 
-/* What the own readers did not know, `first` saying so. */
+/* Opens what the library's own readers did not know; `first` is their diagnostic. */
 static dp_result open_by_assimp(const char *path, struct aiFileIO *files, const dp_diag *first,
                                 const dp_file_options *options, dp_source **out, dp_diag *diag) {
     if (stopped(options, -1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
@@ -246,7 +244,7 @@ static dp_result open_by_assimp(const char *path, struct aiFileIO *files, const 
     return built;
 }
 
-/* A format that the caller names is final. */
+/* Is Assimp to try? Not if the caller has named a format. */
 static bool is_for_assimp(dp_result result, const dp_file_options *options) {
     return result == DP_ERR_UNSUPPORTED && (!options || options->format == DP_FORMAT_AUTO);
 }

@@ -1,10 +1,10 @@
-/* Assimp's file system for a model in memory: the model under its own name, all else by the
+/* Assimp's file system for a model in memory: the model under its own name, other files through the
  * application's open_beside.
  *
- * Invariant: Assimp never opens a file of the system: its own way of reading memory
- * (aiImportFileFromMemory) would, for every file that the model names.
+ * Invariant: Assimp never opens a file of the system. (aiImportFileFromMemory would, for every file
+ * that the model names.)
  *
- * Does not handle: writing. */
+ * Not handled: writing. */
 #include "io/assimp_files.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ typedef struct open_file {
 
 static open_file *of(struct aiFile *file) { return (open_file *)(void *)file->UserData; }
 
-/* Items, as fread. */
+/* Returns items, as fread does. */
 static size_t file_read(struct aiFile *file, char *to, size_t size, size_t count) {
     open_file *const self = of(file);
     const size_t left = size ? (self->size - self->at) / size : 0;
@@ -40,7 +40,7 @@ static size_t file_tell(struct aiFile *file) { return of(file)->at; }
 static size_t file_size(struct aiFile *file) { return of(file)->size; }
 static void file_flush(struct aiFile *file) { (void)file; }
 
-/* Offsets back are negative numbers made unsigned, and wrap round to the right place. */
+/* Negative offsets come as unsigned numbers and wrap around to the right place. */
 static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin origin) {
     open_file *const self = of(file);
     const size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? self->at : self->size;
@@ -49,8 +49,7 @@ static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin
     return aiReturn_SUCCESS;
 }
 
-/* As open_beside wants a name: "./" says nothing, and backslashes are another system's slashes.
- * False where it is too long. */
+/* The name for open_beside: without "./", and with slashes for backslashes. False if too long. */
 static bool plain_name(const char *name, char plain[NAME]) {
     while (name[0] == '.' && (name[1] == '/' || name[1] == '\\')) name += 2;
     const size_t length = strlen(name);

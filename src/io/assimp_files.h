@@ -1,4 +1,4 @@
-/* A model in memory, and what lies beside it, as the files that Assimp opens. */
+/* A model in memory, and the files that it names, as a file system for Assimp. */
 #ifndef DP_IO_ASSIMP_FILES_H
 #define DP_IO_ASSIMP_FILES_H
 
@@ -14,8 +14,7 @@ typedef struct dp_assimp_files {
     dp_allocator allocator;
 } dp_assimp_files;
 
-/* Holds nothing that would have to be freed; file and files must stay until the scene is released.
- */
+/* There is nothing to free; `file` and `files` must live until the scene is released. */
 void dp_assimp_files_init(dp_assimp_files *files, const dp_memory_file *file,
                           const dp_allocator *allocator);
 

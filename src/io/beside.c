@@ -1,8 +1,8 @@
-/* Where the files are that a model names: in its own folder, or, for a model in memory, wherever
- * the application has them (dp_memory_file).
+/* Finds the files that a model names: in the model's folder, or, for a model in memory, through the
+ * application (dp_memory_file).
  *
- * Only regular files are opened, so that no pipe and no device is waited for. A model in memory
- * never opens a file of the system: what it names is the application's to find or to refuse. */
+ * Only regular files are opened, so that no pipe or device blocks. A model in memory never opens a
+ * file of the system. */
 #include "io/beside.h"
 
 #include "base/diag.h"
@@ -13,14 +13,14 @@
 
 enum { PATH = 4096 };
 
-/* Backslashes are another system's slashes. */
+/* Copies a name, with slashes for backslashes. */
 static void copy_name(const char *name, size_t length, char *to) {
     for (size_t i = 0; i < length; i++) to[i] = name[i] == '\\' ? '/' : name[i];
     to[length] = 0;
 }
 
-/* The file's place: beside the model, unless its name begins with a slash. False where it is too
- * long. */
+/* The file's path: in the model's folder, unless its name begins with a slash. False if too long.
+ * */
 static bool find_place(const char *path, const char *name, size_t length, char place[PATH]) {
     const char *const slash = strrchr(path, '/');
     const bool absolute = *name == '/' || *name == '\\';

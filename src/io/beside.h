@@ -4,10 +4,10 @@
 
 #include "io/stream.h"
 
-/* Opens the file called name[0..length) from within `model`, which is still being opened.
- * DP_ERR_UNSUPPORTED: nothing lies beside the model, as it comes from a pipe or from memory alone.
- * DP_ERR_IO, with the reason as diag's message (which is needed): it is not there, or not a regular
- * file. DP_ERR_MEMORY. */
+/* Opens the file that `model`, which is still being opened, names name[0..length).
+ * DP_ERR_UNSUPPORTED: the model is a pipe, or memory without open_beside.
+ * DP_ERR_IO: there is no such regular file; diag (not NULL) says why.
+ * DP_ERR_MEMORY. */
 dp_result dp_open_beside(const dp_stream *model, const char *name, size_t length, dp_stream **out,
                          dp_diag *diag);
 

@@ -1,10 +1,10 @@
-/* An indexed mesh that grows as a file is read, then the source of it.
+/* An indexed mesh that grows as a file is read, and the source made of it.
  *
- * Invariant: firsts and groups exist from the first polygon on that needs them, and then for all;
- * closed <= corner_count is where the open polygon begins. Arrays are cut to size at the end.
+ * Invariant: firsts and groups exist from the first polygon that needs them, and then for all;
+ * closed <= corner_count is where the open polygon begins. Arrays are shrunk to size at the end.
  *
- * Does not handle: checking indices and coordinates (the engine drops what is bad, and counts it);
- * more than 2^32 - 1 vertices or corners. */
+ * Not handled: bad indices and coordinates (binning drops and counts such polygons); more than
+ * 2^32 - 1 vertices or corners. */
 #include "io/builder.h"
 
 #include "base/diag.h"
@@ -49,7 +49,7 @@ bool dp_builder_grow_corners(dp_builder *builder) {
            dp_builder_expect_corners(builder, builder->corner_count + 1);
 }
 
-/* firsts for the triangles so far. */
+/* Makes firsts for the polygons so far, which are triangles. */
 static bool start_firsts(dp_builder *builder) {
     if (!dp_reserve(&builder->allocator, &builder->firsts, &builder->first_capacity,
                     builder->polygon_count + 2, sizeof *builder->firsts))
@@ -114,7 +114,7 @@ float *dp_builder_vertex_value(dp_builder *builder, dp_builder_attribute *a, siz
     return a->values + width * last;
 }
 
-/* Indices for all corners up to `count`. */
+/* Fills indices of all corners up to `count`. */
 static bool fill_indices(dp_builder *builder, dp_builder_attribute *a, size_t count) {
     if (!dp_reserve(&builder->allocator, &a->indices, &a->index_capacity, count,
                     sizeof *a->indices))
@@ -195,7 +195,7 @@ static void mesh_destroy(void *user) {
     dp_free(&memory, self);
 }
 
-/* Gives back what growing took too much. Where that fails the larger block serves as well. */
+/* Shrinks a block to its size; if that fails, the larger block stays. */
 static void shrink(const dp_allocator *allocator, void *block_address, size_t capacity,
                    size_t count, size_t item_size) {
     if (!count || count == capacity) return;
@@ -220,7 +220,7 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
         return dp_fail(diag, DP_ERR_FORMAT,
                        "%s: there is nothing to draw, export the model with its faces",
                        builder->vertex_count ? "points but no polygons" : "no polygons");
-    /* Polygons without any vertex are for the engine to drop, but a batch needs an array. */
+    /* Without vertices all polygons are dropped later, but a batch needs an array. */
     if (!builder->positions && !dp_builder_expect_vertices(builder, 1))
         return dp_builder_fail(builder, diag);
     if ((builder->normals.indices &&

@@ -1,4 +1,4 @@
-/* The polygons of an indexed file, as they are read, and the source made of them. */
+/* Collects the polygons of an indexed file, and makes a source of them. */
 #ifndef DP_IO_BUILDER_H
 #define DP_IO_BUILDER_H
 
@@ -8,7 +8,7 @@
 /* What corners carry besides a position. */
 typedef struct dp_builder_attribute {
     float *values;     /* [count][3 or 2] */
-    uint32_t *indices; /* per corner; NULL while values are numbered as vertices are */
+    uint32_t *indices; /* [corners]; NULL while values have the vertices' numbers */
     size_t count, capacity, index_capacity;
     size_t indexed; /* corners that have an index */
 } dp_builder_attribute;
@@ -24,35 +24,35 @@ typedef struct dp_builder {
     uint16_t *groups; /* [polygon_count]; NULL while all polygons are in group 0 */
     size_t group_capacity;
     size_t polygon_count;
-    size_t closed; /* corners of the polygons that are closed */
+    size_t closed; /* corners of closed polygons; later ones are of the open polygon */
     dp_groups names;
     uint32_t *colors; /* [color_count] by group, 0xRRGGBBAA, 0: none */
     size_t color_count, color_capacity;
-    char remark[256]; /* what is worth telling of a file that was read all the same; or "" */
+    char remark[256];                        /* dp_source_remark, or "" */
     dp_builder_attribute normals, texcoords; /* 3 and 2 floats each */
 } dp_builder;
 
 void dp_builder_init(dp_builder *builder, const dp_allocator *allocator);
 void dp_builder_destroy(dp_builder *builder);
 
-/* Room that is likely to be needed. False when memory is out. */
+/* Reserve room in advance. False when memory is out. */
 bool dp_builder_expect_vertices(dp_builder *builder, size_t count);
 bool dp_builder_expect_corners(dp_builder *builder, size_t count);
 
-/* For the three below. */
+/* Used by the three functions below. */
 bool dp_builder_grow_vertices(dp_builder *builder);
 bool dp_builder_grow_corners(dp_builder *builder);
 bool dp_builder_close_unusual(dp_builder *builder, uint16_t group);
 
-/* Room for one more vertex's x, y, z; NULL when memory is out or too many came: dp_builder_fail. */
+/* Adds a vertex, whose x, y, z the caller writes. NULL on failure: dp_builder_fail. */
 static inline float *dp_builder_vertex(dp_builder *builder) {
     if (builder->vertex_count == builder->vertex_capacity && !dp_builder_grow_vertices(builder))
         return NULL;
     return builder->positions + 3 * builder->vertex_count++;
 }
 
-/* One more corner of the open polygon. What no uint32_t can name becomes UINT32_MAX, which is out
- * of range too, so that the engine drops and counts the polygon. False: dp_builder_fail. */
+/* Adds a corner to the open polygon. A vertex number that no uint32_t can hold becomes UINT32_MAX,
+ * which is out of range, so that the polygon is dropped and counted. False: dp_builder_fail. */
 static inline bool dp_builder_corner(dp_builder *builder, int64_t vertex) {
     if (builder->corner_count == builder->corner_capacity && !dp_builder_grow_corners(builder))
         return false;
@@ -61,7 +61,7 @@ static inline bool dp_builder_corner(dp_builder *builder, int64_t vertex) {
     return true;
 }
 
-/* Makes a polygon of the corners since the last one. False: dp_builder_fail. */
+/* Closes the open polygon. False: dp_builder_fail. */
 static inline bool dp_builder_close(dp_builder *builder, uint16_t group) {
     if (builder->firsts || builder->groups || group || builder->corner_count != builder->closed + 3)
         return dp_builder_close_unusual(builder, group);
@@ -70,22 +70,22 @@ static inline bool dp_builder_close(dp_builder *builder, uint16_t group) {
     return true;
 }
 
-/* The group's colour, where it has none yet. False: dp_builder_fail. */
+/* Sets a group's colour, if it has none yet. False: dp_builder_fail. */
 bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba);
 
-/* Room for one more value of `width` floats; NULL when memory is out. */
+/* Adds a value of `width` floats, which the caller writes; NULL when memory is out. */
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);
-/* The same, in step with the vertices: zeros for those before the last vertex that got none. */
+/* The same, for the last vertex: earlier vertices without a value get zeros. */
 float *dp_builder_vertex_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);
-/* The value of the last corner; corners before it that got none have none. False:
+/* Sets the value number of the last corner; earlier corners without one have none. False:
  * dp_builder_fail. */
 bool dp_builder_corner_value(dp_builder *builder, dp_builder_attribute *attribute, uint32_t number);
 
-/* Says why the last call returned NULL or false: DP_ERR_LIMIT or DP_ERR_MEMORY. */
+/* Reports why the last call returned NULL or false: DP_ERR_LIMIT or DP_ERR_MEMORY. */
 dp_result dp_builder_fail(const dp_builder *builder, dp_diag *diag);
 
-/* A source of one stable batch. Takes the builder's arrays on success; the builder stays to be
- * destroyed. Fails where there is no polygon. */
+/* Makes a source of one stable batch, which owns the builder's arrays on success; the builder is
+ * still to be destroyed. DP_ERR_FORMAT if there is no polygon, DP_ERR_MEMORY. */
 dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag);
 
 #endif

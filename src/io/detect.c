@@ -1,10 +1,9 @@
-/* Which format a stream is in: by its first bytes, and only then by its name.
+/* Finds a stream's format: by its first bytes, and only then by its name.
  *
- * Looks at the window as it lies there and consumes nothing. An STL file of the binary kind has no
- * mark of its own (and may begin with "solid"): what gives it away is its size, and in a pipe,
- * where the size is unknown, triangles that make sense.
+ * Looks at the window and consumes nothing. A binary STL has no mark (and may begin with "solid"):
+ * its size tells, or, in a pipe, where the size is unknown, plausible triangles.
  *
- * Does not handle: UTF-16; compressed files, which are named in the message. */
+ * Not handled: UTF-16; compressed files (the message names them). */
 #include "io/readers.h"
 
 #include "base/diag.h"
@@ -33,7 +32,7 @@ static const uint8_t *skip_line(const uint8_t *p, const uint8_t *end) {
     return p;
 }
 
-/* To the first word that is no comment. */
+/* Skips to the first word outside a comment. */
 static const uint8_t *skip_comments(const uint8_t *p, const uint8_t *end) {
     for (p = skip_spaces(p); *p == '#'; p = skip_spaces(p)) p = skip_line(p, end);
     return p;
@@ -67,7 +66,7 @@ static bool is_solid(const dp_stream *stream) {
     return !is_letter(p[5]);
 }
 
-/* The first word of a line is one that OBJ knows; *vertex: it begins a vertex with a number. */
+/* Is the first word of a line an OBJ keyword? *vertex: it is `v` with a number. */
 static bool is_obj_word(const uint8_t *p, bool *vertex) {
     static const char *const words[] = {"v", "vn", "vt", "vp", "f",      "g",
                                         "o", "s",  "l",  "p",  "usemtl", "mtllib"};
@@ -84,7 +83,7 @@ static bool is_obj_word(const uint8_t *p, bool *vertex) {
     return false;
 }
 
-/* Only OBJ's words, up to the first vertex. */
+/* Are all lines up to the first vertex OBJ's? */
 static bool is_obj(const dp_stream *stream) {
     bool vertex = false, any = false;
     const uint8_t *p = skip_comments(stream->cursor, stream->end);
@@ -106,7 +105,7 @@ static bool is_text(const uint8_t *p, size_t size) {
     return true;
 }
 
-/* Coordinates that a model may have: 1e18 is the square root of what float holds. */
+/* Does a record have plausible coordinates? 1e18 is about the square root of the largest float. */
 static bool sane_record(const uint8_t *record) {
     for (size_t i = 0; i < 12; i++) {
         const uint32_t bits = little32(record + 4 * i);
@@ -127,7 +126,7 @@ static bool sane_records(const dp_stream *stream, uint32_t count) {
     return probes > 0;
 }
 
-/* Sizes decide where they are known; a title that is text and a text behind it mean ASCII. */
+/* A known size decides; otherwise a title and content that are text mean ASCII. */
 static bool is_binary_stl(const dp_stream *stream) {
     if (here(stream) < STL_HEADER) return false;
     const uint32_t count = little32(stream->cursor + STL_HEADER - 4);
@@ -151,7 +150,7 @@ bool dp_detect_binary_stl(dp_stream *stream) {
     return !ascii;
 }
 
-/* By the last dot of the name; any case. */
+/* By the name's ending, in any case. */
 static bool by_name(const char *name, dp_file_format *format) {
     static const struct {
         const char *ending;
@@ -172,7 +171,7 @@ static bool by_name(const char *name, dp_file_format *format) {
     return false;
 }
 
-/* Well-known files whose name may say something else. */
+/* Other well-known formats, by their marks; for the message. */
 static const char *foreign(const dp_stream *stream) {
     static const struct {
         const char *magic;

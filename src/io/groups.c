@@ -1,4 +1,4 @@
-/* Names of groups: a table of strings with a hash table over it, open addressing.
+/* Names of groups: an array of strings, and a hash table over it with open addressing.
  *
  * Invariant: every group is in exactly one slot, and at least half of the slots are free. */
 #include "io/groups.h"

@@ -1,4 +1,4 @@
-/* Names of groups, numbered as they come. */
+/* Names of groups, numbered in order of appearance. */
 #ifndef DP_IO_GROUPS_H
 #define DP_IO_GROUPS_H
 
@@ -16,10 +16,10 @@ typedef struct dp_groups {
     size_t slot_count; /* a power of two, more than twice count */
 } dp_groups;
 
-/* The number of a name, a new one where it was not seen yet. When all numbers are taken, further
- * names share the last one. False when memory is out. */
+/* The number of a name, a new one if it is new. When all numbers are taken, new names share the
+ * last one. False when memory is out. */
 bool dp_groups_find(dp_groups *groups, const char *name, uint16_t *group);
-/* Borrowed; NULL for no such group, and for one whose name is empty. */
+/* A group's name, borrowed; NULL if there is no such group or its name is empty. */
 const char *dp_groups_name(const dp_groups *groups, uint32_t group);
 void dp_groups_destroy(dp_groups *groups);
 

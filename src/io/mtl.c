@@ -1,10 +1,9 @@
-/* Material libraries: of each `newmtl` its `Kd`, the colour of what is lit, taken as the file has
- * it.
+/* Material libraries (.mtl): of each `newmtl` its `Kd`, the diffuse colour, as written.
  *
- * Nothing here stops a model from being read: what is missing or broken has no colour. Kd with one
- * number is grey; numbers beyond [0, 1] are held to it.
+ * A bad library never stops a model from being read: what is missing or broken has no colour. Kd
+ * with one number is grey; numbers are clamped to [0, 1].
  *
- * Does not handle: textures (map_Kd), Kd as a spectrum or as CIE XYZ, transparency. */
+ * Not handled: textures (map_Kd), Kd as a spectrum or CIE XYZ, transparency. */
 #include "io/mtl.h"
 
 #include "io/beside.h"
@@ -42,7 +41,7 @@ uint32_t dp_materials_color(const dp_materials *m, uint16_t number) {
 
 static uint32_t to_byte(float v) { return v <= 0 ? 0 : v >= 1 ? 255 : (uint32_t)(v * 255 + 0.5f); }
 
-/* Behind `Kd`: 0 where there is no colour. */
+/* Reads the colour after `Kd`; 0 if there is none. */
 static uint32_t read_color(dp_stream *stream) {
     float rgb[3] = {0, 0, 0};
     int n = 0;

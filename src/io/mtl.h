@@ -16,16 +16,16 @@ enum { DP_MATERIAL_NAME = 256 }; /* bytes of a name that count, with the 0 behin
 
 void dp_materials_init(dp_materials *materials, const dp_allocator *allocator);
 void dp_materials_destroy(dp_materials *materials);
-/* The number of a name, new or not. False when memory is out. */
+/* The number of a name, a new one if it is new. False when memory is out. */
 bool dp_materials_find(dp_materials *materials, const char *name, uint16_t *number);
 uint32_t dp_materials_color(const dp_materials *materials, uint16_t number);
 
-/* Reads a library to its end; what it holds of no use is passed over. False when memory is out. */
+/* Reads a library to its end; ignores what is not needed. False when memory is out. */
 bool dp_read_mtl(dp_stream *stream, dp_materials *materials);
 
-/* The libraries that a `mtllib` line of `model` names (beside.h): one name with spaces, or several.
- * Those that cannot be read leave a sentence in `remark`, where there is none yet; where nothing
- * can lie beside the model, there is none to leave. False when memory is out. */
+/* Reads the libraries that a `mtllib` line of `model` names (beside.h): one name with spaces, or
+ * several names. The first one that cannot be read leaves a sentence in `remark`, unless the model
+ * can have no other files. False when memory is out. */
 bool dp_open_mtl(const dp_stream *model, const char *names, dp_materials *materials, char *remark,
                  size_t size);
 

@@ -1,13 +1,12 @@
 /* Text to float and integer.
  *
- * A decimal is m * 10^e with m of at most 18 digits. In double, m, 10^e and their product or
- * quotient each err by half a unit in the last place (and digits cut off by less), 2 units
- * together. Rounding that double to float is right unless it lies within those units of the middle
- * between two floats, which its low 29 bits tell; then, and outside the range of normal floats,
- * strtof decides. It gets the digits without a decimal point, since the point is what depends on
- * the locale.
+ * A decimal is m * 10^e, m with at most 18 digits. In double, m, 10^e and their product or quotient
+ * err by half a unit in the last place each (digits cut off add less): 2 units together. Rounding
+ * that double to float is correct unless it lies within 2 units of the middle between two floats,
+ * which its low 29 bits tell. In that case, and outside the range of normal floats, strtof decides;
+ * it gets the digits without a decimal point, as that depends on the locale.
  *
- * Does not handle: hexadecimal floats, decimal commas, the "d" exponents of Fortran. */
+ * Not handled: hexadecimal floats, decimal commas, the "d" exponents of Fortran. */
 #include "io/number.h"
 
 #include <math.h>
@@ -39,7 +38,7 @@ typedef struct decimal {
 
 static inline unsigned digit_of(uint8_t byte) { return (unsigned)byte - '0'; }
 
-/* strtof over the same digits; those beyond SLOW_DIGITS matter only as "more than nothing".
+/* strtof of the same digits; of those beyond SLOW_DIGITS it matters only whether any is not 0.
  * shift: the exponent as written. */
 static float slow_float(const decimal *number, int shift) {
     char text[SLOW_DIGITS + 24];
@@ -62,7 +61,7 @@ static float slow_float(const decimal *number, int shift) {
     return strtof(text, NULL);
 }
 
-/* False where the double might lie on the other side of a middle than the decimal does. */
+/* False if the double may lie on another side of a middle than the decimal. */
 static inline bool round_to_float(double approximate, float *value) {
     uint64_t bits;
     memcpy(&bits, &approximate, sizeof bits);
@@ -83,7 +82,7 @@ static const uint8_t *read_exponent(const uint8_t *text, int *exponent) {
     return p;
 }
 
-/* Digits with a point among them; false where there is no digit. */
+/* Reads digits with a point among them; false if there is no digit. */
 static inline bool read_decimal(const uint8_t *p, decimal *number) {
     uint64_t mantissa = 0;
     const uint8_t *const first = p;
@@ -102,7 +101,7 @@ static inline bool read_decimal(const uint8_t *p, decimal *number) {
     return count > 0 && count <= MANTISSA_DIGITS;
 }
 
-/* The same where leading zeros or sheer length overflowed the quick way. */
+/* The same for numbers with many leading zeros or digits, which read_decimal overflows on. */
 static bool read_long_decimal(decimal *number) {
     uint64_t mantissa = 0;
     int kept = 0, exponent = 0;
@@ -145,7 +144,7 @@ static const uint8_t *read_special(const uint8_t *text, bool negative, float *va
     return p;
 }
 
-/* "1.#INF00", "-1.#IND", "1.#QNAN": how old Windows run times print what is not finite. */
+/* "1.#INF00", "-1.#IND", "1.#QNAN": numbers that are not finite, by old Windows run times. */
 static const uint8_t *read_windows_special(const uint8_t *text, bool negative, float *value) {
     const bool infinite = match(text, "inf") != NULL;
     *value = !infinite ? NAN : negative ? -INFINITY : INFINITY;

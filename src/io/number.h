@@ -4,9 +4,9 @@
 
 #include <stdint.h>
 
-/* Both read a number at `text`, which some byte that is no part of a number ends (0, say), and
- * return the first byte behind it, or NULL where no number stands. Floats are rounded correctly;
- * "inf", "nan" and the "1.#IND" of old compilers are numbers too. Integers stop at the ends of
+/* Both read a number at `text`, which must end with some byte that is no part of a number (0, say).
+ * They return the first byte after it, or NULL if there is no number. Floats are rounded correctly;
+ * "inf", "nan" and the "1.#IND" of old compilers are numbers too. Integers are clamped to
  * int64_t. */
 const uint8_t *dp_number_float(const uint8_t *text, float *value);
 const uint8_t *dp_number_int(const uint8_t *text, int64_t *value);

@@ -1,14 +1,13 @@
 /* Wavefront OBJ: vertices, faces, normals and texture coordinates, read whole.
  *
- * Polygons stay polygons. A face's group is named by what holds at its line,
- * "object/group/material" without the parts that were not given; groups are numbered as their first
- * face comes, and have the colour of their material (mtl.c), wherever in the file its library is
- * named. An index that names no vertex (0, before the first vertex, beyond 32 bits) becomes
- * UINT32_MAX: the engine drops the face and counts it. One that names no normal or texture
- * coordinate is none.
+ * Polygons stay polygons. A face's group is named "object/group/material", without the parts that
+ * are not given; groups are numbered in order of their first face, and have the colour of their
+ * material (mtl.c), wherever in the file its library is named. An index of no vertex (0, before the
+ * first, beyond 32 bits) becomes UINT32_MAX, so that the face is dropped and counted. An index of
+ * no normal or texture coordinate means none.
  *
- * Does not handle: free-form curves and surfaces, points, lines, smoothing groups; their lines are
- * passed over. */
+ * Not handled: free-form curves and surfaces, points, lines, smoothing groups; their lines are
+ * ignored. */
 #include "io/readers.h"
 
 #include "io/mtl.h"
@@ -46,7 +45,7 @@ static dp_result read_vertex(obj *self) {
     return DP_OK;
 }
 
-/* vn x y z, or vt u [v [w]]: what is missing or no number is 0, as nothing but shading asks. */
+/* vn x y z, or vt u [v [w]]: missing or bad numbers are 0, as only shading uses them. */
 static dp_result read_value(obj *self, dp_builder_attribute *attribute, size_t width) {
     float value[3] = {0};
     for (size_t k = 0; k < width && dp_text_blank(self->stream); k++)
@@ -80,7 +79,7 @@ static bool color_groups(obj *self) {
     return true;
 }
 
-/* The names that hold, joined, as a group number. */
+/* The group of the current names. */
 static dp_result find_group(obj *self) {
     char joined[NAME_KINDS * NAME] = "";
     size_t length = 0;
@@ -97,7 +96,7 @@ static dp_result find_group(obj *self) {
     return dp_builder_fail(self->builder, self->diag);
 }
 
-/* A number behind a slash; 0 where there is none. Only digits and a sign come here. */
+/* Reads the number after a slash; 0 if there is none. */
 static inline const uint8_t *read_more(const uint8_t *p, int64_t *number) {
     const bool negative = *p == '-';
     int64_t value = 0;
@@ -124,7 +123,7 @@ static inline bool read_corner(dp_stream *stream, int64_t *index, int64_t more[2
     return ended;
 }
 
-/* The last corner's normal or texture coordinate, numbered from 1 or back from the end. */
+/* Sets the last corner's normal or texture coordinate; number: from 1, or negative from the end. */
 static bool set_value(dp_builder *builder, dp_builder_attribute *attribute, int64_t number) {
     number += number < 0 ? (int64_t)attribute->count : -1;
     const bool fits = number >= 0 && number < UINT32_MAX;
@@ -170,8 +169,8 @@ static dp_result read_libraries(obj *self) {
     return dp_builder_fail(self->builder, self->diag);
 }
 
-/* Passes over the line's first word if it is `word`, with something behind it. Byte by byte: the
- * file may end within. */
+/* Skips the line's first word if it is `word` and something follows. Byte by byte, as the file may
+ * end within. */
 static inline bool keyword(dp_stream *stream, const char *word) {
     const uint8_t *p = stream->cursor;
     for (; *word; p++, word++)

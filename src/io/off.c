@@ -1,10 +1,10 @@
 /* OFF: counts, vertices, faces; read whole.
  *
- * COFF, NOFF, STOFF and their combinations put colours, normals and texture coordinates behind the
- * position, and any file may put a colour behind a face: both are on the same line, so what is left
- * of a vertex's or face's line is passed over. '#' begins a comment. The keyword may be missing.
+ * COFF, NOFF, STOFF and their combinations have colours, normals and texture coordinates after the
+ * position, and any face may have a colour: all on the same line, so what is left of a vertex's or
+ * face's line is ignored. '#' begins a comment. The keyword may be missing.
  *
- * Does not handle: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF). */
+ * Not handled: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF). */
 #include "io/readers.h"
 
 #include "io/text.h"
@@ -18,7 +18,7 @@ typedef struct off {
     int64_t vertices, faces; /* announced */
 } off;
 
-/* To the next word that is not in a comment. */
+/* Skips to the next word outside a comment. */
 static bool next_word(dp_stream *stream) {
     while (dp_text_space(stream)) {
         if (*stream->cursor != '#') return true;
@@ -27,8 +27,8 @@ static bool next_word(dp_stream *stream) {
     return false;
 }
 
-/* Passes over [ST][C][N][4][n]OFF, whose counts may follow without a blank; false if it is none.
- * *dimensions: the vertices have other than three coordinates. */
+/* Skips [ST][C][N][4][n]OFF, which the counts may follow without a blank; false if it is not there.
+ * *dimensions: vertices do not have three coordinates. */
 static bool take_keyword(dp_stream *stream, bool *dimensions) {
     const uint8_t *p = stream->cursor;
     if (p[0] == 'S' && p[1] == 'T') p += 2;
@@ -58,7 +58,7 @@ static dp_result read_keyword(off *self) {
                         "binary OFF: export it as ASCII OFF, PLY or STL");
 }
 
-/* A number that is not negative; what is none stays at the cursor, to be told. */
+/* Reads a number >= 0; anything else stays at the cursor, for the message. */
 static bool next_natural(dp_stream *stream, int64_t *value) {
     next_word(stream);
     const uint8_t *const start = stream->cursor;
@@ -72,7 +72,7 @@ static dp_result read_count(off *self, const char *what, int64_t *count) {
     return dp_text_expected(self->stream, self->diag, "the number of %s", what);
 }
 
-/* `what` of vertex or face number `item` of `count` is not there. */
+/* Reports that `what` of vertex or face `item` of `count` is missing. */
 static dp_result expected(off *self, const char *what, int64_t item, int64_t count) {
     const dp_result result =
         dp_text_expected(self->stream, self->diag, "%s %" PRId64 " of %" PRId64, what, item, count);

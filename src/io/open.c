@@ -1,5 +1,5 @@
 /* dp_source_open and dp_source_open_memory: open a stream, find the format, and let its reader make
- * the source. Behind the stream nothing tells a file from memory. */
+ * the source. Files and memory differ only in the stream. */
 #include "io/readers.h"
 
 #include "base/diag.h"

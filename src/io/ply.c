@@ -1,13 +1,13 @@
-/* PLY behind its header: vertices, faces and strips of triangles, read whole.
+/* PLY after its header: vertices, faces and triangle strips, read whole.
  *
  * One walk over elements and properties serves ASCII and both byte orders; only the three functions
- * that take a scalar tell them apart. ASCII values may be spread over lines at will.
- * Strips: -1 begins a new one, every other triangle is turned, and triangles without three
- * different corners, which only lead from one strip to the next, are left out.
+ * that take a scalar differ. ASCII values may be spread over lines in any way. Strips: -1 begins a
+ * new one, every other triangle is reversed, and triangles with equal corners, which only join
+ * strips, are left out.
  *
- * Announced counts are walked, never allocated for beyond what the file's size allows.
+ * Invariant: no more is allocated for announced counts than the file's size allows.
  *
- * Does not handle: polygons given by edges; material and colour of faces. */
+ * Not handled: polygons given by edges; materials and colours of faces. */
 #include "io/ply.h"
 
 #include "io/readers.h"
@@ -29,7 +29,7 @@ typedef struct ply {
 
 static const uint8_t size_of_type[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-/* Bytes of either order as a number, whatever the machine's own order. */
+/* Reads bytes of either order, on machines of either order. */
 static inline uint32_t load16(const uint8_t *p, bool big) {
     return big ? (uint32_t)p[0] << 8 | p[1] : (uint32_t)p[1] << 8 | p[0];
 }
@@ -87,7 +87,7 @@ static bool next_float(ply *self, dp_ply_type type, float *value) {
     return true;
 }
 
-/* Vertex numbers and list lengths may be of any type; a fraction is none. */
+/* Vertex numbers and list lengths may be of any type, but not fractions. */
 static int64_t int_of_double(double value) {
     if (!(value > -1e15 && value < 1e15) || value != (double)(int64_t)value) return UINT32_MAX;
     return (int64_t)value;
@@ -169,8 +169,8 @@ static dp_result read_length(ply *self, const dp_ply_property *property, int64_t
                           "a list's length is %" PRId64 ": export the model again", *length);
 }
 
-/* The usual binary case, a few corners of 32 bits, without asking for each. How many were taken:
- * none in other cases, fewer where memory is out; read_polygon goes on from there. */
+/* Takes the corners of the usual binary case, a few of 32 bits, with one check. Returns how many: 0
+ * in other cases, fewer when memory is out; read_polygon continues from there. */
 static inline int64_t take_corners(ply *self, dp_ply_type type, int64_t length) {
     dp_stream *const stream = self->stream;
     const bool usual = type == DP_PLY_INT32 || type == DP_PLY_UINT32;
@@ -227,7 +227,7 @@ static dp_result read_list(ply *self, const dp_ply_property *property) {
     return DP_OK;
 }
 
-/* `more`: the normal, then the texture coordinates, of a vertex. */
+/* Reads an item. more: a vertex's normal, then its texture coordinates. */
 static dp_result read_item(ply *self, float *position, float more[5]) {
     const dp_ply_property *property = self->header.properties + self->element->first;
     const dp_ply_property *const end = property + self->element->properties;
@@ -246,7 +246,7 @@ static dp_result read_item(ply *self, float *position, float more[5]) {
     return DP_OK;
 }
 
-/* The least bytes that one of the element's items takes. */
+/* The fewest bytes that one of the element's items takes. */
 static size_t least_bytes(const ply *self) {
     const dp_ply_property *const properties = self->header.properties + self->element->first;
     size_t bytes = 0;
@@ -257,7 +257,7 @@ static size_t least_bytes(const ply *self) {
     return bytes;
 }
 
-/* Room for what is likely to come: vertices, or triangles with the shortest indices. */
+/* Reserves room for vertices, or for triangles with the shortest indices. */
 static bool expect_items(ply *self) {
     const size_t bytes = least_bytes(self);
     const uint64_t count = self->element->count;
@@ -270,7 +270,7 @@ static bool expect_items(ply *self) {
     return true;
 }
 
-/* Normals and texture coordinates that are there whole, in step with the vertices. */
+/* Stores the vertex's normal and texture coordinates, if all of their parts exist. */
 static bool keep_more(ply *self, const float more[5]) {
     dp_builder *const builder = self->builder;
     const unsigned normal = 7u << DP_PLY_NX, texcoord = 3u << DP_PLY_S;
@@ -289,7 +289,7 @@ static bool keep_more(ply *self, const float more[5]) {
 
 static dp_result read_element(ply *self, const dp_ply_element *element) {
     self->element = element;
-    if (!element->properties) return DP_OK; /* takes no byte, however many are announced */
+    if (!element->properties) return DP_OK; /* items of no bytes, however many */
     if (!expect_items(self)) return dp_builder_fail(self->builder, self->diag);
     dp_result result = DP_OK;
     float none[3], more[5];
@@ -304,7 +304,7 @@ static dp_result read_element(ply *self, const dp_ply_element *element) {
     return result;
 }
 
-/* Text behind the last element: then something was read amiss before. */
+/* Text after the last element means that something before was misread. */
 static dp_result check_end(ply *self) {
     if (self->header.encoding != DP_PLY_ASCII || !dp_text_space(self->stream)) return DP_OK;
     return dp_fail_line(self->diag, DP_ERR_FORMAT, self->stream->line,

@@ -1,4 +1,4 @@
-/* The header of a PLY file: what stands where in the rest of it. */
+/* The header of a PLY file: the layout of the rest. */
 #ifndef DP_IO_PLY_H
 #define DP_IO_PLY_H
 
@@ -57,7 +57,7 @@ typedef struct dp_ply_header {
     size_t property_count, property_capacity;
 } dp_ply_header;
 
-/* Reads the header, up to the first byte behind it. `header` is to be destroyed either way. */
+/* Reads the header, up to the first byte after it. The caller destroys `header` in any case. */
 dp_result dp_ply_read_header(dp_stream *stream, dp_ply_header *header, dp_diag *diag);
 void dp_ply_destroy_header(dp_ply_header *header);
 

@@ -1,16 +1,16 @@
 /* PLY's header: lines of words, up to end_header.
  *
- * Binary content follows end_header's line end at once, so that end must be told exactly: after a
- * CR an LF belongs to it where the first line, "ply", ended in CR LF too.
+ * Binary content follows end_header's line end at once, so that end must be exact: an LF after a CR
+ * belongs to it if the first line, "ply", ended in CR LF too.
  *
- * Does not handle: versions other than 1.0 (they are read as 1.0). */
+ * Not handled: versions other than 1.0 (they are read as 1.0). */
 #include "io/ply.h"
 
 #include "io/text.h"
 
 #include <string.h>
 
-enum { WORD = 32 }; /* bytes; every word that we know is shorter */
+enum { WORD = 32 }; /* bytes; all known words are shorter */
 
 typedef struct header_reader {
     dp_stream *stream;
@@ -105,7 +105,7 @@ static dp_result read_element(header_reader *self) {
     dp_text_blank(self->stream);
     const uint8_t *const number = self->stream->cursor;
     if (!dp_text_int(self->stream, &count) || count < 0) {
-        self->stream->cursor = number; /* so that it is told */
+        self->stream->cursor = number; /* for the message */
         return dp_text_expected(self->stream, self->diag, "the number of %s elements", word);
     }
     element.count = (uint64_t)count;
@@ -144,7 +144,7 @@ static dp_result read_property(header_reader *self) {
     return DP_OK;
 }
 
-/* Behind the line's end, and behind no byte of binary content. */
+/* Skips the line's end, and no byte of binary content. */
 static void end_line(header_reader *self) {
     dp_stream *const stream = self->stream;
     const bool returned = dp_stream_have(stream, 1) && *stream->cursor == '\r';
@@ -154,7 +154,7 @@ static void end_line(header_reader *self) {
     stream->line++;
 }
 
-/* What a header must have for polygons to come out of it. */
+/* Checks that the header describes polygons. */
 static dp_result check_header(header_reader *self) {
     const unsigned xyz = 1u << DP_PLY_X | 1u << DP_PLY_Y | 1u << DP_PLY_Z;
     for (size_t i = 0; i < self->header->element_count; i++) {
@@ -166,8 +166,8 @@ static dp_result check_header(header_reader *self) {
     return DP_OK;
 }
 
-/* One line behind the first word. *more: the header goes on. Other words are comments: Blender 2.4
- * wrote some without saying so. */
+/* Reads a line after its first word. *more: the header continues. Unknown words are comments:
+ * Blender 2.4 wrote some without the keyword. */
 static dp_result read_line(header_reader *self, const char *word, bool *more) {
     dp_result result = DP_OK;
     if (strcmp(word, "format") == 0)

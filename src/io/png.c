@@ -1,7 +1,7 @@
-/* Reading PNG files, for textures, through libpng's simplified interface.
+/* Reads PNG files, for textures, through libpng's simplified interface.
  *
- * Any PNG is taken (palette, grey, 16 bits, interlaced): libpng turns it into RGBA of 8 bits. What
- * of that is ink is decided by dp_texture_create. Does not handle: other formats. */
+ * libpng turns any PNG (palette, grey, 16 bits, interlaced) into RGBA of 8 bits; dp_texture_create
+ * decides what is ink. Not handled: other formats. */
 #include <drypoint/io.h>
 
 #include "base/diag.h"
@@ -34,7 +34,7 @@ static dp_result read_pixels(png_image *image, const dp_allocator *memory, dp_io
     return DP_OK;
 }
 
-/* Up to `most` px a side. */
+/* Reads a file of at most `most` px per side. */
 static dp_result read_file(const char *path, uint32_t most, const dp_allocator *memory,
                            dp_io_pixels *out, dp_diag *diag) {
     FILE *const file = fopen(path, "rb");

@@ -1,14 +1,14 @@
-/* STL: triangles as they come, in batches; neither kind is ever held whole.
+/* STL: triangles in batches; a file is never held whole.
  *
- * Binary: 80 bytes of title, the number of triangles, then 50 bytes for each. ASCII: solids of
- * facets; each solid's name is a group. Normals are passed over: the corners' order tells the
- * front.
+ *     binary   80 bytes of title, the number of triangles, 50 bytes for each
+ *     ASCII    solids of facets; each solid's name is a group
  *
- * Invariant: a failure is final: it is reported again by every call until the source is rewound.
+ * Normals are ignored: the corners' order tells the front. A binary file's triangles can also be
+ * read in any order (dp_records).
  *
- * A binary file's triangles can also be read in any order (dp_records): its records have one size.
+ * Invariant: a failure is final: every call reports it again until the source is rewound.
  *
- * Does not handle: colours in the attribute bytes. */
+ * Not handled: colours in the attribute bytes. */
 #include "io/readers.h"
 
 #include "base/print.h"
@@ -81,7 +81,7 @@ static dp_result read_binary_header(stl *self) {
         "it again");
 }
 
-/* What the size of the file shows is missing is reported before anything is drawn. */
+/* Reports triangles that are missing by the file's size, before anything is drawn. */
 static dp_result check_size(stl *self) {
     const dp_stream *const stream = self->stream;
     if (stream->size == DP_STREAM_UNKNOWN) return DP_OK;
@@ -135,7 +135,7 @@ static dp_result read_corner(stl *self, float position[3]) {
     return DP_OK;
 }
 
-/* Behind `facet`: normal x y z, outer loop, three corners, endloop, endfacet. */
+/* Reads what follows `facet`: normal x y z, outer loop, three corners, endloop, endfacet. */
 static dp_result read_facet(stl *self, float position[9]) {
     if (!next_is(self, "normal")) return expected(self, "`normal`");
     for (int k = 0; k < 3; k++) {
@@ -163,7 +163,7 @@ static dp_result read_solid(stl *self) {
     return dp_fail(&self->diag, DP_ERR_MEMORY, "out of memory for the name of a solid");
 }
 
-/* Between facets at the end of the file. */
+/* At the end of the file, which must be between facets. */
 static dp_result check_end(stl *self) {
     if (self->stream->result || !self->started) return expected(self, "`solid`");
     if (!self->ended) return expected(self, "`facet` or `endsolid`");
@@ -230,7 +230,7 @@ static dp_result stl_rewind(void *user, dp_diag *diag) {
     return dp_stream_rewind(self->stream, diag);
 }
 
-/* From any thread: only the file's size may have changed since it was opened. */
+/* From any thread. Fails if the file has become shorter since it was opened. */
 static dp_result stl_records(void *user, uint64_t first, uint32_t count, uint8_t *to,
                              dp_diag *diag) {
     const stl *const self = user;
@@ -272,7 +272,7 @@ static const char *stl_group_name(void *user, uint32_t group) {
     return dp_groups_name(&((stl *)user)->names, group);
 }
 
-/* All but the stream. */
+/* Frees all but the stream. */
 static void release(stl *self) {
     const dp_allocator memory = self->allocator;
     dp_groups_destroy(&self->names);
@@ -299,7 +299,7 @@ static stl *create(dp_stream *stream) {
     return NULL;
 }
 
-/* What can be seen to be wrong at once is, before a source is made of it. */
+/* Checks the header and the size before a source is made. */
 static dp_result open_binary(stl *self) {
     const dp_result result = read_binary_header(self);
     return result ? result : check_size(self);

@@ -1,13 +1,13 @@
 /* Bytes from a file, standard input or memory, through one window that moves forward.
  *
- * Invariant: window <= cursor <= end, *end == 0, and limit is end - DP_STREAM_AHEAD while more may
- * come and end when nothing does. A reader that finds cursor <= limit can therefore look ahead by
- * DP_STREAM_AHEAD bytes, or up to the 0 behind the file's last byte, without another check.
+ * Invariant: window <= cursor <= end, and *end == 0. limit is end - DP_STREAM_AHEAD while more may
+ * come, and end when nothing does. So a reader with cursor <= limit can look ahead by
+ * DP_STREAM_AHEAD bytes, or up to the 0 after the last byte, without another check.
  *
- * Read, not mapped: a mapped file that someone shortens meanwhile kills the process, pipes need a
- * window anyway, and from the page cache the copy costs 5 ms for 33 MB.
+ * Files are read, not mapped: a mapped file that is shortened kills the process, pipes need a
+ * window anyway, and the copy from the page cache costs only 5 ms for 33 MB.
  *
- * Does not handle: compressed files; descriptors that would block (they fail with EAGAIN). */
+ * Not handled: compressed files; non-blocking descriptors (they fail with EAGAIN). */
 #include "io/stream.h"
 
 #include "base/diag.h"
@@ -30,7 +30,7 @@ static void reset(dp_stream *stream) {
     stream->result = DP_OK;
 }
 
-/* The window lies behind the struct, one byte in, so that `limit` may point just before it. */
+/* The window follows the struct, after one byte, so that `limit` may point just before it. */
 static dp_stream *create(size_t window_size, const dp_file_options *options) {
     const dp_allocator memory = dp_allocator_resolve(options ? options->allocator : NULL);
     dp_stream *const stream = dp_alloc(&memory, sizeof *stream + 1 + window_size + 1);
@@ -76,7 +76,7 @@ dp_result dp_stream_open(const char *path, const dp_file_options *options, dp_st
     stream->descriptor = descriptor;
     stream->owns_descriptor = owned;
     if (S_ISREG(status.st_mode)) stream->start = lseek(descriptor, 0, SEEK_CUR);
-    /* Files that the system makes up (/proc) say 0: their size is not known. */
+    /* Files of /proc report size 0: their size is not known. */
     if (stream->start >= 0 && status.st_size > stream->start)
         stream->size = (uint64_t)(status.st_size - stream->start);
     *out = stream;
@@ -102,7 +102,7 @@ void dp_stream_close(dp_stream *stream) {
     dp_free(&memory, stream);
 }
 
-/* Bytes put at `to`; 0 at the end or on failure. */
+/* Reads to `to`; returns bytes, 0 at the end or on failure. */
 static size_t load(dp_stream *stream, uint8_t *to, size_t room) {
     if (stream->descriptor < 0) {
         const uint64_t left = stream->size - stream->loaded;
@@ -143,7 +143,7 @@ bool dp_stream_refill(dp_stream *stream) {
     }
     stream->at_end = room > 0;
     report(stream);
-    if (stream->result) { /* whoever reads on finds the end, and asks why */
+    if (stream->result) { /* readers find the end, then ask why */
         stream->at_end = true;
         end = stream->window;
     }
@@ -172,7 +172,7 @@ uint64_t dp_stream_offset(const dp_stream *stream) {
 }
 
 size_t dp_stream_hint(const dp_stream *stream, uint64_t count, size_t bytes) {
-    uint64_t most = 4096; /* of a pipe nothing is known: grow from here */
+    uint64_t most = 4096; /* a pipe's size is unknown: start small */
     if (stream->size != DP_STREAM_UNKNOWN) {
         const uint64_t offset = dp_stream_offset(stream);
         most = (stream->size > offset ? stream->size - offset : 0) / bytes + 1;

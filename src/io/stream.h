@@ -6,7 +6,7 @@
 #include <drypoint/source.h>
 
 #define DP_STREAM_WINDOW  ((size_t)256 << 10) /* bytes: stays in the second-level cache */
-#define DP_STREAM_AHEAD   ((size_t)1024)      /* bytes that a look ahead may count on */
+#define DP_STREAM_AHEAD   ((size_t)1024)      /* bytes that can be looked at ahead */
 #define DP_STREAM_UNKNOWN UINT64_MAX
 
 typedef struct dp_stream {
@@ -27,10 +27,10 @@ typedef struct dp_stream {
     bool owns_descriptor;
     int64_t start;         /* where in the file the stream begins; -1: cannot go back */
     const uint8_t *memory; /* borrowed */
-    /* What lies beside the model (beside.h), borrowed while it is being opened: */
-    const char *path;           /* a file's; or NULL */
-    const dp_memory_file *file; /* a model's in memory; or NULL */
-    /* Called with the memory when the stream is closed; NULL: it is not ours to give back. */
+    /* Where the model's other files are (beside.h); borrowed while it is being opened. */
+    const char *path;           /* of a file; or NULL */
+    const dp_memory_file *file; /* of a model in memory; or NULL */
+    /* Called with the memory when the stream is closed; NULL: nothing to call. */
     void (*closed)(void *closed_user, const void *data, size_t size);
     void *closed_user;
     int (*progress)(void *user, double fraction);
@@ -40,35 +40,34 @@ typedef struct dp_stream {
 /* path "-" is standard input. options may be NULL. DP_ERR_IO, DP_ERR_MEMORY. */
 dp_result dp_stream_open(const char *path, const dp_file_options *options, dp_stream **out,
                          dp_diag *diag);
-/* Over borrowed memory. window_size: at least 2 * DP_STREAM_AHEAD; small ones are for tests. */
+/* Opens borrowed memory. window_size: at least 2 * DP_STREAM_AHEAD; small ones are for tests. */
 dp_result dp_stream_open_memory(const void *data, size_t size, size_t window_size,
                                 const dp_file_options *options, dp_stream **out, dp_diag *diag);
 void dp_stream_close(dp_stream *stream); /* NULL allowed */
 
-/* Moves the window on: false when there is nothing more, or when reading failed or was stopped. */
+/* Moves the window forward. False at the end, or when reading failed or was cancelled. */
 bool dp_stream_refill(dp_stream *stream);
-/* Whether `count` (at most DP_STREAM_AHEAD) bytes lie at the cursor; loads them where need be. */
+/* Are there `count` (at most DP_STREAM_AHEAD) bytes at the cursor? Loads them if needed. */
 static inline bool dp_stream_have(dp_stream *stream, size_t count) {
     if (stream->cursor > stream->limit) dp_stream_refill(stream);
     return (size_t)(stream->end - stream->cursor) >= count;
 }
-/* Passes over `count` bytes; false when the end comes first. */
+/* Skips `count` bytes; false if the end comes first. */
 bool dp_stream_skip(dp_stream *stream, uint64_t count);
-/* Of the cursor, from the stream's first byte. */
+/* The cursor's byte offset from the stream's start. */
 uint64_t dp_stream_offset(const dp_stream *stream);
-/* How many of `count` announced items of at least `bytes` each may be allocated for: no more than
- * what is left of the file can hold. Headers lie; sizes of files do not. */
+/* For how many of `count` announced items, of at least `bytes` each, memory may be allocated: no
+ * more than the rest of the file can hold, as headers may be wrong. */
 size_t dp_stream_hint(const dp_stream *stream, uint64_t count, size_t bytes);
 
-/* Copies up to `size` bytes from byte `offset` of the stream, which must be rewindable, and leaves
- * the window alone; may be called from several threads. *got: how many there were. False: *error
- * (errno). */
+/* Copies up to `size` bytes from byte `offset` of the stream, which must be rewindable, and does
+ * not touch the window; from any thread. *got: bytes copied. False: *error is errno. */
 bool dp_stream_read_at(const dp_stream *stream, uint64_t offset, uint8_t *to, size_t size,
                        size_t *got, int *error);
 
 bool dp_stream_rewindable(const dp_stream *stream);
 dp_result dp_stream_rewind(dp_stream *stream, dp_diag *diag);
-/* Reports stream->result, which is not DP_OK. */
+/* Reports stream->result, which must not be DP_OK. */
 dp_result dp_stream_fail(const dp_stream *stream, dp_diag *diag);
 
 #endif

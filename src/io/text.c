@@ -1,8 +1,8 @@
 /* Words and numbers from a stream of text, with the number of the current line.
  *
- * Invariant: a word that is looked at lies whole in the window, unless it is longer than
- * DP_STREAM_AHEAD; no number is, so a longer word is not taken for one. Line ends are LF, CR LF or
- * CR. A byte 0 inside the text is part of a word, and so makes a bad number. */
+ * Invariant: a word lies wholly in the window when it is read, unless it is longer than
+ * DP_STREAM_AHEAD; no number is, so a longer word is not one. Line ends are LF, CR LF or CR. A byte
+ * 0 inside the text is part of a word, and makes a bad number. */
 #include "io/text.h"
 
 #include "io/number.h"
@@ -17,14 +17,14 @@ static inline bool is_blank(uint8_t byte) {
 static inline bool is_line_end(uint8_t byte) { return byte == '\n' || byte == '\r'; }
 static inline bool ends_word(uint8_t byte) { return is_blank(byte) || is_line_end(byte); }
 
-/* Bytes of a backslash and the line end behind it, or 0. */
+/* Bytes of a backslash and the line end after it; 0 if there is none. */
 static size_t continuation(const uint8_t *p) {
     if (p[0] != '\\') return 0;
     if (p[1] == '\r' && p[2] == '\n') return 3;
     return is_line_end(p[1]) ? 2 : 0;
 }
 
-/* At a line end: behind it. The window holds the LF of a CR LF. */
+/* Skips the line end at p. The window holds the LF of a CR LF. */
 static inline const uint8_t *pass_line_end(dp_stream *stream, const uint8_t *p) {
     stream->line += p[0] == '\n' || p[1] != '\n';
     return p + 1;
@@ -85,7 +85,7 @@ void dp_text_skip_word(dp_stream *stream) {
     }
 }
 
-/* Whether a number that stops at `p` is the whole word, and passes over it. */
+/* Skips a number that ends at `p` if it is the whole word. */
 static inline bool take(dp_stream *stream, const uint8_t *p) {
     if (!p) return false;
     if (p == stream->end ? !stream->at_end : !ends_word(*p) && !continuation(p)) return false;
@@ -139,7 +139,7 @@ void dp_text_skip_mark(dp_stream *stream) {
         stream->cursor += 3;
 }
 
-/* The word at the cursor, cut and made printable: it may be binary. */
+/* Copies the word at the cursor, cut and made printable, as it may be binary. */
 static void quote(dp_stream *stream, char *text, size_t size) {
     const size_t length = dp_text_word(stream, text, size);
     for (char *p = text; p < text + length && p < text + size - 1; p++)

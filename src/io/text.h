@@ -1,11 +1,11 @@
-/* Words and numbers from a stream of text. What most words and numbers need is inline. */
+/* Words and numbers from a stream of text. The usual cases are inline. */
 #ifndef DP_IO_TEXT_H
 #define DP_IO_TEXT_H
 
 #include "base/diag.h"
 #include "io/stream.h"
 
-/* To the next word, across line ends; false at the end of the text. */
+/* Skip to the next word, across line ends; false at the end of the text. */
 bool dp_text_space_slow(dp_stream *stream);
 static inline bool dp_text_space(dp_stream *stream) {
     const uint8_t *p = stream->cursor;
@@ -15,7 +15,7 @@ static inline bool dp_text_space(dp_stream *stream) {
     stream->cursor = p;
     return true;
 }
-/* To the next word of this line, across a backslash before a line end; false at the line's end. */
+/* Skip to the next word of this line, which a backslash may continue; false at its end. */
 bool dp_text_blank_slow(dp_stream *stream);
 static inline bool dp_text_blank(dp_stream *stream) {
     const uint8_t *p = stream->cursor;
@@ -25,13 +25,12 @@ static inline bool dp_text_blank(dp_stream *stream) {
     stream->cursor = p;
     return true;
 }
-/* Behind this line's end. */
+/* Skips to after this line's end. */
 void dp_text_skip_line(dp_stream *stream);
-/* Behind this word. */
+/* Skips this word. */
 void dp_text_skip_word(dp_stream *stream);
 
-/* The number at the cursor. False, with the cursor left before it, where there is none or where
- * something sticks to it. */
+/* Reads the number at the cursor. False, with the cursor unmoved, if the word is not a number. */
 bool dp_text_float(dp_stream *stream, float *value);
 bool dp_text_int_slow(dp_stream *stream, int64_t *value);
 static inline bool dp_text_int(dp_stream *stream, int64_t *value) {
@@ -45,18 +44,18 @@ static inline bool dp_text_int(dp_stream *stream, int64_t *value) {
     return true;
 }
 
-/* The word at the cursor, cut to size - 1 bytes; its full length. */
+/* Copies the word at the cursor, cut to size - 1 bytes; returns its full length. */
 size_t dp_text_word(dp_stream *stream, char *word, size_t size);
-/* What is left of the line, without blanks around it, cut to size - 1 bytes; goes to the line's
+/* Copies the rest of the line, without blanks around it, cut to size - 1 bytes; goes to the line's
  * end. */
 void dp_text_rest(dp_stream *stream, char *rest, size_t size);
-/* Passes over `word` (lower case; any case matches) if it stands at the cursor as a whole word. */
+/* Skips `word` (given in lower case; any case matches) if it is the whole word at the cursor. */
 bool dp_text_match(dp_stream *stream, const char *word);
-/* Passes over a UTF-8 byte order mark at the very start. */
+/* Skips a UTF-8 byte order mark at the start. */
 void dp_text_skip_mark(dp_stream *stream);
 
-/* Fails with DP_ERR_FORMAT: "expected <what>, found <the word at the cursor>", or that the file
- * ends there, or with the stream's own failure when there is one. `what` is a printf format. */
+/* Fails with the stream's own failure if there is one, else with DP_ERR_FORMAT: "expected <what>,
+ * found <the word at the cursor>", or that the file ends there. `what` is a printf format. */
 dp_result dp_text_expected(dp_stream *stream, dp_diag *diag, const char *what, ...) DP_PRINTF(3, 4);
 
 #endif
