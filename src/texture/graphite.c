@@ -1,8 +1,8 @@
-/* The texture of pencil rendering: many strokes along u on grained paper, made by rule.
+/* The textures of pencil rendering: many strokes along u, and the paper's grain.
  *
  * Each stroke is a soft line that wanders a little, drawn together with its image under half a
- * turn: the texture is the same upside down, since the directions that it is laid along have no
- * sign. It repeats in both directions. */
+ * turn: the texture is the same upside down, as directions on the surface have no sign. It repeats
+ * in both directions. */
 #include "texture/graphite.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static float random01(uint32_t *seed) { return (float)(next(seed) >> 8) / 167772
 
 static uint32_t wrap(int32_t i) { return (uint32_t)(i & (SIZE - 1)); }
 
-/* Multiplies what is there: graphite over graphite gets darker, never black. */
+/* Multiplies a texel: graphite over graphite gets darker, never black. */
 static void darken(float *values, int32_t x, int32_t y, float ink) {
     values[wrap(y) * SIZE + wrap(x)] *= 1 - ink;
     values[wrap(-1 - y) * SIZE + wrap(-1 - x)] *= 1 - ink;
@@ -61,8 +61,8 @@ void dp_make_graphite(uint8_t *out, uint32_t tones, float *scratch) {
     for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) scratch[i] = 1;
     uint32_t drawn = 0;
     for (uint32_t tone = 0; tone < tones; tone++, out += (size_t)SIZE * SIZE) {
-        /* one tone is the middle; of several the first is bare and each has as many more as makes
-         * it evenly darker */
+        /* A single tone is the middle one. Of several the first is empty, and strokes grow in
+         * number so that tones darken evenly. */
         const float share = tones > 1 ? (float)tone / (float)(tones - 1) : 0;
         const uint32_t wanted =
             tones > 1 ? (uint32_t)(share * (0.4f + 2.2f * share) * STROKES) : STROKES;

@@ -6,12 +6,13 @@
 
 enum { DP_GRAPHITE_SIZE = 512 };
 
-/* Brightness [tones][DP_GRAPHITE_SIZE][DP_GRAPHITE_SIZE], strokes along u, the same after half a
- * turn; from bare paper to dark, each with the last one's strokes and more. `scratch` holds as many
- * values as one tone. */
+/* Fills brightness [tones][DP_GRAPHITE_SIZE][DP_GRAPHITE_SIZE]: strokes along u, the same after
+ * half a turn; from empty paper to dark, each tone with the strokes of the one before and more.
+ * scratch: [DP_GRAPHITE_SIZE][DP_GRAPHITE_SIZE]. */
 void dp_make_graphite(uint8_t *values, uint32_t tones, float *scratch);
 
-/* The paper's tooth: how much more graphite each place takes than the mean, -127 to 127. */
+/* Fills [DP_GRAPHITE_SIZE][DP_GRAPHITE_SIZE] with the paper's tooth: how much more graphite than
+ * the mean each place takes, -127 to 127. */
 void dp_make_tooth(int8_t *values);
 
 #endif

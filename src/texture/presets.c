@@ -1,9 +1,8 @@
-/* Stroke textures made by rule, and what suits each.
+/* Procedural stroke textures, and the stroke style that suits each.
  *
- * Each is a function from (u, v) in [0, 1]² to ink in [0, 1], made of value noise that repeats
- * along u, so that a texture has no seam where it meets itself. v = 0.5 is the middle of the
- * stroke. Everything comes from integer hashes of lattice points and the seed: the same numbers on
- * every machine. */
+ * Each texture is a function from (u, v) in [0, 1]² to ink in [0, 1], made of value noise that
+ * repeats along u, so that it has no seam. v = 0.5 is the middle of the stroke. All noise comes
+ * from integer hashes of lattice points and the seed: the same on every machine. */
 #include <drypoint/strokes.h>
 
 #include "base/diag.h"
@@ -27,7 +26,7 @@ static float lattice(int32_t x, int32_t y, int32_t period, uint32_t seed) {
 
 static float smooth(float t) { return t * t * (3 - 2 * t); }
 
-/* Value noise on a lattice of `columns` cells along u, which it repeats by, and `rows` across. */
+/* Value noise on a lattice of `columns` cells along u, where it repeats, and `rows` across. */
 static float noise(float u, float v, int32_t columns, float rows, uint32_t seed) {
     const float x = u * (float)columns, y = v * rows, fx = floorf(x), fy = floorf(y);
     const int32_t i = (int32_t)fx, j = (int32_t)fy;
@@ -45,7 +44,7 @@ static float ramp(float from, float to, float x) {
     return smooth(dp_minf(dp_maxf(t, 0), 1));
 }
 
-/* How far inside the stroke: 0 at its contour, 1 in the middle. */
+/* How far inside the stroke: 0 at its border, 1 in the middle. */
 static float depth_in(float v) { return 1 - fabsf(2 * v - 1); }
 
 /* Graphite caught by the paper's grain; pressure wanders along the stroke. */
@@ -64,7 +63,7 @@ static float brush(float u, float v, uint32_t seed) {
     return ramp(edge - 0.06f, edge + 0.08f, depth_in(v)) * ramp(load - 0.16f, load + 0.10f, streak);
 }
 
-/* Crumbs: coarse grain, no clear contour. */
+/* Crumbs: coarse grain, no clear border. */
 static float charcoal(float u, float v, uint32_t seed) {
     const float grain = 0.5f * noise(u, v, 110, 14, seed) + 0.3f * noise(u, v, 240, 30, seed + 1) +
                         0.2f * noise(u, v, 16, 3, seed + 2);
@@ -73,7 +72,7 @@ static float charcoal(float u, float v, uint32_t seed) {
            ramp(0, 0.2f, depth_in(v));
 }
 
-/* A pen: full ink, a contour that swells a little. */
+/* A pen: full ink, a width that swells a little. */
 static float pen(float u, float v, uint32_t seed) {
     const float rim = 0.05f + 0.14f * noise(u, v < 0.5f ? 0 : 5, 7, 1, seed) +
                       0.04f * noise(u, v < 0.5f ? 2 : 9, 29, 1, seed + 1);
@@ -118,7 +117,7 @@ const char *dp_texture_about(uint32_t index) {
     return index < PRESETS ? presets[index].about : NULL;
 }
 
-/* NULL, and says so, for a name that is none. */
+/* The preset of a name; NULL, with *diag filled, if there is none. */
 static const preset *find(const char *name, dp_diag *diag) {
     char known[128] = "";
     for (uint32_t i = 0; i < PRESETS; i++) {

@@ -1,7 +1,7 @@
-/* Stroke textures: taking an image as ink, its pyramid, and looking it up.
+/* Stroke textures: takes an image as ink, makes its pyramid, samples it.
  *
- * Data structure: levels of RGBA, ink as alpha; each level is the last one averaged over 2x2
- * pixels, u wrapping round, colours weighed by ink. Invariant: immutable once made. */
+ * Data structure: levels of RGBA, alpha = ink; each level averages 2 x 2 pixels of the one before,
+ * wrapping around in u, colours weighed by ink. Invariant: immutable once made. */
 #include "texture/texture.h"
 
 #include "base/diag.h"
@@ -34,7 +34,7 @@ static bool has_alpha(const dp_texture_desc *d) {
     return false;
 }
 
-/* What, laid on white paper, looks as the pixel: the least ink that can. */
+/* The least ink that looks like the pixel on white paper. */
 static void ink_on_white(const uint8_t rgb[3], uint8_t out[4]) {
     const uint8_t least = rgb[0] < rgb[1]   ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2])
                           : rgb[1] < rgb[2] ? rgb[1]
@@ -161,7 +161,7 @@ static void mix_in(dp_texel *sum, const uint8_t *p, float weight) {
         sum->ink += ink;
 }
 
-/* floorf without a call, for what is far from the limits of int. */
+/* floorf without a call, for values well within int. */
 static int32_t floor_of(float x) {
     const int32_t i = (int32_t)x;
     return (float)i > x ? i - 1 : i;

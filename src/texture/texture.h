@@ -1,4 +1,4 @@
-/* Stroke textures, inside: a pyramid of images, each half as large as the last. */
+/* Inside a stroke texture: a pyramid of images, each half as large as the one before. */
 #ifndef DP_TEXTURE_TEXTURE_H
 #define DP_TEXTURE_TEXTURE_H
 
@@ -9,7 +9,7 @@ enum { DP_TEXTURE_LEVELS = 14 };
 struct dp_texture {
     dp_allocator memory;
     uint32_t levels;
-    bool coloured; /* else its ink takes the line's colour */
+    bool coloured; /* false: strokes have the line's colour */
     uint32_t width[DP_TEXTURE_LEVELS], height[DP_TEXTURE_LEVELS];
     uint8_t *pixels[DP_TEXTURE_LEVELS]; /* [height][width][4], colours not premultiplied */
 };
@@ -19,13 +19,13 @@ typedef struct dp_texel {
     float r, g, b, ink;
 } dp_texel;
 
-/* The level in which a line `px` wide is about as wide as the image. */
+/* The level at which a line `px` wide is about as wide as the image is high. */
 uint32_t dp_texture_level(const dp_texture *texture, float px);
 
-/* Bilinear; u repeats, v is held to [0, 1]. */
+/* Bilinear sample; u repeats, v is clamped to [0, 1]. */
 dp_texel dp_texture_sample(const dp_texture *texture, uint32_t level, float u, float v);
 
-/* Length of one repeat, px, of a line `px` wide. */
+/* Length of one repeat on a line `px` wide, px. */
 static inline float dp_texture_period(const dp_texture *texture, float px) {
     return px * (float)texture->width[0] / (float)texture->height[0];
 }

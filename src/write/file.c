@@ -1,11 +1,11 @@
 /* Writing a file so that a reader finds the old one or the new one, never half of one.
  *
  * A regular file is written under another name in the same directory and renamed over its target
- * when whole; it takes over the old file's permissions, and a symbolic link's target is what is
- * replaced. Devices and pipes are written in place. Errors of the system, a full disk say, may come
- * as late as closing: only dp_output_commit knows that all went well.
+ * when complete. It takes the old file's permissions; of a symbolic link, the target is replaced.
+ * Devices and pipes are written in place. Errors of the system (a full disk, say) may come as late
+ * as closing: only dp_output_commit tells success.
  *
- * Not here: fsync (a power failure may still lose the new file), locks, Windows. */
+ * Not handled: fsync (a power failure may still lose the new file), locks, Windows. */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "write/file.h"
 
@@ -79,7 +79,7 @@ static dp_result open_temporary(dp_output *output, const struct stat *old, dp_di
         output->temporary = NULL;
         return refuse(diag, output->target, code);
     }
-    if (old) (void)fchmod(descriptor, old->st_mode & 07777); /* a nicety: some systems refuse */
+    if (old) (void)fchmod(descriptor, old->st_mode & 07777); /* may fail, no harm */
     output->file = fdopen(descriptor, "wb");
     if (output->file) return DP_OK;
     close(descriptor);
@@ -133,7 +133,7 @@ dp_result dp_output_commit(dp_output *output, dp_diag *diag) {
     if (!code && output->temporary && rename(output->temporary, output->final)) code = errno;
     const dp_result result = code ? refuse(diag, output->target, code) : DP_OK;
     if (!result) {
-        free(output->temporary); /* it is the target now: nothing to remove */
+        free(output->temporary); /* renamed: nothing to remove */
         output->temporary = NULL;
     }
     dp_output_abandon(output);

@@ -1,4 +1,4 @@
-/* Output files that are either whole or not there. */
+/* Output files that are either complete or not written at all. */
 #ifndef DP_WRITE_FILE_H
 #define DP_WRITE_FILE_H
 
@@ -9,17 +9,18 @@
 typedef struct dp_output {
     FILE *file;
     char *target;    /* as given, for messages */
-    char *final;     /* where the temporary file goes in the end; NULL: written in place */
-    char *temporary; /* beside it; NULL: written in place */
+    char *final;     /* path to rename to; NULL: written in place */
+    char *temporary; /* path while it is written; NULL: written in place */
 } dp_output;
 
-/* "-" is standard output. DP_ERR_IO, DP_ERR_MEMORY; nothing is left behind then. */
+/* Opens an output; "-" is standard output. DP_ERR_IO, DP_ERR_MEMORY; then nothing is left behind.
+ * */
 dp_result dp_output_open(dp_output *output, const char *path, dp_diag *diag);
-/* DP_ERR_IO once anything since the opening could not be written. */
+/* DP_ERR_IO if anything since the opening could not be written. */
 dp_result dp_output_write(dp_output *output, const void *bytes, size_t size, dp_diag *diag);
-/* Puts the file in its place. Whatever the result, the output is closed. */
+/* Renames the file to its target. The output is closed in any case. */
 dp_result dp_output_commit(dp_output *output, dp_diag *diag);
-/* Throws away what was written (what went to a device or pipe is gone). */
+/* Removes what was written (not what went to a device or pipe). */
 void dp_output_abandon(dp_output *output);
 
 #endif

@@ -1,16 +1,19 @@
 /* Writes a polygon source as PLY, STL or OBJ, batch by batch.
  *
- * The files differ in what they must know beforehand: OBJ nothing, binary STL the number of
- * triangles, PLY that of vertices and polygons, and all vertices before all polygons. So a PLY
- * takes three readings of the source, an STL two, an OBJ one. An STL from a source that can be read
- * only once gets its count at the end, where the file allows that.
+ *     format       must know beforehand                           readings of the source
+ *     OBJ          nothing                                        1
+ *     STL, binary  number of triangles                            2
+ *     PLY          numbers of vertices and polygons, and writes   3
+ *                    all vertices before all polygons
  *
- * Invariant: every format holds the same polygons: those with three corners or more whose vertices
- * exist and are finite; a vertex that is not finite is written as 0 0 0, so that numbers stay
- * right. Text holds nine digits, which give back the same float.
+ * An STL of a source that can be read only once gets its count at the end, if the file is seekable.
  *
- * Not here: normals, colours, groups, edge flags; welding beyond what the source indexes. STL knows
- * only triangles: larger polygons are cut into fans, which is right for convex ones. */
+ * Invariant: every format holds the same polygons: those with at least three corners whose vertices
+ * exist and are finite. A vertex that is not finite is written as 0 0 0, so that numbers stay
+ * right. Text has nine digits, which give back the same float.
+ *
+ * Not handled: normals, colours, groups, edge flags; welding beyond the source's indices. STL:
+ * larger polygons become fans of triangles, which is right for convex ones. */
 #include <drypoint/io.h>
 
 #include "base/diag.h"
@@ -31,7 +34,7 @@ typedef struct writer {
     uint64_t vertices, polygons, triangles; /* of the whole source, once counted */
     uint32_t most_corners;                  /* of one polygon */
     uint64_t done;                          /* polygons handled so far, over all readings */
-    int readings; /* that write; 0 while counting, when the end is unknown */
+    int readings;                           /* number that write, for progress; 0 while counting */
 } writer;
 
 /* What a reading does with a batch; `base` is the number of its first vertex. */
@@ -102,7 +105,7 @@ static dp_result count_batch(writer *w, const dp_batch *batch, uint64_t base) {
     return DP_OK;
 }
 
-/* `readings` will follow that write. */
+/* Counts the source; `readings` that write will follow. */
 static dp_result count(writer *w, int readings) {
     const dp_result result = read_source(w, count_batch);
     w->done = 0;
@@ -114,7 +117,7 @@ static dp_result count(writer *w, int readings) {
 
 enum { MOST_IN_BYTE = 255 };
 
-/* Little endian, whatever the machine. */
+/* Little endian on every machine. */
 static void put_u32(uint8_t *to, uint32_t value) {
     for (int k = 0; k < 4; k++) to[k] = (uint8_t)(value >> 8 * k);
 }
@@ -178,7 +181,8 @@ static dp_result ply_polygon(writer *w, const dp_batch *batch, uint64_t base, si
     return result;
 }
 
-/* "prefix v v v\n", vertices counted from `origin`; without a prefix the number of corners. */
+/* Writes "prefix v v v\n", vertices counted from `origin`; an empty prefix is the number of
+ * corners. */
 static dp_result text_polygon(writer *w, const dp_batch *batch, uint64_t origin, size_t first,
                               size_t last, const char *prefix) {
     char text[32];
@@ -219,7 +223,7 @@ static dp_result write_ply(writer *w) {
 
 /* ---- STL ---- */
 
-/* The unit normal; 0 where there is no area. */
+/* The unit normal; 0 without area. */
 static void normal_of(const float a[3], const float b[3], const float c[3], float normal[3]) {
     double u[3], v[3], n[3];
     for (int k = 0; k < 3; k++) u[k] = (double)b[k] - a[k], v[k] = (double)c[k] - a[k];
@@ -268,7 +272,7 @@ static dp_result count_and_write(writer *w, const dp_batch *batch, uint64_t base
     return result ? result : stl_triangles(w, batch, base);
 }
 
-/* One reading: the count goes into the header afterwards. */
+/* With one reading: the count is written into the header afterwards. */
 static dp_result write_stl_once(writer *w) {
     if (fseek(w->output.file, 0, SEEK_SET))
         return dp_fail(w->diag, DP_ERR_UNSUPPORTED,

@@ -1,11 +1,11 @@
-/* Writes a picture as PNG, fast: a drawing is mostly flat paper, so the cheapest compression
- * already makes it small. What all pixels share is left out: the colour when all are gray, the
- * alpha when all are opaque, which makes less to compress and smaller files.
+/* Writes a picture as PNG, fast: a drawing is mostly plain paper, so the cheapest compression makes
+ * it small. Channels that all pixels share are left out (colour if all are grey, alpha if all are
+ * opaque): less to compress, and smaller files.
  *
- * libpng reports errors by longjmp: it stays within encode(), and everything that must survive it
- * lives in the encoder, not in local variables.
+ * libpng reports errors by longjmp: that stays within encode(), and everything that must survive it
+ * is in the encoder, not in local variables.
  *
- * Not here: palettes, 16 bits, interlacing, colour profiles. */
+ * Not handled: palettes, 16 bits, interlacing, colour profiles. */
 #include <drypoint/io.h>
 
 #include "base/diag.h"
@@ -60,7 +60,7 @@ static void on_flush(png_structp png) { (void)png; }
 
 /* ---- pixels ---- */
 
-/* Bitwise sums over a row at a time keep the loop free of branches. */
+/* Combines a row with bitwise operators, so that the loop has no branches. */
 static void look_for_colour(encoder *self) {
     const dp_io_picture *const p = self->picture;
     self->gray = self->opaque = true;
@@ -76,7 +76,7 @@ static void look_for_colour(encoder *self) {
     }
 }
 
-/* The row without what is left out. */
+/* The row with only the channels that are written. */
 static const uint8_t *pack_row(const encoder *self, const uint8_t *rgba) {
     const size_t n = self->picture->width;
     uint8_t *const to = self->row;
@@ -102,7 +102,7 @@ static int colour_type(const encoder *self) {
 static void write_header(encoder *self) {
     png_set_write_fn(self->png, self, on_write, on_flush);
     png_set_compression_level(self->png, LEVEL);
-    /* No filter: flat paper is already runs of equal bytes, and lines are too thin to predict. */
+    /* No filter: plain paper is runs of equal bytes already, and lines are too thin to predict. */
     png_set_filter(self->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_set_compression_buffer_size(self->png, 1 << 16);
     png_set_IHDR(self->png, self->info, self->picture->width, self->picture->height, 8,
