@@ -60,6 +60,16 @@ bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capa
     return true;
 }
 
+bool dp_reserve_zeroed(const dp_allocator *allocator, void *block_address, size_t *capacity,
+                       size_t need, size_t item_size) {
+    const size_t had = *capacity;
+    if (!dp_reserve(allocator, block_address, capacity, need, item_size)) return false;
+    char *block;
+    memcpy(&block, block_address, sizeof block);
+    if (*capacity > had) memset(block + had * item_size, 0, (*capacity - had) * item_size);
+    return true;
+}
+
 static void *pointer_of(const void *object, const dp_array *array) {
     void *pointer;
     memcpy(&pointer, (const char *)object + array->pointer, sizeof pointer);

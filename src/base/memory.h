@@ -25,6 +25,10 @@ void dp_free(const dp_allocator *allocator, void *block);
 bool dp_reserve(const dp_allocator *allocator, void *block_address, size_t *capacity, size_t need,
                 size_t item_size);
 
+/* The same; items beyond those that there were are zeros. */
+bool dp_reserve_zeroed(const dp_allocator *allocator, void *block_address, size_t *capacity,
+                       size_t need, size_t item_size);
+
 /* An array in a struct that dp_reserve grows: where in the struct its pointer and capacity are, and
  * the size of an item. A struct's list of these is used to free its arrays and to count their
  * bytes. */

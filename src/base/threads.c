@@ -201,6 +201,7 @@ void dp_threads_destroy(dp_threads *threads) {
 }
 
 uint32_t dp_threads_count(const dp_threads *threads) { return threads->count; }
+uint64_t dp_threads_bytes(const dp_threads *threads) { return sizeof *threads; }
 
 /* Does one item and those left meanwhile; or leaves its own. */
 static void foreign_task(void *arg, uint32_t index) {

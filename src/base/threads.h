@@ -21,6 +21,8 @@ dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
                               const dp_allocator *allocator);
 void dp_threads_destroy(dp_threads *threads);
 uint32_t dp_threads_count(const dp_threads *threads);
+/* Of the allocator's; what the system keeps for its threads is not counted. */
+uint64_t dp_threads_bytes(const dp_threads *threads);
 
 /* Runs task(arg, i, worker) for every i in [0, count), and returns when all are done. Each of the
  * context's threads has a share of the indices, the same in every loop of this length, so what a

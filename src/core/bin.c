@@ -126,17 +126,6 @@ static void bin_chunk(void *arg, uint32_t index, uint32_t worker) {
         !sort_chunk(j, scratch, count, chunk);
 }
 
-/* Grows an array of structs that must start zeroed. */
-static bool reserve_zeroed(const dp_allocator *memory, void *array, size_t *cap, size_t need,
-                           size_t size) {
-    const size_t had = *cap;
-    if (!dp_reserve(memory, array, cap, need, size)) return false;
-    char *start;
-    memcpy(&start, array, sizeof start);
-    if (*cap > had) memset(start + had * size, 0, (*cap - had) * size);
-    return true;
-}
-
 bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tiles_y,
                   dp_bin_place *place, dp_bin_touches *touches, void *arg, dp_threads *threads,
                   const dp_allocator *memory) {
@@ -144,9 +133,10 @@ bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tile
                    chunks = count / chunk + (count % chunk != 0);
     bins->chunk_count = 0;
     bins->tile_count = tiles_x * tiles_y;
-    if (!reserve_zeroed(memory, &bins->chunks, &bins->chunks_cap, chunks, sizeof *bins->chunks) ||
-        !reserve_zeroed(memory, &bins->scratch, &bins->scratch_cap, dp_threads_count(threads),
-                        sizeof *bins->scratch))
+    if (!dp_reserve_zeroed(memory, &bins->chunks, &bins->chunks_cap, chunks,
+                           sizeof *bins->chunks) ||
+        !dp_reserve_zeroed(memory, &bins->scratch, &bins->scratch_cap, dp_threads_count(threads),
+                           sizeof *bins->scratch))
         return false;
     job j = {bins, count, chunk, tiles_x, tiles_y, place, touches, arg, memory};
     dp_parallel(threads, chunks, bin_chunk, &j);
@@ -156,20 +146,30 @@ bool dp_bins_fill(dp_bins *bins, uint32_t count, uint32_t tiles_x, uint32_t tile
     return true;
 }
 
+static const dp_array arrays[] = {DP_ARRAY(dp_bins, chunks, chunks_cap),
+                                  DP_ARRAY(dp_bins, scratch, scratch_cap)};
+static const dp_array chunk_arrays[] = {DP_ARRAY(dp_bin_chunk, entries, entries_cap),
+                                        DP_ARRAY(dp_bin_chunk, offsets, offsets_cap)};
+static const dp_array scratch_arrays[] = {
+    DP_ARRAY(dp_bin_scratch, rects, rects_cap), DP_ARRAY(dp_bin_scratch, items, items_cap),
+    DP_ARRAY(dp_bin_scratch, tiles, tiles_cap), DP_ARRAY(dp_bin_scratch, offsets, offsets_cap)};
+
 void dp_bins_free(dp_bins *bins, const dp_allocator *memory) {
-    for (size_t i = 0; i < bins->chunks_cap; i++) {
-        dp_free(memory, bins->chunks[i].entries);
-        dp_free(memory, bins->chunks[i].offsets);
-    }
-    for (size_t i = 0; i < bins->scratch_cap; i++) {
-        dp_free(memory, bins->scratch[i].rects);
-        dp_free(memory, bins->scratch[i].items);
-        dp_free(memory, bins->scratch[i].tiles);
-        dp_free(memory, bins->scratch[i].offsets);
-    }
-    dp_free(memory, bins->chunks);
-    dp_free(memory, bins->scratch);
+    for (size_t i = 0; i < bins->chunks_cap; i++)
+        dp_arrays_free(memory, &bins->chunks[i], DP_ARRAYS(chunk_arrays));
+    for (size_t i = 0; i < bins->scratch_cap; i++)
+        dp_arrays_free(memory, &bins->scratch[i], DP_ARRAYS(scratch_arrays));
+    dp_arrays_free(memory, bins, DP_ARRAYS(arrays));
     *bins = (dp_bins){0};
+}
+
+uint64_t dp_bins_bytes(const dp_bins *bins) {
+    uint64_t sum = dp_arrays_bytes(bins, DP_ARRAYS(arrays));
+    for (size_t i = 0; i < bins->chunks_cap; i++)
+        sum += dp_arrays_bytes(&bins->chunks[i], DP_ARRAYS(chunk_arrays));
+    for (size_t i = 0; i < bins->scratch_cap; i++)
+        sum += dp_arrays_bytes(&bins->scratch[i], DP_ARRAYS(scratch_arrays));
+    return sum;
 }
 
 size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile) {
@@ -178,17 +178,5 @@ size_t dp_bins_tile_count(const dp_bins *bins, uint32_t tile) {
         if (c + 8 < bins->chunk_count) __builtin_prefetch(&bins->chunks[c + 8].offsets[tile]);
         sum += bins->chunks[c].offsets[tile + 1] - bins->chunks[c].offsets[tile];
     }
-    return sum;
-}
-
-uint64_t dp_bins_bytes(const dp_bins *bins) {
-    uint64_t sum =
-        bins->chunks_cap * sizeof *bins->chunks + bins->scratch_cap * sizeof *bins->scratch;
-    for (size_t i = 0; i < bins->chunks_cap; i++)
-        sum += sizeof(uint32_t) * (bins->chunks[i].entries_cap + bins->chunks[i].offsets_cap);
-    for (size_t i = 0; i < bins->scratch_cap; i++)
-        sum += sizeof(uint32_t) * (bins->scratch[i].items_cap + bins->scratch[i].tiles_cap +
-                                   bins->scratch[i].offsets_cap) +
-               bins->scratch[i].rects_cap * sizeof *bins->scratch[i].rects;
     return sum;
 }
