@@ -43,20 +43,20 @@ typedef struct builder {
     uint32_t *bucket;     /* corners by lower vertex; within it in order, until matched */
 } builder;
 
-void dp_adjacency_free(dp_adjacency *a, const dp_allocator *memory) {
-    dp_free(memory, a->across);
-    dp_free(memory, a->polygon_of);
-    dp_free(memory, a->twins);
-    dp_free(memory, a->odd);
-    dp_free(memory, a->fans);
-    dp_free(memory, a->fan_corners);
-    *a = (dp_adjacency){0};
+static const dp_array arrays[] = {DP_ARRAY(dp_adjacency, across, across_cap),
+                                  DP_ARRAY(dp_adjacency, polygon_of, polygon_cap),
+                                  DP_ARRAY(dp_adjacency, twins, twins_cap),
+                                  DP_ARRAY(dp_adjacency, odd, odd_cap),
+                                  DP_ARRAY(dp_adjacency, fans, fans_cap),
+                                  DP_ARRAY(dp_adjacency, fan_corners, fan_corners_cap)};
+
+void dp_adjacency_free(dp_adjacency *adjacency, const dp_allocator *memory) {
+    dp_arrays_free(memory, adjacency, DP_ARRAYS(arrays));
+    *adjacency = (dp_adjacency){0};
 }
 
-uint64_t dp_adjacency_bytes(const dp_adjacency *a) {
-    return a->across_cap * sizeof *a->across + a->polygon_cap * sizeof *a->polygon_of +
-           a->twins_cap * sizeof *a->twins + a->odd_cap + a->fans_cap * sizeof *a->fans +
-           a->fan_corners_cap * sizeof *a->fan_corners;
+uint64_t dp_adjacency_bytes(const dp_adjacency *adjacency) {
+    return dp_arrays_bytes(adjacency, DP_ARRAYS(arrays));
 }
 
 /* ------- is it still valid? ------- */

@@ -3,10 +3,16 @@
 
 #include <string.h>
 
+static const dp_array arrays[] = {DP_ARRAY(dp_attribute_store, values, values_cap),
+                                  DP_ARRAY(dp_attribute_store, indices, indices_cap)};
+
 void dp_attribute_store_free(dp_attribute_store *store, const dp_allocator *memory) {
-    dp_free(memory, store->values);
-    dp_free(memory, store->indices);
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
     *store = (dp_attribute_store){0};
+}
+
+uint64_t dp_attribute_store_bytes(const dp_attribute_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
 }
 
 bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners,
@@ -19,8 +25,8 @@ bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from
                              size_t corners, const dp_allocator *memory) {
     if (!from->values || !from->count) return true;
     const size_t count = store->count + from->count;
-    if (count >= UINT32_MAX ||
-        !dp_reserve(memory, &store->values, &store->values_cap, count, width * sizeof(float)))
+    if (count >= UINT32_MAX || !dp_reserve(memory, &store->values, &store->values_cap,
+                                           dp_times(count, width), sizeof *store->values))
         return false;
     if (!store->used) {
         store->used = true;

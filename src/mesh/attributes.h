@@ -9,12 +9,14 @@
  * an index; UINT32_MAX where its batch had no value for it. */
 typedef struct dp_attribute_store {
     float *values;
-    uint32_t *indices; /* [corners] */
-    size_t values_cap, indices_cap, count;
-    bool used; /* some batch had values */
+    uint32_t *indices;              /* per corner */
+    size_t values_cap, indices_cap; /* floats; corners */
+    size_t count;                   /* values */
+    bool used;                      /* a batch had some */
 } dp_attribute_store;
 
 void dp_attribute_store_free(dp_attribute_store *store, const dp_allocator *memory);
+uint64_t dp_attribute_store_bytes(const dp_attribute_store *store);
 
 /* Copies a batch's values, `width` floats each; `corners` have been added before. False when memory
  * is out. */

@@ -464,9 +464,15 @@ static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *
     return enough;
 }
 
+static const dp_array arrays[] = {DP_ARRAY(dp_curvature_store, along, along_cap)};
+
 void dp_curvature_store_free(dp_curvature_store *store, const dp_allocator *memory) {
-    dp_free(memory, store->along);
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
     *store = (dp_curvature_store){0};
+}
+
+uint64_t dp_curvature_store_bytes(const dp_curvature_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
 }
 
 /* ------- computed once ------- */

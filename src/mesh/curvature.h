@@ -20,6 +20,7 @@ typedef struct dp_curvature_store {
 } dp_curvature_store;
 
 void dp_curvature_store_free(dp_curvature_store *store, const dp_allocator *memory);
+uint64_t dp_curvature_store_bytes(const dp_curvature_store *store);
 
 /* Estimates curvatures, out[vertex_count]; 0 at vertices without sound polygons. False when memory
  * is out. */

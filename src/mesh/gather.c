@@ -19,19 +19,24 @@ typedef struct gatherer {
     uint64_t handed_out; /* polygons of earlier batches */
 } gatherer;
 
+static const dp_array arrays[] = {DP_ARRAY(dp_polygon_store, positions, positions_cap),
+                                  DP_ARRAY(dp_polygon_store, corners, corners_cap),
+                                  DP_ARRAY(dp_polygon_store, firsts, firsts_cap),
+                                  DP_ARRAY(dp_polygon_store, source_polygon, source_cap),
+                                  DP_ARRAY(dp_polygon_store, edge_flags, flags_cap),
+                                  DP_ARRAY(dp_polygon_store, groups, groups_cap)};
+
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator) {
-    dp_free(allocator, store->positions);
-    dp_free(allocator, store->corners);
-    dp_free(allocator, store->firsts);
-    dp_free(allocator, store->source_polygon);
-    dp_free(allocator, store->edge_flags);
-    dp_free(allocator, store->groups);
+    dp_arrays_free(allocator, store, DP_ARRAYS(arrays));
     dp_attribute_store_free(&store->normals, allocator);
     dp_attribute_store_free(&store->texcoords, allocator);
-    dp_free(allocator, store->scratch.at);
-    dp_free(allocator, store->scratch.links);
-    dp_free(allocator, store->scratch.triangles);
+    dp_split_scratch_free(&store->scratch, allocator);
     *store = (dp_polygon_store){0};
+}
+
+uint64_t dp_polygon_store_bytes(const dp_polygon_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays)) + dp_attribute_store_bytes(&store->normals) +
+           dp_attribute_store_bytes(&store->texcoords) + dp_split_scratch_bytes(&store->scratch);
 }
 
 static dp_result out_of_memory(gatherer *g) {
@@ -59,13 +64,6 @@ static bool locate(const dp_batch *batch, size_t first, size_t n, const float **
     return true;
 }
 
-static bool reserve_scratch(gatherer *g, size_t n) {
-    dp_split_scratch *const s = &g->store->scratch;
-    return dp_reserve(g->memory, &s->at, &s->at_cap, n, sizeof *s->at) &&
-           dp_reserve(g->memory, &s->links, &s->links_cap, n, sizeof *s->links) &&
-           dp_reserve(g->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
-}
-
 /* Can the polygons of a batch be used as they are? */
 static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
     *result = DP_OK;
@@ -76,7 +74,7 @@ static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
         const size_t n = batch->firsts[i + 1] - batch->firsts[i];
         if (n < 3) return false;
         if (n == 3) continue;
-        if (!reserve_scratch(g, n)) {
+        if (!dp_split_scratch_reserve(&g->store->scratch, n, g->memory)) {
             *result = out_of_memory(g);
             return false;
         }
@@ -180,7 +178,7 @@ static dp_result append_polygon(gatherer *g, const dp_batch *batch, size_t i, ui
     }
     g->stats->triangles += n - 2;
     if (n == 3) return append_whole(g, batch, i, first, n, base);
-    if (!reserve_scratch(g, n)) return out_of_memory(g);
+    if (!dp_split_scratch_reserve(&g->store->scratch, n, g->memory)) return out_of_memory(g);
     const bool known = locate(batch, first, n, g->store->scratch.at);
     if (!known || dp_is_convex_planar(g->store->scratch.at, (uint32_t)n))
         return append_whole(g, batch, i, first, n, base);

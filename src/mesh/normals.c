@@ -21,28 +21,29 @@ enum {
     MOST_AROUND = 512 /* polygons around a place: with more, creases are not sought (quadratic) */
 };
 
-static void free_scratch(dp_normal_store *s, const dp_allocator *memory) {
-    dp_free(memory, s->facet);
-    dp_free(memory, s->angle);
-    dp_free(memory, s->place);
-    dp_free(memory, s->starts);
-    dp_free(memory, s->around);
-    dp_free(memory, s->owner);
-    dp_free(memory, s->slots);
-    dp_free(memory, s->extra);
-    s->facet = NULL, s->angle = NULL;
-    s->place = s->starts = s->around = s->owner = s->slots = s->extra = NULL;
-    s->facet_cap = s->angle_cap = s->place_cap = s->starts_cap = s->around_cap = s->owner_cap = 0;
-    s->slots_cap = s->extra_cap = 0;
+/* What is kept, and the scratch. */
+static const dp_array arrays[] = {DP_ARRAY(dp_normal_store, values, values_cap),
+                                  DP_ARRAY(dp_normal_store, indices, indices_cap),
+                                  DP_ARRAY(dp_normal_store, packed.corner, packed_corner_cap),
+                                  DP_ARRAY(dp_normal_store, packed.vertex, packed_vertex_cap)};
+static const dp_array scratch[] = {
+    DP_ARRAY(dp_normal_store, facet, facet_cap),   DP_ARRAY(dp_normal_store, angle, angle_cap),
+    DP_ARRAY(dp_normal_store, place, place_cap),   DP_ARRAY(dp_normal_store, starts, starts_cap),
+    DP_ARRAY(dp_normal_store, around, around_cap), DP_ARRAY(dp_normal_store, owner, owner_cap),
+    DP_ARRAY(dp_normal_store, slots, slots_cap),   DP_ARRAY(dp_normal_store, extra, extra_cap)};
+
+static void free_scratch(dp_normal_store *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(scratch));
 }
 
-void dp_normal_store_free(dp_normal_store *s, const dp_allocator *memory) {
-    free_scratch(s, memory);
-    dp_free(memory, s->values);
-    dp_free(memory, s->indices);
-    dp_free(memory, s->packed.corner);
-    dp_free(memory, s->packed.vertex);
-    *s = (dp_normal_store){0};
+void dp_normal_store_free(dp_normal_store *store, const dp_allocator *memory) {
+    free_scratch(store, memory);
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+    *store = (dp_normal_store){0};
+}
+
+uint64_t dp_normal_store_bytes(const dp_normal_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays)) + dp_arrays_bytes(store, DP_ARRAYS(scratch));
 }
 
 typedef struct job {

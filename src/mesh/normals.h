@@ -35,6 +35,7 @@ typedef struct dp_normal_store {
 } dp_normal_store;
 
 void dp_normal_store_free(dp_normal_store *store, const dp_allocator *memory);
+uint64_t dp_normal_store_bytes(const dp_normal_store *store);
 
 /* Unit normals of all corners. A corner's is the mean of the polygons around its position, weighed
  * by their angles there (Thürmer and Wüthrich 1998); only of those whose normal lies within

@@ -30,6 +30,11 @@ typedef struct dp_split_scratch {
     size_t at_cap, links_cap, triangles_cap;
 } dp_split_scratch;
 
+/* Room for a polygon of n corners; false when memory is out (split.c). */
+bool dp_split_scratch_reserve(dp_split_scratch *scratch, size_t n, const dp_allocator *memory);
+void dp_split_scratch_free(dp_split_scratch *scratch, const dp_allocator *memory);
+uint64_t dp_split_scratch_bytes(const dp_split_scratch *scratch);
+
 /* Arrays that a frame may own, kept for the next frame. Zero is empty. */
 typedef struct dp_polygon_store {
     dp_split_scratch scratch;
@@ -45,6 +50,7 @@ typedef struct dp_polygon_store {
 } dp_polygon_store;
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator);
+uint64_t dp_polygon_store_bytes(const dp_polygon_store *store);
 
 /* Reads the source to its end (from its start if it can be rewound), splits polygons that are not
  * convex and planar, and fills *out. Counts polygons, triangles, split and dropped_corners in

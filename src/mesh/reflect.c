@@ -194,19 +194,21 @@ static uint32_t reflection_color(void *user, uint32_t group) {
     return dp_source_group_color(((reflection *)user)->source, group);
 }
 
+static const dp_array arrays[] = {DP_ARRAY(reflection, positions, positions_cap),
+                                  DP_ARRAY(reflection, normals, normals_cap),
+                                  DP_ARRAY(reflection, indices, indices_cap),
+                                  DP_ARRAY(reflection, firsts, firsts_cap),
+                                  DP_ARRAY(reflection, normal_indices, normal_cap),
+                                  DP_ARRAY(reflection, texcoord_indices, texcoord_cap),
+                                  DP_ARRAY(reflection, flags, flags_cap),
+                                  DP_ARRAY(reflection, groups, groups_cap),
+                                  DP_ARRAY(reflection, corners, corners_cap),
+                                  DP_ARRAY(reflection, kept, kept_cap)};
+
 static void reflection_destroy(void *user) {
     reflection *const r = user;
     const dp_allocator memory = r->memory;
-    dp_free(&memory, r->positions);
-    dp_free(&memory, r->normals);
-    dp_free(&memory, r->indices);
-    dp_free(&memory, r->firsts);
-    dp_free(&memory, r->normal_indices);
-    dp_free(&memory, r->texcoord_indices);
-    dp_free(&memory, r->flags);
-    dp_free(&memory, r->groups);
-    dp_free(&memory, r->corners);
-    dp_free(&memory, r->kept);
+    dp_arrays_free(&memory, r, DP_ARRAYS(arrays));
     dp_free(&memory, r);
 }
 

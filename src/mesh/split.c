@@ -14,6 +14,24 @@ enum { MANY_CORNERS = 4096 };
  * far less than depth shows, far more than float32 rounding. */
 static const double PLANAR = 1e-4;
 
+static const dp_array arrays[] = {DP_ARRAY(dp_split_scratch, at, at_cap),
+                                  DP_ARRAY(dp_split_scratch, links, links_cap),
+                                  DP_ARRAY(dp_split_scratch, triangles, triangles_cap)};
+
+bool dp_split_scratch_reserve(dp_split_scratch *s, size_t n, const dp_allocator *memory) {
+    return dp_reserve(memory, &s->at, &s->at_cap, n, sizeof *s->at) &&
+           dp_reserve(memory, &s->links, &s->links_cap, n, sizeof *s->links) &&
+           dp_reserve(memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
+}
+
+void dp_split_scratch_free(dp_split_scratch *scratch, const dp_allocator *memory) {
+    dp_arrays_free(memory, scratch, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_split_scratch_bytes(const dp_split_scratch *scratch) {
+    return dp_arrays_bytes(scratch, DP_ARRAYS(arrays));
+}
+
 static dp_vec3 newell(const float *const *at, uint32_t n, double *size) {
     dp_vec3 sum = {0, 0, 0};
     const dp_vec3 origin = dp_v3f(at[0]);
