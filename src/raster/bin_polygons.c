@@ -15,6 +15,19 @@ typedef struct job {
     dp_bin_worker *workers;
 } job;
 
+void dp_bin_worker_init(dp_bin_worker *worker) {
+    worker->stats = (dp_stats){0};
+    worker->failed = false;
+}
+
+void dp_bin_worker_free(dp_bin_worker *worker, const dp_allocator *memory) {
+    dp_outline_scratch_free(&worker->scratch, memory);
+}
+
+uint64_t dp_bin_worker_bytes(const dp_bin_worker *worker) {
+    return dp_outline_scratch_bytes(&worker->scratch);
+}
+
 static const dp_tile_rect NOWHERE = {0};
 
 static int16_t tile_of(float px) { return (int16_t)floorf(px / DP_TILE); }

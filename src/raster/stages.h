@@ -17,6 +17,9 @@ typedef struct dp_bin_worker {
     dp_stats stats;
     bool failed;
 } dp_bin_worker;
+void dp_bin_worker_init(dp_bin_worker *worker); /* before a frame */
+void dp_bin_worker_free(dp_bin_worker *worker, const dp_allocator *memory);
+uint64_t dp_bin_worker_bytes(const dp_bin_worker *worker);
 bool dp_bin_polygons(dp_frame *frame, float margin, dp_bin_worker *workers);
 
 #endif

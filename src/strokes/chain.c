@@ -13,6 +13,25 @@
 
 enum { NONE = UINT32_MAX, MOST_AT_NODE = 12, SHORT = 64 /* links */ };
 
+/* A way over a gap between two open ends. */
+typedef struct dp_bridge {
+    float distance;
+    uint32_t e, f;
+} bridge;
+
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_chain_store, links, links_cap), DP_ARRAY(dp_chain_store, chains, chains_cap),
+    DP_ARRAY(dp_chain_store, scratch, scratch_cap), DP_ARRAY(dp_chain_store, bridges, bridges_cap)};
+
+void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory) {
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+    store->chain_count = 0;
+}
+
+uint64_t dp_chain_store_bytes(const dp_chain_store *store) {
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
+}
+
 typedef struct chaining {
     const dp_stroke *strokes;
     const dp_chain_rule *rule;
