@@ -382,7 +382,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **s
     if (result) return result;
     if (streams) return stream_lines(c, source, stream, since, diag);
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
-    c->stats.curvature_ms = c->shade.curvature.ms;
+    c->stats.curvature_ms = c->shade.pencil.curvature.ms;
     if (dp_shade_needs_normals(&c->shade) &&
         !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle,
                          source->constant ? &source->key : NULL, c->threads, &c->memory,

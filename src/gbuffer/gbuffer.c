@@ -10,12 +10,16 @@
 
 #include <string.h>
 
+static const dp_array arrays[] = {DP_ARRAY(dp_gbuffer, block, block_cap),
+                                  DP_ARRAY(dp_gbuffer, mask, mask_cap),
+                                  DP_ARRAY(dp_gbuffer, clean, clean_cap)};
+
 void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
-    dp_free(memory, g->block);
-    dp_free(memory, g->mask);
-    dp_free(memory, g->clean);
+    dp_arrays_free(memory, g, DP_ARRAYS(arrays));
     *g = (dp_gbuffer){0};
 }
+
+uint64_t dp_gbuffer_bytes(const dp_gbuffer *g) { return dp_arrays_bytes(g, DP_ARRAYS(arrays)); }
 
 static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
     const size_t floats = g->textured ? 8 : 6,
@@ -32,8 +36,8 @@ static void place_planes(dp_gbuffer *g, size_t plane) {
                               &g->depth, &g->other, &g->u,  &g->v};
     const size_t floats = g->textured ? 8 : 6;
     for (size_t i = 0; i < 8; i++)
-        *planes[i] = i < floats ? (float *)g->block + i * plane + origin : NULL;
-    uint16_t *const ids = (uint16_t *)(void *)((float *)g->block + floats * plane);
+        *planes[i] = i < floats ? (float *)(void *)g->block + i * plane + origin : NULL;
+    uint16_t *const ids = (uint16_t *)(void *)((float *)(void *)g->block + floats * plane);
     g->id = ids + origin;
     g->share = (uint8_t *)(ids + plane) + origin;
 }

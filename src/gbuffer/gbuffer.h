@@ -57,12 +57,13 @@ typedef struct dp_gbuffer {
     const struct dp_fillers *fillers;     /* kernels for this processor (fill.h) */
     const dp_packed_normals *normals;     /* of the frame's corners, borrowed; NULL: none */
 
-    void *block; /* all planes */
+    uint8_t *block; /* all planes */
     size_t block_cap, mask_cap, clean_cap;
     bool textured; /* u, v exist */
 } dp_gbuffer;
 
 void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory);
+uint64_t dp_gbuffer_bytes(const dp_gbuffer *g);
 
 /* Allocates planes for the frame's picture, if `textured` with u and v. False when memory is out.
  * */

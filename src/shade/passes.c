@@ -14,7 +14,6 @@
 
 #include "base/kernels.h"
 #include "shade/pencil.h"
-#include "texture/graphite.h"
 
 #include <string.h>
 
@@ -25,20 +24,21 @@ static const uint8_t built_in_shades[8][4] = {
     {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},
     {156, 156, 156, 255}, {208, 208, 208, 255}, {208, 208, 208, 255}, {255, 255, 255, 255}};
 
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_shade_store, color, color_cap), DP_ARRAY(dp_shade_store, smooth, smooth_cap),
+    DP_ARRAY(dp_shade_store, inked, inked_cap), DP_ARRAY(dp_shade_store, hatching, hatching_cap),
+    DP_ARRAY(dp_shade_store, halftone, halftone_cap)};
+
 void dp_shade_store_free(dp_shade_store *s, const dp_allocator *memory) {
     dp_gbuffer_free(&s->gbuffer, memory);
-    dp_free(memory, s->color);
-    dp_free(memory, s->smooth);
-    dp_free(memory, s->inked);
-    dp_free(memory, s->hatching);
-    dp_free(memory, s->halftone);
-    dp_curvature_store_free(&s->curvature, memory);
-    dp_free(memory, s->turns);
-    dp_free(memory, s->polygon);
-    dp_free(memory, s->graphite);
-    dp_free(memory, s->tooth);
-    dp_free(memory, s->powers);
+    dp_pencil_store_free(&s->pencil, memory);
+    dp_arrays_free(memory, s, DP_ARRAYS(arrays));
     *s = (dp_shade_store){0};
+}
+
+uint64_t dp_shade_store_bytes(const dp_shade_store *s) {
+    return dp_gbuffer_bytes(&s->gbuffer) + dp_pencil_store_bytes(&s->pencil) +
+           dp_arrays_bytes(s, DP_ARRAYS(arrays));
 }
 
 static bool is_shaded(const dp_frame *frame) {
@@ -65,11 +65,13 @@ bool dp_shade_needs_normals(const dp_shade_store *s) {
                          (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
 }
 
-static bool make_texture(uint8_t **values, void (*make)(uint8_t *), const dp_allocator *memory) {
+static bool make_texture(uint8_t **values, size_t *cap, void (*make)(uint8_t *),
+                         const dp_allocator *memory) {
     if (*values) return true;
-    *values = dp_alloc(memory, (size_t)DP_STROKES_SIZE * DP_STROKES_SIZE);
-    if (*values) make(*values);
-    return *values != NULL;
+    if (!dp_reserve(memory, values, cap, (size_t)DP_STROKES_SIZE * DP_STROKES_SIZE, 1))
+        return false;
+    make(*values);
+    return true;
 }
 
 static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
@@ -80,62 +82,11 @@ static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
         (dp_strokes_texture){shade->strokes.values, shade->strokes.width, shade->strokes.height};
     if (shade->strokes.values) return true;
     if (!make_texture(dots ? &s->halftone : &s->hatching,
+                      dots ? &s->halftone_cap : &s->hatching_cap,
                       dots ? dp_make_halftone : dp_make_hatching, memory))
         return false;
     s->setup.strokes =
         (dp_strokes_texture){dots ? s->halftone : s->hatching, DP_STROKES_SIZE, DP_STROKES_SIZE};
-    return true;
-}
-
-static bool make_graphite(dp_shade_store *s, uint32_t tones, const dp_allocator *memory) {
-    const size_t one = (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE;
-    if (!s->tooth) {
-        s->tooth = dp_alloc(memory, one);
-        if (!s->tooth) return false;
-        dp_make_tooth(s->tooth);
-        dp_make_pencil_table(&s->pencil);
-    }
-    const dp_shade *const shade = &s->setup.shade;
-    if (!s->powers || s->powers_of[0] != shade->pencil_s || s->powers_of[1] != shade->pencil_o) {
-        if (!s->powers) s->powers = dp_alloc(memory, 256 * 256);
-        if (!s->powers) return false;
-        dp_make_powers(s->powers, shade->pencil_s, shade->pencil_o);
-        s->powers_of[0] = shade->pencil_s, s->powers_of[1] = shade->pencil_o;
-    }
-    if (s->graphite && s->graphite_tones == tones) return true;
-    dp_free(memory, s->graphite);
-    s->graphite = dp_alloc(memory, tones * one);
-    float *const scratch = dp_alloc_array(memory, one, sizeof *scratch);
-    if (s->graphite && scratch) dp_make_graphite(s->graphite, tones, scratch);
-    dp_free(memory, scratch);
-    s->graphite_tones = s->graphite && scratch ? tones : 0;
-    return s->graphite_tones;
-}
-
-/* Sets up the pencil's textures, and the plane that says which polygon each pixel shows. */
-static bool take_pencil(dp_shade_store *s, const dp_frame *frame) {
-    const dp_shade *const shade = &s->setup.shade;
-    dp_gbuffer *const g = &s->gbuffer;
-    g->polygon = NULL;
-    if (shade->shading != DP_SHADING_PENCIL) return true;
-    const uint32_t tones = shade->strokes.values || !shade->pencil_tones ? 1 : shade->pencil_tones;
-    if (!dp_reserve(frame->memory, &s->polygon, &s->polygon_cap, g->stride * g->height,
-                    sizeof *s->polygon) ||
-        !make_graphite(s, tones, frame->memory))
-        return false;
-    g->polygon = s->polygon;
-    s->setup.frame = frame;
-    s->setup.tooth = s->tooth;
-    s->setup.powers = s->powers;
-    s->setup.pencil = &s->pencil;
-    s->setup.tone_count = tones;
-    for (uint32_t i = 0; i < tones; i++)
-        s->setup.tones[i] =
-            (dp_strokes_texture){s->graphite + i * (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE,
-                                 DP_GRAPHITE_SIZE, DP_GRAPHITE_SIZE};
-    if (shade->strokes.values)
-        s->setup.tones[0] = (dp_strokes_texture){shade->strokes.values, shade->strokes.width,
-                                                 shade->strokes.height};
     return true;
 }
 
@@ -147,18 +98,11 @@ static bool wants_texcoords(const dp_shade_store *s) {
 }
 
 bool dp_shade_gathered(dp_shade_store *s) {
-    const dp_frame *const frame = s->frame;
     if (!s->active) return true;
-    if (!dp_gbuffer_begin(&s->gbuffer, frame, wants_texcoords(s)) || !take_pencil(s, frame))
-        return false;
-    if (s->setup.shade.shading != DP_SHADING_PENCIL) return true;
-    if (!dp_curvature_directions(&s->curvature, &frame->polygons, frame->threads, frame->memory) ||
-        !dp_reserve(frame->memory, &s->turns, &s->turns_cap,
-                    (size_t)frame->polygons.vertex_count + 1, sizeof *s->turns))
-        return false;
-    dp_pencil_vertices(frame, (const float(*)[3])s->curvature.along, s->turns);
-    s->setup.turns = s->turns;
-    return true;
+    if (!dp_gbuffer_begin(&s->gbuffer, s->frame, wants_texcoords(s))) return false;
+    s->gbuffer.polygon = NULL;
+    return s->setup.shade.shading != DP_SHADING_PENCIL ||
+           dp_pencil_begin(&s->pencil, s->frame, &s->gbuffer, &s->setup);
 }
 
 static void set_up(dp_shade_store *s, const dp_frame *frame) {

@@ -23,9 +23,92 @@
 #include "base/hostile.h"
 #include "base/kernels.h"
 #include "shade/pencil_rows.h"
+#include "texture/graphite.h"
 
 enum { BLOCK = DP_TUNED(16384, 5) };
 static const float PI = 3.14159265f;
+
+/* ------- memory and textures ------- */
+
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_pencil_store, turns, turns_cap), DP_ARRAY(dp_pencil_store, polygon, polygon_cap),
+    DP_ARRAY(dp_pencil_store, powers, powers_cap),
+    DP_ARRAY(dp_pencil_store, graphite, graphite_cap), DP_ARRAY(dp_pencil_store, tooth, tooth_cap)};
+
+void dp_pencil_store_free(dp_pencil_store *s, const dp_allocator *memory) {
+    dp_curvature_store_free(&s->curvature, memory);
+    dp_arrays_free(memory, s, DP_ARRAYS(arrays));
+    *s = (dp_pencil_store){0};
+}
+
+uint64_t dp_pencil_store_bytes(const dp_pencil_store *s) {
+    return dp_curvature_store_bytes(&s->curvature) + dp_arrays_bytes(s, DP_ARRAYS(arrays));
+}
+
+static const size_t TEXTURE = (size_t)DP_GRAPHITE_SIZE * DP_GRAPHITE_SIZE; /* bytes */
+
+static bool make_tooth(dp_pencil_store *s, const dp_allocator *memory) {
+    if (s->tooth) return true;
+    if (!dp_reserve(memory, &s->tooth, &s->tooth_cap, TEXTURE, sizeof *s->tooth)) return false;
+    dp_make_tooth(s->tooth);
+    dp_make_pencil_table(&s->table);
+    return true;
+}
+
+static bool make_powers(dp_pencil_store *s, const dp_shade *shade, const dp_allocator *memory) {
+    if (s->powers && s->powers_of[0] == shade->pencil_s && s->powers_of[1] == shade->pencil_o)
+        return true;
+    if (!dp_reserve(memory, &s->powers, &s->powers_cap, 256 * 256, 1)) return false;
+    dp_make_powers(s->powers, shade->pencil_s, shade->pencil_o);
+    s->powers_of[0] = shade->pencil_s, s->powers_of[1] = shade->pencil_o;
+    return true;
+}
+
+static bool make_graphite(dp_pencil_store *s, uint32_t tones, const dp_allocator *memory) {
+    if (s->tones == tones) return true;
+    s->tones = 0;
+    if (!dp_reserve(memory, &s->graphite, &s->graphite_cap, tones * TEXTURE, 1)) return false;
+    float *const scratch = dp_alloc_array(memory, TEXTURE, sizeof *scratch);
+    if (!scratch) return false;
+    dp_make_graphite(s->graphite, tones, scratch);
+    dp_free(memory, scratch);
+    s->tones = tones;
+    return true;
+}
+
+static void set_up_textures(const dp_pencil_store *s, uint32_t tones, dp_shading_setup *setup) {
+    const dp_image *const strokes = &setup->shade.strokes;
+    setup->tooth = s->tooth;
+    setup->powers = s->powers;
+    setup->pencil = &s->table;
+    setup->tone_count = tones;
+    for (uint32_t i = 0; i < tones; i++)
+        setup->tones[i] =
+            (dp_strokes_texture){s->graphite + i * TEXTURE, DP_GRAPHITE_SIZE, DP_GRAPHITE_SIZE};
+    if (strokes->values)
+        setup->tones[0] = (dp_strokes_texture){strokes->values, strokes->width, strokes->height};
+}
+
+bool dp_pencil_begin(dp_pencil_store *s, const dp_frame *frame, dp_gbuffer *g,
+                     dp_shading_setup *setup) {
+    const dp_allocator *const memory = frame->memory;
+    const dp_shade *const shade = &setup->shade;
+    const size_t vertices = (size_t)frame->polygons.vertex_count + 1;
+    const uint32_t tones = shade->strokes.values || !shade->pencil_tones ? 1 : shade->pencil_tones;
+    if (!dp_reserve(memory, &s->polygon, &s->polygon_cap, g->stride * g->height,
+                    sizeof *s->polygon) ||
+        !make_tooth(s, memory) || !make_powers(s, shade, memory) ||
+        !make_graphite(s, tones, memory) ||
+        !dp_curvature_directions(&s->curvature, &frame->polygons, frame->threads, memory) ||
+        !dp_reserve(memory, &s->turns, &s->turns_cap, vertices, sizeof *s->turns))
+        return false;
+    g->polygon = s->polygon;
+    set_up_textures(s, tones, setup);
+    dp_pencil_vertices(frame, (const float(*)[3])s->curvature.along, s->turns);
+    setup->frame = frame;
+    setup->turns = s->turns;
+    return true;
+}
 
 /* ------- vertex stage ------- */
 

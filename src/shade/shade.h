@@ -93,6 +93,20 @@ void dp_make_halftone(uint8_t *values);
 
 /* ------- passes ------- */
 
+/* What pencil rendering keeps (pencil.c). Zero is empty. */
+typedef struct dp_pencil_store {
+    dp_curvature_store curvature; /* directions of least curvature */
+    dp_turn *turns;               /* the same on the screen, by vertex */
+    uint32_t *polygon;            /* the G-buffer's plane */
+    uint8_t *powers;              /* of powers_of: S and O */
+    uint8_t *graphite;            /* [tones] textures */
+    int8_t *tooth;
+    size_t turns_cap, polygon_cap, powers_cap, graphite_cap, tooth_cap;
+    float powers_of[2];
+    uint32_t tones; /* 0: none are made */
+    dp_pencil_table table;
+} dp_pencil_store;
+
 /* What shading keeps from frame to frame. Zero is empty. */
 typedef struct dp_shade_store {
     dp_gbuffer gbuffer;
@@ -101,19 +115,9 @@ typedef struct dp_shade_store {
     uint8_t *shown;  /* smooth with a cartoon map, else color */
     uint8_t *inked;  /* [height][width][4] ink of the tiles that ink before shading */
     size_t color_cap, smooth_cap, inked_cap;
-    uint8_t *hatching, *halftone;
-
-    /* pencil */
-    dp_curvature_store curvature; /* directions of minimal curvature */
-    dp_turn *turns;               /* the same on the screen */
-    uint8_t *powers;              /* [256][256] for powers_of */
-    float powers_of[2];           /* S, O */
-    dp_pencil_table pencil;
-    uint32_t *polygon; /* plane for dp_gbuffer.polygon */
-    uint8_t *graphite; /* [graphite_tones] textures */
-    int8_t *tooth;
-    size_t turns_cap, polygon_cap;
-    uint32_t graphite_tones;
+    uint8_t *hatching, *halftone; /* built-in textures, made when first used */
+    size_t hatching_cap, halftone_cap;
+    dp_pencil_store pencil;
     const dp_shaders *shaders; /* for this processor */
     bool active;               /* this frame has a G-buffer */
     bool colored;              /* this frame is shaded or has edges */
@@ -125,6 +129,7 @@ typedef struct dp_shade_store {
 } dp_shade_store;
 
 void dp_shade_store_free(dp_shade_store *store, const dp_allocator *memory);
+uint64_t dp_shade_store_bytes(const dp_shade_store *store);
 
 /* Begins a frame, before the tiles. False when memory is out. */
 bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);

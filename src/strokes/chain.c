@@ -41,25 +41,6 @@ typedef struct chaining {
     size_t slot_count;
 } chaining;
 
-/* Two ends over a gap. */
-typedef struct dp_bridge {
-    float distance;
-    uint32_t e, f;
-} bridge;
-
-static const dp_array arrays[] = {DP_ARRAY(dp_chain_store, links, links_cap),
-                                  DP_ARRAY(dp_chain_store, chains, chains_cap),
-                                  DP_ARRAY(dp_chain_store, scratch, scratch_cap),
-                                  DP_ARRAY(dp_chain_store, bridges, bridges_cap)};
-
-void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory) {
-    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
-}
-
-uint64_t dp_chain_store_bytes(const dp_chain_store *store) {
-    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
-}
-
 static dp_point end_point(const chaining *c, uint32_t end) {
     const dp_stroke *const s = &c->strokes[end / 2];
     return end & 1 ? s->b : s->a;
