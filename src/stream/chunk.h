@@ -68,8 +68,9 @@ typedef struct dp_chunk {
  * so that one look into one map decides for the box of a small triangle. */
 typedef struct dp_pixel_maps {
     uint32_t *words; /* 16 pixels each */
-    uint32_t row;    /* words */
-    uint32_t map;    /* words */
+    size_t words_cap;
+    uint32_t row; /* words */
+    uint32_t map; /* words */
 } dp_pixel_maps;
 
 /* What a chunk's triangles are compared with. */

@@ -129,17 +129,19 @@ bool dp_stream_choose_flagged(dp_stream_draw *s) {
 /* Adds a tile's crossings to its lines; their polygons are counted from `first`. */
 static bool add_lines(const dp_stream_draw *s, const dp_finder *w, uint32_t first,
                       dp_tile_lines *lines) {
-    const dp_tile_lines own = {w->lines.candidates, w->lines.probes, w->lines.candidate_count,
-                               w->lines.probe_count};
+    const dp_tile_lines own = {.candidates = w->lines.candidates,
+                               .probes = w->lines.probes,
+                               .candidate_count = w->lines.candidate_count,
+                               .probe_count = w->lines.probe_count};
     const uint32_t candidates = lines->candidate_count + own.candidate_count;
     dp_tile_lines all;
-    if (!dp_stream_make_lines(s, candidates, lines->probe_count + own.probe_count, &all))
+    if (!dp_tile_lines_make(&all, candidates, lines->probe_count + own.probe_count, s->memory))
         return false;
-    dp_stream_put_lines(lines, &all, 0, 0);
-    dp_stream_put_lines(&own, &all, lines->candidate_count, lines->probe_count);
+    dp_tile_lines_put(lines, &all, 0, 0);
+    dp_tile_lines_put(&own, &all, lines->candidate_count, lines->probe_count);
     for (uint32_t i = lines->candidate_count; i < candidates; i++)
         all.candidates[i].a += first, all.candidates[i].b += first;
-    dp_free(s->memory, lines->candidates);
+    dp_tile_lines_free(lines, s->memory);
     *lines = all;
     return true;
 }

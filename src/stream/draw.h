@@ -19,12 +19,29 @@ typedef struct dp_chunk_output {
     size_t pending_first;         /* their place in stream->pending */
     dp_pending_triangle *pending; /* [DP_CHUNK] */
     uint32_t pending_count;
-    uint32_t *pixels; /* [DP_CHUNK] intersection candidates: dp_chunk_pixel */
+    uint32_t *pixels; /* [DP_CHUNK] of the intersection candidates: where they are counted */
+    size_t corners_cap, numbers_cap, pending_cap, pixels_cap;
     dp_result result;
     dp_diag diag;
 } dp_chunk_output;
 
-typedef struct dp_fan dp_fan; /* fans.c */
+/* False when memory is out; then too it is to be freed (readings.c). */
+bool dp_chunk_output_init(dp_chunk_output *output, const dp_allocator *memory);
+void dp_chunk_output_free(dp_chunk_output *output, const dp_allocator *memory);
+uint64_t dp_chunk_output_bytes(const dp_chunk_output *output);
+
+/* Edges that are thought to be lines (fans.c). Zero is empty. */
+typedef struct dp_fan dp_fan;
+typedef struct dp_fan_table {
+    dp_fan *fans;
+    uint32_t *slots;  /* [slot_count] 1 + fan, 0: free */
+    uint64_t *filter; /* [filter_bits / 64] the bits of their edges' keys are set (chunk.h) */
+    size_t fans_cap, slots_cap, filter_cap;
+    uint32_t count, slot_count, filter_bits;
+} dp_fan_table;
+
+void dp_fan_table_free(dp_fan_table *table, const dp_allocator *memory);
+uint64_t dp_fan_table_bytes(const dp_fan_table *table);
 
 /* A triangle of the second reading that has a candidate's edge. */
 typedef struct dp_partner {
@@ -36,8 +53,9 @@ typedef struct dp_partner {
 /* Scratch of one worker. */
 typedef struct dp_stream_worker {
     dp_chunk *chunk;
-    uint8_t *buffer;
-    dp_pending_triangle *intersecting; /* one reading: triangles that cross others */
+    uint8_t *buffer; /* of a chunk's records */
+    size_t buffer_cap;
+    dp_pending_triangle *intersecting; /* one pass: triangles that cross others */
     size_t intersecting_cap, intersecting_count;
     dp_partner *partners; /* of the current part */
     size_t partners_cap, partner_count;
@@ -49,12 +67,27 @@ typedef struct dp_stream_worker {
     bool failed;
 } dp_stream_worker;
 
+/* As dp_chunk_output_… (readings.c). */
+bool dp_stream_worker_init(dp_stream_worker *worker, const dp_input *input,
+                           const dp_allocator *memory);
+void dp_stream_worker_free(dp_stream_worker *worker, const dp_allocator *memory);
+uint64_t dp_stream_worker_bytes(const dp_stream_worker *worker);
+
 /* A tile's lines while the source is read again. */
 typedef struct dp_tile_lines {
     dp_candidate *candidates; /* one block of memory with the probes */
     dp_probes probes;
     uint32_t candidate_count, probe_count;
+    size_t size; /* bytes of the block; 0: it is another's */
 } dp_tile_lines;
+
+/* Room for so many, in one block of memory; false when that is out (tiles.c). */
+bool dp_tile_lines_make(dp_tile_lines *lines, uint32_t candidates, uint32_t probes,
+                        const dp_allocator *memory);
+void dp_tile_lines_free(dp_tile_lines *lines, const dp_allocator *memory);
+/* Puts the tile's own there, as candidates and probes from those numbers on. */
+void dp_tile_lines_put(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
+                       uint32_t probe);
 
 struct dp_stream_draw {
     dp_frame *frame; /* the next four as in dp_stream_setup */
@@ -67,40 +100,39 @@ struct dp_stream_draw {
     dp_input input;
     dp_chunk_view view;
     dp_stream_worker *workers; /* [worker_count] */
+    size_t workers_cap;
 
-    dp_chunk_output *outputs; /* [chunks] of the current part */
+    dp_chunk_output *outputs; /* [chunks] of the part at hand */
+    size_t outputs_cap;
     uint32_t chunks;
-    float (*corners)[9]; /* [part] the list: triangles to be drawn next */
-    uint32_t *numbers;   /* [part] their numbers in the stream */
-    uint32_t covering;   /* length of the list */
+    float (*corners)[9]; /* triangles to be drawn next; [part] */
+    uint32_t *numbers;   /* theirs */
+    size_t corners_cap, numbers_cap;
+    uint32_t covering; /* how many */
 
     dp_pending pending;
     size_t joined;    /* pending triangles whose edges have met; others came with the last part */
     float *positions; /* of frame->polygons, and so the next three */
     uint8_t *edge_flags;
     uint32_t *polygon_numbers, *source_polygons;
-    size_t positions_cap, flags_cap, numbers_cap, source_cap;
-    uint32_t mesh_count; /* polygons: pending triangles, then intersection candidates */
+    size_t positions_cap, flags_cap, polygon_numbers_cap, source_cap;
+    uint32_t mesh_count; /* polygons: what is kept, then the intersection candidates */
 
     dp_pending_triangle *intersecting; /* the intersection candidates; numbers ascend */
     size_t intersecting_cap, intersecting_count, intersecting_limit;
     uint64_t *away; /* [tile][tile_samples / 64] a bit per sample: it shows a back face */
-    uint64_t (*candidate_pixels)[2][DP_TILE]; /* [tile], as in dp_tile */
-    uint64_t *flagged;                        /* of dp_chunk_view */
+    uint64_t (*candidate_pixels)[2][DP_TILE]; /* by tile, as in dp_finder */
+    uint64_t *flagged;                        /* dp_chunk_view */
+    uint8_t *intersecting_counts; /* [tile][DP_TILE][DP_TILE] triangles of the intersection
+                                     candidates that begin in a pixel */
+    size_t away_cap, candidate_pixels_cap, flagged_cap, intersecting_counts_cap;
+    dp_fan_table fans;
 
-    dp_fan *fans;        /* [fan_count] edges of candidates */
-    uint32_t *fan_slots; /* [fan_slot_count] 1 + fan; 0: free */
-    uint32_t fan_count, fan_slot_count;
-    uint64_t *fan_filter; /* [fan_filter_bits / 64] a bit for each edge key (chunk.h) */
-    uint32_t fan_filter_bits;
-
-    /* [tile][DP_TILE][DP_TILE] intersection candidates that begin in each pixel */
-    uint8_t *intersecting_counts;
-
-    float *farthest;      /* of dp_chunk_view */
-    uint64_t *wanted;     /* of dp_chunk_view */
-    dp_tile_lines *lines; /* [tile] */
-    uint64_t triangles;   /* in the stream */
+    float *farthest; /* dp_chunk_view */
+    uint64_t *wanted;
+    dp_tile_lines *lines; /* by tile */
+    size_t farthest_cap, wanted_cap, lines_cap;
+    uint64_t triangles; /* in the stream */
     bool read_again;
     bool thinned;        /* too many lines: some were left out */
     bool waited_in_vain; /* waiting edges were given up */
@@ -150,20 +182,13 @@ void dp_stream_look_for_fans(const dp_stream_draw *stream, const float *a, const
                              dp_stream_worker *own);
 /* May an edge be in the table? False is sure. */
 static inline bool dp_stream_may_be_fan(const dp_stream_draw *stream, uint32_t edge_key) {
-    const uint32_t bit = edge_key & (stream->fan_filter_bits - 1);
-    return stream->fan_filter[bit / 64] >> bit % 64 & 1;
+    const uint32_t bit = edge_key & (stream->fans.filter_bits - 1);
+    return stream->fans.filter[bit / 64] >> bit % 64 & 1;
 }
 bool dp_stream_join_fans(dp_stream_draw *stream);
 void dp_stream_settle_fans(const dp_stream_draw *stream, dp_tile_lines *lines);
 
-/* make_lines allocates a tile's lines, in one block; false when memory is out. put_lines copies
- * lines there, from these numbers of candidates and probes on (tiles.c). */
-bool dp_stream_make_lines(const dp_stream_draw *stream, uint32_t candidates, uint32_t probes,
-                          dp_tile_lines *out);
-void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
-                         uint32_t probe);
-
-/* From now on the tile draws into the worker's own depth, which is not cleared, instead of the
+/* From now on the tile draws into depth of the worker's own, whatever that holds, and not into the
  * picture's (tiles.c). False when memory is out. */
 bool dp_stream_draw_apart(const dp_stream_draw *stream, dp_finder *worker, dp_stream_worker *own);
 

@@ -34,6 +34,19 @@ struct dp_fan {
     incident_face side[2]; /* left and right of the edge on the screen */
 };
 
+static const dp_array arrays[] = {DP_ARRAY(dp_fan_table, fans, fans_cap),
+                                  DP_ARRAY(dp_fan_table, slots, slots_cap),
+                                  DP_ARRAY(dp_fan_table, filter, filter_cap)};
+
+void dp_fan_table_free(dp_fan_table *table, const dp_allocator *memory) {
+    dp_arrays_free(memory, table, DP_ARRAYS(arrays));
+    *table = (dp_fan_table){0};
+}
+
+uint64_t dp_fan_table_bytes(const dp_fan_table *table) {
+    return dp_arrays_bytes(table, DP_ARRAYS(arrays));
+}
+
 static const float *position(const dp_stream_draw *s, uint32_t corner) {
     return s->positions + 3 * (size_t)corner;
 }
@@ -85,7 +98,7 @@ static uint32_t edge_key(const dp_stream_draw *s, const float *a, const float *b
 }
 
 static void add_fan(dp_stream_draw *s, uint32_t corner) {
-    dp_fan *const fan = &s->fans[s->fan_count];
+    dp_fan *const fan = &s->fans.fans[s->fans.count];
     const uint32_t polygon = corner / 3;
     const float *const a = position(s, corner), *const b = position(s, next_corner(corner));
     const float *const c = position(s, next_corner(next_corner(corner)));
@@ -96,35 +109,38 @@ static void add_fan(dp_stream_draw *s, uint32_t corner) {
                             &side, &own))
         return;
     offer(fan, side, &own);
-    uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1);
-    while (s->fan_slots[slot]) slot = (slot + 1) & (s->fan_slot_count - 1);
-    s->fan_slots[slot] = ++s->fan_count;
-    const uint32_t bit = edge_key(s, a, b) & (s->fan_filter_bits - 1);
-    s->fan_filter[bit / 64] |= (uint64_t)1 << bit % 64;
+    uint32_t slot = dp_edge_hash(a, b) & (s->fans.slot_count - 1);
+    while (s->fans.slots[slot]) slot = (slot + 1) & (s->fans.slot_count - 1);
+    s->fans.slots[slot] = ++s->fans.count;
+    const uint32_t bit = edge_key(s, a, b) & (s->fans.filter_bits - 1);
+    s->fans.filter[bit / 64] |= (uint64_t)1 << bit % 64;
 }
 
 static const dp_fan *fan_at(const dp_stream_draw *s, uint32_t corner) {
     const float *const a = position(s, corner), *const b = position(s, next_corner(corner));
-    for (uint32_t slot = dp_edge_hash(a, b) & (s->fan_slot_count - 1); s->fan_slots[slot];
-         slot = (slot + 1) & (s->fan_slot_count - 1))
-        if (s->fans[s->fan_slots[slot] - 1].corner == corner)
-            return &s->fans[s->fan_slots[slot] - 1];
+    for (uint32_t slot = dp_edge_hash(a, b) & (s->fans.slot_count - 1); s->fans.slots[slot];
+         slot = (slot + 1) & (s->fans.slot_count - 1))
+        if (s->fans.fans[s->fans.slots[slot] - 1].corner == corner)
+            return &s->fans.fans[s->fans.slots[slot] - 1];
     return NULL;
+}
+
+static bool reserve_fans(dp_fan_table *t, size_t count, const dp_allocator *memory) {
+    t->slot_count = 64;
+    while (t->slot_count < 2 * count) t->slot_count *= 2;
+    t->filter_bits = t->slot_count < 1u << 27 ? 16 * t->slot_count : 1u << 31; /* few are set */
+    return dp_reserve_zeroed(memory, &t->slots, &t->slots_cap, t->slot_count, sizeof *t->slots) &&
+           dp_reserve(memory, &t->fans, &t->fans_cap, count, sizeof *t->fans) &&
+           dp_reserve_zeroed(memory, &t->filter, &t->filter_cap, t->filter_bits / 64,
+                             sizeof *t->filter);
 }
 
 bool dp_stream_make_fans(dp_stream_draw *s) {
     const uint32_t tiles = s->frame->tiles_x * s->frame->tiles_y;
     size_t count = 0;
     for (uint32_t t = 0; t < tiles; t++) count += s->lines[t].candidate_count;
-    if (!count || count > s->intersecting_limit / 2) return true; /* too many to look after */
-    s->fan_slot_count = 64;
-    while (s->fan_slot_count < 2 * count) s->fan_slot_count *= 2;
-    s->fan_slots = dp_alloc_zeroed(s->memory, dp_times(s->fan_slot_count, sizeof *s->fan_slots));
-    s->fans = dp_alloc_array(s->memory, count, sizeof *s->fans);
-    s->fan_filter_bits =
-        s->fan_slot_count < 1u << 27 ? 16 * s->fan_slot_count : 1u << 31; /* few of them are set */
-    s->fan_filter = dp_alloc_zeroed(s->memory, s->fan_filter_bits / 8);
-    if (!s->fan_slots || !s->fans || !s->fan_filter) return false;
+    if (!count || count > s->intersecting_limit / 2) return true; /* too many to be looked after */
+    if (!reserve_fans(&s->fans, count, s->memory)) return false;
     for (uint32_t t = 0; t < tiles; t++)
         for (uint32_t i = 0; i < s->lines[t].candidate_count; i++) {
             const uint32_t corner =
@@ -145,9 +161,9 @@ static bool is_edge(const dp_stream_draw *s, const dp_fan *fan, const float *a, 
 void dp_stream_look_for_fans(const dp_stream_draw *s, const float *a, const float *b,
                              const float *c, const float *triangle, uint32_t number,
                              dp_stream_worker *own) {
-    const uint32_t mask = s->fan_slot_count - 1;
-    for (uint32_t slot = dp_edge_hash(a, b) & mask; s->fan_slots[slot]; slot = (slot + 1) & mask) {
-        const dp_fan *const fan = &s->fans[s->fan_slots[slot] - 1];
+    const uint32_t mask = s->fans.slot_count - 1;
+    for (uint32_t slot = dp_edge_hash(a, b) & mask; s->fans.slots[slot]; slot = (slot + 1) & mask) {
+        const dp_fan *const fan = &s->fans.fans[s->fans.slots[slot] - 1];
         if (s->polygon_numbers[fan->corner / 3] == number || !is_edge(s, fan, a, b)) continue;
         if (!dp_reserve(s->memory, &own->partners, &own->partners_cap, own->partner_count + 1,
                         sizeof *own->partners)) {
@@ -155,7 +171,7 @@ void dp_stream_look_for_fans(const dp_stream_draw *s, const float *a, const floa
             return;
         }
         dp_partner *const partner = &own->partners[own->partner_count++];
-        *partner = (dp_partner){.fan = s->fan_slots[slot] - 1, .number = number};
+        *partner = (dp_partner){.fan = s->fans.slots[slot] - 1, .number = number};
         memcpy(partner->corner, c, sizeof partner->corner);
         memcpy(partner->triangle, triangle, sizeof partner->triangle);
     }
@@ -185,7 +201,7 @@ bool dp_stream_join_fans(dp_stream_draw *s) {
         if (w->failed) return false;
         for (size_t k = 0; k < w->partner_count; k++) {
             const dp_partner *const partner = &w->partners[k];
-            dp_fan *const fan = &s->fans[partner->fan];
+            dp_fan *const fan = &s->fans.fans[partner->fan];
             int side;
             incident_face f;
             /* left and right are those of the fan's own edge */
@@ -215,7 +231,7 @@ static int line_of(const dp_stream_draw *s, const dp_fan *fan) {
 }
 
 void dp_stream_settle_fans(const dp_stream_draw *s, dp_tile_lines *lines) {
-    if (!s->fan_count) return;
+    if (!s->fans.count) return;
     for (uint32_t i = 0; i < lines->candidate_count; i++) {
         dp_candidate *const c = &lines->candidates[i];
         const dp_fan *const fan = c->edge == DP_CROSSING ? NULL : fan_at(s, 3 * c->a + c->edge);

@@ -16,6 +16,10 @@ static dp_result out_of_memory(dp_diag *diag) {
     return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a part of the model");
 }
 
+static const dp_array arrays[] = {DP_ARRAY(dp_input, corners, corners_cap),
+                                  DP_ARRAY(dp_input, flags, flags_cap),
+                                  DP_ARRAY(dp_input, polygons, polygons_cap)};
+
 dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
                         const dp_allocator *memory, dp_stats *stats, dp_diag *diag) {
     *input =
@@ -25,23 +29,25 @@ dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
         if (result) return result;
     }
     if (source->records.read) return DP_OK;
-    input->corners = dp_alloc_array(memory, input->part, sizeof *input->corners);
-    input->flags = dp_alloc_array(memory, input->part, sizeof *input->flags);
-    input->polygons = dp_alloc_array(memory, input->part, sizeof *input->polygons);
-    if (input->corners && input->flags && input->polygons) return DP_OK;
+    if (dp_reserve(memory, &input->corners, &input->corners_cap, input->part,
+                   sizeof *input->corners) &&
+        dp_reserve(memory, &input->flags, &input->flags_cap, input->part, sizeof *input->flags) &&
+        dp_reserve(memory, &input->polygons, &input->polygons_cap, input->part,
+                   sizeof *input->polygons))
+        return DP_OK;
     dp_input_close(input);
     return out_of_memory(diag);
 }
 
 void dp_input_close(dp_input *input) {
     if (!input->memory) return;
-    dp_free(input->memory, input->corners);
-    dp_free(input->memory, input->flags);
-    dp_free(input->memory, input->polygons);
-    dp_free(input->memory, input->scratch.at);
-    dp_free(input->memory, input->scratch.links);
-    dp_free(input->memory, input->scratch.triangles);
+    dp_arrays_free(input->memory, input, DP_ARRAYS(arrays));
+    dp_split_scratch_free(&input->scratch, input->memory);
     *input = (dp_input){0};
+}
+
+uint64_t dp_input_bytes(const dp_input *input) {
+    return dp_arrays_bytes(input, DP_ARRAYS(arrays)) + dp_split_scratch_bytes(&input->scratch);
 }
 
 /* ------- polygons of batches ------- */
@@ -72,14 +78,7 @@ static void put_piece(dp_input *input, size_t polygon, size_t first, size_t n, u
         polygon);
 }
 
-static bool reserve_scratch(dp_input *input, size_t n) {
-    dp_split_scratch *const s = &input->scratch;
-    return dp_reserve(input->memory, &s->at, &s->at_cap, n, sizeof *s->at) &&
-           dp_reserve(input->memory, &s->links, &s->links_cap, n, sizeof *s->links) &&
-           dp_reserve(input->memory, &s->triangles, &s->triangles_cap, n, sizeof *s->triangles);
-}
-
-/* Finds the corners' positions; false, and counted, where one cannot be used. */
+/* The corners' positions; false where one is not usable, which is counted. */
 static bool locate(dp_input *input, size_t first, size_t n) {
     const dp_batch *const batch = &input->batch;
     for (size_t i = 0; i < n; i++) {
@@ -113,7 +112,8 @@ static bool take_polygon(dp_input *input, size_t polygon, dp_result *result, dp_
                 input->part + 2);
         return false;
     }
-    if (!reserve_scratch(input, n)) return *result = out_of_memory(diag), false;
+    if (!dp_split_scratch_reserve(&input->scratch, n, input->memory))
+        return *result = out_of_memory(diag), false;
     input->stats->triangles += n - 2;
     if (!locate(input, first, n)) return true;
     if (n == 3 || dp_is_convex_planar(input->scratch.at, (uint32_t)n)) {

@@ -22,6 +22,7 @@ typedef struct dp_input {
     float (*corners)[9]; /* [part] */
     uint8_t *flags;      /* [part] */
     uint32_t *polygons;  /* [part] */
+    size_t corners_cap, flags_cap, polygons_cap;
     dp_split_scratch scratch;
 } dp_input;
 
@@ -29,6 +30,7 @@ typedef struct dp_input {
 dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
                         const dp_allocator *memory, dp_stats *stats, dp_diag *diag);
 void dp_input_close(dp_input *input);
+uint64_t dp_input_bytes(const dp_input *input);
 
 /* Goes to the next part; count 0 at the end. DP_ERR_LIMIT beyond 2^32 - 3 triangles. */
 dp_result dp_input_next(dp_input *input, dp_diag *diag);

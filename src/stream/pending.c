@@ -28,18 +28,18 @@
 
 static const uint32_t FREE = UINT32_MAX, TAKEN_OUT = UINT32_MAX - 1;
 
-void dp_pending_free(dp_pending *pending) {
-    if (!pending->memory) return;
-    dp_free(pending->memory, pending->triangles);
-    dp_free(pending->memory, pending->slots);
-    dp_free(pending->memory, pending->earlier);
-    dp_free(pending->memory, pending->cells);
-    *pending = (dp_pending){0};
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_pending, triangles, cap), DP_ARRAY(dp_pending, earlier, earlier_cap),
+    DP_ARRAY(dp_pending, slots, slots_cap), DP_ARRAY(dp_pending, cells, cells_cap)};
+
+void dp_pending_free(dp_pending *kept) {
+    if (!kept->memory) return;
+    dp_arrays_free(kept->memory, kept, DP_ARRAYS(arrays));
+    *kept = (dp_pending){0};
 }
 
-uint64_t dp_pending_bytes(const dp_pending *pending) {
-    return (pending->cap + pending->earlier_cap) * sizeof *pending->triangles +
-           pending->slots_cap * sizeof *pending->slots;
+uint64_t dp_pending_bytes(const dp_pending *kept) {
+    return dp_arrays_bytes(kept, DP_ARRAYS(arrays));
 }
 
 static const float *corner(const dp_pending_triangle *t, uint32_t i) {

@@ -48,7 +48,8 @@ typedef struct dp_pending {
     int thinning; /* one line to a square of 2^(thinning - 1) px; 0: all lines */
 } dp_pending;
 
-void dp_pending_free(dp_pending *pending);
+void dp_pending_free(dp_pending *kept);
+uint64_t dp_pending_bytes(const dp_pending *kept);
 
 /* Hash of the edge between p and q, the same in both directions; its two lowest bits are 0. */
 uint32_t dp_edge_hash_bits(const float *p, const float *q);
@@ -67,7 +68,5 @@ bool dp_pending_next_share(dp_pending *pending, bool *enough);
 /* Joins the edges of triangles [first, count) to those that wait. Drops edges that turn out plain
  * or are no longer followed. False when memory is out. */
 bool dp_pending_join(dp_pending *pending, size_t first);
-
-uint64_t dp_pending_bytes(const dp_pending *pending);
 
 #endif

@@ -19,6 +19,54 @@
 
 #include <string.h>
 
+/* ------- memory ------- */
+
+static const dp_array output_arrays[] = {DP_ARRAY(dp_chunk_output, corners, corners_cap),
+                                         DP_ARRAY(dp_chunk_output, numbers, numbers_cap),
+                                         DP_ARRAY(dp_chunk_output, pending, pending_cap),
+                                         DP_ARRAY(dp_chunk_output, pixels, pixels_cap)};
+
+bool dp_chunk_output_init(dp_chunk_output *o, const dp_allocator *memory) {
+    return dp_reserve(memory, &o->corners, &o->corners_cap, DP_CHUNK, sizeof *o->corners) &&
+           dp_reserve(memory, &o->numbers, &o->numbers_cap, DP_CHUNK, sizeof *o->numbers) &&
+           dp_reserve(memory, &o->pending, &o->pending_cap, DP_CHUNK, sizeof *o->pending) &&
+           dp_reserve(memory, &o->pixels, &o->pixels_cap, DP_CHUNK, sizeof *o->pixels);
+}
+
+void dp_chunk_output_free(dp_chunk_output *output, const dp_allocator *memory) {
+    dp_arrays_free(memory, output, DP_ARRAYS(output_arrays));
+}
+
+uint64_t dp_chunk_output_bytes(const dp_chunk_output *output) {
+    return dp_arrays_bytes(output, DP_ARRAYS(output_arrays));
+}
+
+static const dp_array worker_arrays[] = {DP_ARRAY(dp_stream_worker, buffer, buffer_cap),
+                                         DP_ARRAY(dp_stream_worker, intersecting, intersecting_cap),
+                                         DP_ARRAY(dp_stream_worker, partners, partners_cap),
+                                         DP_ARRAY(dp_stream_worker, depth, depth_cap),
+                                         DP_ARRAY(dp_stream_worker, owners, owners_cap)};
+
+bool dp_stream_worker_init(dp_stream_worker *worker, const dp_input *input,
+                           const dp_allocator *memory) {
+    worker->chunk = dp_alloc(memory, sizeof *worker->chunk);
+    return worker->chunk &&
+           dp_reserve(memory, &worker->buffer, &worker->buffer_cap, dp_input_buffer_size(input), 1);
+}
+
+void dp_stream_worker_free(dp_stream_worker *worker, const dp_allocator *memory) {
+    dp_free(memory, worker->chunk);
+    worker->chunk = NULL;
+    dp_arrays_free(memory, worker, DP_ARRAYS(worker_arrays));
+}
+
+uint64_t dp_stream_worker_bytes(const dp_stream_worker *worker) {
+    return (worker->chunk ? sizeof *worker->chunk : 0) +
+           dp_arrays_bytes(worker, DP_ARRAYS(worker_arrays));
+}
+
+/* ------- readings ------- */
+
 typedef struct job {
     dp_stream_draw *stream;
     dp_reading reading;
@@ -93,7 +141,7 @@ static void leave_flagged(const dp_stream_draw *stream, dp_chunk *chunk, uint32_
 static void look_for_fans(const dp_stream_draw *stream, dp_chunk *chunk, uint32_t number,
                           const dp_triangles *triangles, dp_stream_worker *own) {
     const uint32_t count =
-        stream->fan_count ? list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS) : 0;
+        stream->fans.count ? list_triangles(chunk, chunk->state, DP_TRIANGLE_COVERS) : 0;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t e = 0, t = chunk->listed[i]; e < 3; e++) {
             if (!dp_stream_may_be_fan(stream, chunk->edge_key[e][t])) continue;

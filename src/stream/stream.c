@@ -38,91 +38,82 @@ bool dp_stream_is_large(const dp_source *source, size_t memory) {
     return source->records.read && source->records.count > memory / GATHERED;
 }
 
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_stream_draw, workers, workers_cap),
+    DP_ARRAY(dp_stream_draw, outputs, outputs_cap),
+    DP_ARRAY(dp_stream_draw, corners, corners_cap),
+    DP_ARRAY(dp_stream_draw, numbers, numbers_cap),
+    DP_ARRAY(dp_stream_draw, positions, positions_cap),
+    DP_ARRAY(dp_stream_draw, edge_flags, flags_cap),
+    DP_ARRAY(dp_stream_draw, polygon_numbers, polygon_numbers_cap),
+    DP_ARRAY(dp_stream_draw, source_polygons, source_cap),
+    DP_ARRAY(dp_stream_draw, intersecting, intersecting_cap),
+    DP_ARRAY(dp_stream_draw, away, away_cap),
+    DP_ARRAY(dp_stream_draw, candidate_pixels, candidate_pixels_cap),
+    DP_ARRAY(dp_stream_draw, flagged, flagged_cap),
+    DP_ARRAY(dp_stream_draw, intersecting_counts, intersecting_counts_cap),
+    DP_ARRAY(dp_stream_draw, farthest, farthest_cap),
+    DP_ARRAY(dp_stream_draw, wanted, wanted_cap),
+    DP_ARRAY(dp_stream_draw, lines, lines_cap),
+    DP_ARRAY(dp_stream_draw, view.maps.words, view.maps.words_cap)};
+
 void dp_stream_free(dp_stream_draw *s) {
     if (!s) return;
     const dp_allocator *const memory = s->memory;
-    const dp_frame *const f = s->frame;
     dp_input_close(&s->input);
-    for (uint32_t i = 0; s->workers && i < s->worker_count; i++) {
-        dp_free(memory, s->workers[i].chunk);
-        dp_free(memory, s->workers[i].buffer);
-        dp_free(memory, s->workers[i].intersecting);
-        dp_free(memory, s->workers[i].depth);
-        dp_free(memory, s->workers[i].partners);
-        dp_free(memory, s->workers[i].owners);
-    }
-    for (uint32_t i = 0; s->outputs && i < s->chunks; i++) {
-        dp_free(memory, s->outputs[i].corners);
-        dp_free(memory, s->outputs[i].numbers);
-        dp_free(memory, s->outputs[i].pending);
-        dp_free(memory, s->outputs[i].pixels);
-    }
-    for (uint32_t i = 0; s->lines && i < f->tiles_x * f->tiles_y; i++)
-        dp_free(memory, s->lines[i].candidates);
     dp_pending_free(&s->pending);
-    void *const blocks[] = {s->workers,
-                            s->outputs,
-                            s->corners,
-                            s->numbers,
-                            s->positions,
-                            s->edge_flags,
-                            s->polygon_numbers,
-                            s->source_polygons,
-                            s->intersecting,
-                            s->away,
-                            s->candidate_pixels,
-                            s->flagged,
-                            s->intersecting_counts,
-                            s->fans,
-                            s->fan_slots,
-                            s->fan_filter,
-                            s->farthest,
-                            s->wanted,
-                            s->view.maps.words,
-                            s->lines};
-    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) dp_free(memory, blocks[i]);
+    dp_fan_table_free(&s->fans, memory);
+    for (size_t i = 0; i < s->workers_cap; i++) dp_stream_worker_free(&s->workers[i], memory);
+    for (size_t i = 0; i < s->outputs_cap; i++) dp_chunk_output_free(&s->outputs[i], memory);
+    for (size_t i = 0; i < s->lines_cap; i++) dp_tile_lines_free(&s->lines[i], memory);
+    dp_arrays_free(memory, s, DP_ARRAYS(arrays));
     dp_free(memory, s);
 }
 
+uint64_t dp_stream_bytes(const dp_stream_draw *s) {
+    if (!s) return 0;
+    uint64_t sum = sizeof *s + dp_input_bytes(&s->input) + dp_pending_bytes(&s->pending) +
+                   dp_fan_table_bytes(&s->fans) + dp_arrays_bytes(s, DP_ARRAYS(arrays));
+    for (size_t i = 0; i < s->workers_cap; i++) sum += dp_stream_worker_bytes(&s->workers[i]);
+    for (size_t i = 0; i < s->outputs_cap; i++) sum += dp_chunk_output_bytes(&s->outputs[i]);
+    for (size_t i = 0; i < s->lines_cap; i++) sum += s->lines[i].size;
+    return sum;
+}
+
 static bool make_workers(dp_stream_draw *s) {
-    s->workers = dp_alloc_zeroed(s->memory, s->worker_count * sizeof *s->workers);
-    for (uint32_t i = 0; s->workers && i < s->worker_count; i++) {
-        s->workers[i].chunk = dp_alloc(s->memory, sizeof *s->workers[i].chunk);
-        s->workers[i].buffer = dp_alloc(s->memory, dp_input_buffer_size(&s->input));
-        if (!s->workers[i].chunk || !s->workers[i].buffer) return false;
-    }
-    return s->workers;
+    if (!dp_reserve_zeroed(s->memory, &s->workers, &s->workers_cap, s->worker_count,
+                           sizeof *s->workers))
+        return false;
+    for (uint32_t i = 0; i < s->worker_count; i++)
+        if (!dp_stream_worker_init(&s->workers[i], &s->input, s->memory)) return false;
+    return true;
 }
 
 static bool make_outputs(dp_stream_draw *s) {
-    s->outputs = dp_alloc_zeroed(s->memory, s->chunks * sizeof *s->outputs);
-    for (uint32_t i = 0; s->outputs && i < s->chunks; i++) {
-        dp_chunk_output *const output = &s->outputs[i];
-        output->corners = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->corners);
-        output->numbers = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->numbers);
-        output->pending = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->pending);
-        output->pixels = dp_alloc_array(s->memory, DP_CHUNK, sizeof *output->pixels);
-        if (!output->corners || !output->numbers || !output->pending || !output->pixels)
-            return false;
-    }
-    s->corners = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->corners);
-    s->numbers = dp_alloc_array(s->memory, (size_t)s->chunks * DP_CHUNK, sizeof *s->numbers);
-    return s->outputs && s->corners && s->numbers;
+    const size_t triangles = (size_t)s->chunks * DP_CHUNK;
+    if (!dp_reserve_zeroed(s->memory, &s->outputs, &s->outputs_cap, s->chunks, sizeof *s->outputs))
+        return false;
+    for (uint32_t i = 0; i < s->chunks; i++)
+        if (!dp_chunk_output_init(&s->outputs[i], s->memory)) return false;
+    return dp_reserve(s->memory, &s->corners, &s->corners_cap, triangles, sizeof *s->corners) &&
+           dp_reserve(s->memory, &s->numbers, &s->numbers_cap, triangles, sizeof *s->numbers);
 }
 
-/* Makes what lasts as long as the picture, with nothing covered yet. */
+/* An array of `need` zeros. */
+#define ZEROED(s, array, cap, need)                                                                \
+    dp_reserve_zeroed((s)->memory, &(s)->array, &(s)->cap, (need), sizeof *(s)->array)
+
+/* What lasts as long as the picture: nothing is covered yet. */
 static bool make_picture(dp_stream_draw *s) {
     const dp_frame *const f = s->frame;
     const size_t tiles = (size_t)f->tiles_x * f->tiles_y, blocks = tiles * DP_BLOCKS * DP_BLOCKS;
-    s->farthest = dp_alloc_array(s->memory, blocks, sizeof *s->farthest);
-    s->wanted = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->wanted));
-    s->lines = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->lines));
-    if (!s->farthest || !s->wanted || !s->lines) return false;
-    s->flagged = dp_alloc_zeroed(s->memory, dp_times(tiles * DP_TILE, sizeof *s->flagged));
-    s->candidate_pixels = dp_alloc_zeroed(s->memory, dp_times(tiles, sizeof *s->candidate_pixels));
-    s->away = dp_alloc_zeroed(s->memory, tiles * f->tile_samples / 8);
-    s->intersecting_counts = dp_alloc_zeroed(s->memory, tiles * DP_TILE * DP_TILE);
-    if (!s->flagged || !s->candidate_pixels || !s->away || !s->intersecting_counts) return false;
+    if (!dp_reserve(s->memory, &s->farthest, &s->farthest_cap, blocks, sizeof *s->farthest) ||
+        !ZEROED(s, wanted, wanted_cap, tiles * DP_TILE) || !ZEROED(s, lines, lines_cap, tiles) ||
+        !ZEROED(s, flagged, flagged_cap, tiles * DP_TILE) ||
+        !ZEROED(s, candidate_pixels, candidate_pixels_cap, tiles) ||
+        !ZEROED(s, away, away_cap, tiles * f->tile_samples / 64) ||
+        !ZEROED(s, intersecting_counts, intersecting_counts_cap, tiles * DP_TILE * DP_TILE))
+        return false;
     for (size_t i = 0; i < blocks; i++) s->farthest[i] = DP_DEPTH_EMPTY;
     for (size_t i = 0; i < tiles * f->tile_samples; i++) f->depth[i] = DP_DEPTH_EMPTY;
     if (f->target.normal)
@@ -219,9 +210,11 @@ static bool want_pixels(dp_stream_draw *s) {
     v->flagged = s->flagged;
     v->maps.row = (v->tiles_x * DP_TILE + 15) / 16;
     v->maps.map = v->tiles_y * DP_TILE * v->maps.row;
-    v->maps.words = dp_alloc_array(s->memory, 4 * (size_t)v->maps.map, sizeof *v->maps.words);
-    if (v->maps.words) dp_pixel_maps_fill(v);
-    return v->maps.words;
+    if (!dp_reserve(s->memory, &v->maps.words, &v->maps.words_cap, 4 * (size_t)v->maps.map,
+                    sizeof *v->maps.words))
+        return false;
+    dp_pixel_maps_fill(v);
+    return true;
 }
 
 dp_result dp_stream_find(dp_stream_draw *s, dp_diag *diag) {

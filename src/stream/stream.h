@@ -38,6 +38,7 @@ typedef struct dp_stream_draw dp_stream_draw;
 dp_result dp_stream_read_model(const dp_stream_setup *setup, dp_source *source,
                                dp_stream_draw **stream, dp_diag *diag);
 dp_result dp_stream_find(dp_stream_draw *stream, dp_diag *diag);
-void dp_stream_free(dp_stream_draw *stream); /* NULL allowed */
+void dp_stream_free(dp_stream_draw *stream);            /* NULL allowed */
+uint64_t dp_stream_bytes(const dp_stream_draw *stream); /* the same; while no task runs */
 
 #endif

@@ -97,7 +97,7 @@ bool dp_stream_add_polygons(dp_stream_draw *s, const dp_pending_triangle *triang
         !dp_reserve(s->memory, &s->positions, &s->positions_cap, dp_times(9, all),
                     sizeof *s->positions) ||
         !dp_reserve(s->memory, &s->edge_flags, &s->flags_cap, dp_times(3, all), 1) ||
-        !dp_reserve(s->memory, &s->polygon_numbers, &s->numbers_cap, all,
+        !dp_reserve(s->memory, &s->polygon_numbers, &s->polygon_numbers_cap, all,
                     sizeof *s->polygon_numbers) ||
         !dp_reserve(s->memory, &s->source_polygons, &s->source_cap, all,
                     sizeof *s->source_polygons))
@@ -152,22 +152,30 @@ static void want_pixels(const dp_tile_lines *lines, uint64_t rows[DP_TILE]) {
     }
 }
 
-bool dp_stream_make_lines(const dp_stream_draw *s, uint32_t candidates, uint32_t probes,
-                          dp_tile_lines *out) {
+bool dp_tile_lines_make(dp_tile_lines *out, uint32_t candidates, uint32_t probes,
+                        const dp_allocator *memory) {
     const size_t head = candidates * sizeof *out->candidates,
-                 member = probes * sizeof *out->probes.x;
-    uint8_t *const block =
-        dp_alloc(s->memory, head + 3 * member + DP_PROBES_ROOM * sizeof *out->probes.x);
+                 member = probes * sizeof *out->probes.x,
+                 size = head + 3 * member + DP_PROBES_ROOM * sizeof *out->probes.x;
+    uint8_t *const block = dp_alloc(memory, size);
     if (!block) return false;
     float *const x = (float *)(void *)(block + head);
     memset(x + 3 * (size_t)probes, 0, DP_PROBES_ROOM * sizeof *x);
-    *out = (dp_tile_lines){
-        (dp_candidate *)(void *)block, {x, x + probes, x + 2 * (size_t)probes}, candidates, probes};
+    *out = (dp_tile_lines){.candidates = (dp_candidate *)(void *)block,
+                           .probes = {x, x + probes, x + 2 * (size_t)probes},
+                           .candidate_count = candidates,
+                           .probe_count = probes,
+                           .size = size};
     return true;
 }
 
-void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
-                         uint32_t probe) {
+void dp_tile_lines_free(dp_tile_lines *lines, const dp_allocator *memory) {
+    dp_free(memory, lines->candidates);
+    *lines = (dp_tile_lines){0};
+}
+
+void dp_tile_lines_put(const dp_tile_lines *from, dp_tile_lines *to, uint32_t candidate,
+                       uint32_t probe) {
     const size_t bytes = from->probe_count * sizeof *from->probes.x;
     if (!from->candidate_count) return;
     memcpy(to->candidates + candidate, from->candidates,
@@ -183,16 +191,18 @@ void dp_stream_put_lines(const dp_tile_lines *from, dp_tile_lines *to, uint32_t 
 }
 
 static dp_tile_lines lines_of(const dp_finder *w) {
-    return (dp_tile_lines){w->lines.candidates, w->lines.probes, w->lines.candidate_count,
-                           w->lines.probe_count};
+    return (dp_tile_lines){.candidates = w->lines.candidates,
+                           .probes = w->lines.probes,
+                           .candidate_count = w->lines.candidate_count,
+                           .probe_count = w->lines.probe_count};
 }
 
 static bool store_lines(const dp_stream_draw *s, dp_finder *w, dp_tile_lines *out) {
     const dp_tile_lines own = lines_of(w);
     w->found->geometry_count = 0;
     if (!own.candidate_count) return true;
-    if (!dp_stream_make_lines(s, own.candidate_count, own.probe_count, out)) return false;
-    dp_stream_put_lines(&own, out, 0, 0);
+    if (!dp_tile_lines_make(out, own.candidate_count, own.probe_count, s->memory)) return false;
+    dp_tile_lines_put(&own, out, 0, 0);
     return true;
 }
 
@@ -288,7 +298,8 @@ static void swap_lines(dp_finder *w, dp_tile_lines *lines) {
     const dp_tile_lines own = lines_of(w);
     w->lines.candidates = lines->candidates, w->lines.probes = lines->probes;
     w->lines.candidate_count = lines->candidate_count, w->lines.probe_count = lines->probe_count;
-    *lines = own;
+    lines->candidates = own.candidates, lines->probes = own.probes;
+    lines->candidate_count = own.candidate_count, lines->probe_count = own.probe_count;
 }
 
 static void hide_probes(void *arg, uint32_t tile, uint32_t worker) {
