@@ -161,7 +161,11 @@ typedef struct dp_stats {
     uint64_t edges_lost; /* streamed: edges given up because too many waited for their polygons, and
                             polygons that may cross others, because too many did */
     uint64_t segments;
-    uint64_t bytes;           /* scratch memory held by the context */
+    uint64_t bytes; /* memory that the context held when dp_draw or dp_finish returned, whatever it
+                       returned: all that the context, from its creation on, has asked of its
+                       allocator and not given back, to the byte. Not counted: what sources and
+                       textures hold, the target, the stacks of the threads; nor what was given back
+                       before, as all that streaming a source takes is */
     uint64_t adjacency_bytes; /* of it, adjacency (DP_EDGES_ADJACENCY) */
     double curvature_ms; /* making directions of least curvature took (DP_SHADING_PENCIL); 0 where
                             they were kept */

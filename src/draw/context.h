@@ -9,8 +9,17 @@
 #include "printed/quads.h"
 #include "shade/shade.h"
 #include "sink/raster.h"
+#include "stream/stream.h"
 
 typedef struct dp_recording dp_recording; /* immediate.c */
+
+/* A mirror's own memory (mirror.c). Zero is empty. */
+typedef struct dp_mirror_store {
+    dp_normal_store normals; /* of the reflected scene */
+    uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
+    float *distance;         /* the same, INFINITY: paper */
+    size_t rgba_cap, distance_cap;
+} dp_mirror_store;
 
 struct dp_context {
     dp_allocator memory;
@@ -28,12 +37,7 @@ struct dp_context {
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
-    struct {
-        dp_normal_store normals; /* of the reflected scene */
-        uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
-        float *distance;         /* the same, INFINITY: paper */
-        size_t rgba_cap, distance_cap;
-    } mirror;
+    dp_mirror_store mirror;
     dp_bin_worker *bin_workers; /* [workers] */
     dp_finder *finders;         /* [workers] */
     dp_printer *printers;       /* [workers] */
@@ -42,10 +46,16 @@ struct dp_context {
     dp_frame frame;
     dp_adjacency adjacency; /* of the last source that asked for it */
 
+    dp_stream_draw *stream; /* while one is drawn */
+
     dp_stats stats;
     dp_recording *recording; /* made when first used */
     bool recording_lost;     /* there was no memory to make it; dp_finish says so */
 };
+
+/* What the allocator has given to the context and not got back; between dp_draw's stages
+ * (context.c). */
+uint64_t dp_context_bytes(const dp_context *context);
 
 /* dp_draw with one resolved style per group; what holds for the whole picture comes from
  * styles[0]. */
@@ -66,6 +76,11 @@ dp_result dp_tell_progress(const dp_context *context, double fraction, dp_diag *
 dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,
                            const dp_style *style, const dp_target *target, dp_diag *diag);
 
-void dp_recording_free(dp_context *context);
+void dp_mirror_store_free(dp_mirror_store *store, const dp_allocator *memory);
+uint64_t dp_mirror_store_bytes(const dp_mirror_store *store);
+
+/* NULL allowed (immediate.c). */
+void dp_recording_free(dp_recording *recording, const dp_allocator *memory);
+uint64_t dp_recording_bytes(const dp_recording *recording);
 
 #endif

@@ -1,4 +1,4 @@
-/* Drawing one picture: the stages in order, and the context that keeps their memory.
+/* Drawing one picture: the stages in order. The context keeps their memory (context.c).
  *
  *   source -> gather -> vertices -> bin -> tiles (faces, edges, visibility) -> segments -> ink ->
  * target
@@ -39,67 +39,6 @@ const char *dp_stage_name(dp_stage stage) {
     static const char *const names[DP_STAGE_COUNT] = {"gather",   "vertices", "bin", "tiles",
                                                       "segments", "shade",    "ink"};
     return (unsigned)stage < DP_STAGE_COUNT ? names[stage] : "unknown";
-}
-
-dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_diag *diag) {
-    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_context_create: out is NULL");
-    *out = NULL;
-    const dp_context_desc d = desc ? *desc : (dp_context_desc){0};
-    if (d.memory && d.memory < DP_MEMORY_LEAST)
-        return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "%zu bytes of memory are too few; the least is %zu MB", d.memory,
-                       DP_MEMORY_LEAST >> 20);
-    const dp_allocator memory = dp_allocator_resolve(d.allocator);
-    dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
-    if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
-    c->memory = memory;
-    c->limit = d.memory ? d.memory : DP_MEMORY_DEFAULT;
-    c->progress = d.progress;
-    c->share_to = 1;
-    c->user = d.user;
-    c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
-    if (c->threads) {
-        c->workers = dp_threads_count(c->threads);
-        c->bin_workers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->bin_workers);
-        c->finders = dp_alloc_zeroed(&memory, c->workers * sizeof *c->finders);
-        c->printers = dp_alloc_zeroed(&memory, c->workers * sizeof *c->printers);
-        c->found = dp_alloc_zeroed(&memory, c->workers * sizeof *c->found);
-    }
-    if (!c->threads || !c->bin_workers || !c->finders || !c->printers || !c->found ||
-        !dp_raster_init(&c->raster, c->workers, &memory)) {
-        dp_context_destroy(c);
-        return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
-    }
-    *out = c;
-    return DP_OK;
-}
-
-void dp_context_destroy(dp_context *c) {
-    if (!c) return;
-    const dp_allocator memory = c->memory;
-    dp_threads_destroy(c->threads);
-    for (uint32_t i = 0; i < c->workers; i++) {
-        if (c->bin_workers) dp_outline_scratch_free(&c->bin_workers[i].scratch, &memory);
-        if (c->finders) dp_finder_free(&c->finders[i]);
-        if (c->printers) dp_printer_free(&c->printers[i], &memory);
-        if (c->found) dp_found_free(&c->found[i], &memory);
-    }
-    dp_free(&memory, c->bin_workers);
-    dp_free(&memory, c->finders);
-    dp_free(&memory, c->printers);
-    dp_free(&memory, c->found);
-    dp_raster_free(&c->raster, &memory);
-    dp_polygon_store_free(&c->polygons, &memory);
-    dp_drawing_free(&c->drawing, &memory);
-    dp_normal_store_free(&c->normals, &memory);
-    dp_shade_store_free(&c->shade, &memory);
-    dp_normal_store_free(&c->mirror.normals, &memory);
-    dp_free(&memory, c->mirror.rgba);
-    dp_free(&memory, c->mirror.distance);
-    dp_frame_free(&c->frame, &memory);
-    dp_adjacency_free(&c->adjacency, &memory);
-    dp_recording_free(c);
-    dp_free(&memory, c);
 }
 
 /* ------- stages ------- */
@@ -158,8 +97,7 @@ static void begin_view(dp_frame *f) {
 
 static bool begin_workers(dp_context *c) {
     for (uint32_t i = 0; i < c->workers; i++) {
-        c->bin_workers[i].stats = (dp_stats){0};
-        c->bin_workers[i].failed = false;
+        dp_bin_worker_init(&c->bin_workers[i]);
         if (!dp_finder_init(&c->finders[i], &c->frame, &c->found[i])) return false;
     }
     return true;
@@ -270,19 +208,6 @@ static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
         (unsigned long long)s->dropped_corners);
 }
 
-/* All that stays from frame to frame, but for the small change. */
-static uint64_t scratch_bytes(const dp_context *c) {
-    const dp_polygon_store *const p = &c->polygons;
-    uint64_t sum = sizeof *c + dp_frame_bytes(&c->frame) + dp_adjacency_bytes(&c->adjacency);
-    sum += 4 * (p->positions_cap + p->corners_cap + p->firsts_cap + p->source_cap) + p->flags_cap +
-           2 * p->groups_cap;
-    sum += dp_drawing_bytes(&c->drawing) + dp_raster_bytes(&c->raster);
-    for (uint32_t i = 0; i < c->workers; i++)
-        sum += dp_finder_bytes(&c->finders[i]) + dp_printer_bytes(&c->printers[i]) +
-               dp_found_bytes(&c->found[i]) + sizeof *c->finders + sizeof *c->printers;
-    return sum;
-}
-
 static void lap(dp_stats *stats, dp_stage stage, double *since) {
     const double now = now_ms();
     stats->stage_ms[stage] = now - *since;
@@ -361,26 +286,24 @@ static dp_result report(void *arg, double done, dp_diag *diag) {
     return dp_tell_progress(arg, done, diag);
 }
 
-static dp_result stream_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
-                              double *since, dp_diag *diag) {
+static dp_result stream_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     const dp_stream_setup setup = {&c->frame, c->finders, c->bin_workers, c->workers,
                                    c->limit,  &c->stats,  report,         c};
-    dp_result result = dp_stream_read_model(&setup, source, stream, diag);
+    dp_result result = dp_stream_read_model(&setup, source, &c->stream, diag);
     if (result) return result;
     lap(&c->stats, DP_STAGE_GATHER, since);
-    if ((result = dp_stream_find(*stream, diag))) return result;
+    if ((result = dp_stream_find(c->stream, diag))) return result;
     lap(&c->stats, DP_STAGE_TILES, since);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->finders[i].tile.stats);
     return check_dropped(&c->stats, c->stats.polygons, diag);
 }
 
-static dp_result find_lines(dp_context *c, dp_source *source, dp_stream_draw **stream,
-                            double *since, dp_diag *diag) {
+static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
-    if (streams) return stream_lines(c, source, stream, since, diag);
+    if (streams) return stream_lines(c, source, since, diag);
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.pencil.curvature.ms;
     if (dp_shade_needs_normals(&c->shade) &&
@@ -448,13 +371,12 @@ static dp_result ink(dp_context *c, double from, dp_diag *diag) {
     return dp_hand_over(&c->frame, &c->drawing, &sink, diag);
 }
 
-static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **stream,
-                             dp_diag *diag) {
+static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     double since = now_ms();
     const double start = since;
     c->shade.source = source;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
-    dp_result result = find_lines(c, source, stream, &since, diag);
+    dp_result result = find_lines(c, source, &since, diag);
     if (result) return result;
     if (!dp_make_segments(&c->frame, c->found, &c->drawing) || !dp_stylize(&c->frame, &c->drawing))
         return out_of_memory(diag);
@@ -462,17 +384,16 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_stream_draw **
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
     if ((result = shade(c, diag))) return result;
     lap(&c->stats, DP_STAGE_SHADE, &since);
-    if ((result = ink(c, *stream ? DP_STREAMED : SHADED, diag))) return result;
+    if ((result = ink(c, c->stream ? DP_STREAMED : SHADED, diag))) return result;
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
-    c->stats.bytes = scratch_bytes(c);
     return DP_OK;
 }
 
 static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
-    dp_stream_draw *stream = NULL;
-    const dp_result result = draw_stages(c, source, &stream, diag);
-    dp_stream_free(stream);
+    const dp_result result = draw_stages(c, source, diag);
+    dp_stream_free(c->stream);
+    c->stream = NULL;
     return result;
 }
 
@@ -505,16 +426,23 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     return result;
 }
 
-dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
-                  const dp_style *style, const dp_target *target, dp_diag *diag) {
-    if (!context || !source || !camera || !target)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_draw: context, source, camera or target is NULL");
+static dp_result draw_styled(dp_context *c, dp_source *source, const dp_camera *camera,
+                             const dp_style *style, const dp_target *target, dp_diag *diag) {
     dp_style resolved;
     const dp_result result = dp_style_resolve(style, &resolved, diag);
     if (result) return result;
     if (resolved.mirror.size > 0)
-        return dp_draw_mirrored(context, source, camera, &resolved, target, diag);
-    return dp_draw_groups(context, source, camera, &resolved, 1, target, diag);
+        return dp_draw_mirrored(c, source, camera, &resolved, target, diag);
+    return dp_draw_groups(c, source, camera, &resolved, 1, target, diag);
+}
+
+dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
+                  const dp_style *style, const dp_target *target, dp_diag *diag) {
+    if (!context || !source || !camera || !target)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_draw: context, source, camera or target is NULL");
+    const dp_result result = draw_styled(context, source, camera, style, target, diag);
+    context->stats.bytes = dp_context_bytes(context);
+    return result;
 }
 
 const dp_segment *dp_segments(dp_context *context, size_t *count) {

@@ -52,23 +52,23 @@ struct dp_recording {
     dp_diag why;
 };
 
-static void free_arrays(dp_recording *r, const dp_allocator *memory) {
-    dp_free(memory, r->positions);
-    dp_free(memory, r->flags);
-    dp_free(memory, r->corners);
-    dp_free(memory, r->corner_flags);
-    dp_free(memory, r->firsts);
-    dp_free(memory, r->groups);
-    dp_free(memory, r->states);
-    dp_free(memory, r->styles);
-    dp_free(memory, r->slots);
+static const dp_array arrays[] = {DP_ARRAY(dp_recording, positions, positions_cap),
+                                  DP_ARRAY(dp_recording, flags, flags_cap),
+                                  DP_ARRAY(dp_recording, corners, corners_cap),
+                                  DP_ARRAY(dp_recording, corner_flags, corner_flags_cap),
+                                  DP_ARRAY(dp_recording, firsts, firsts_cap),
+                                  DP_ARRAY(dp_recording, groups, groups_cap),
+                                  DP_ARRAY(dp_recording, states, states_cap),
+                                  DP_ARRAY(dp_recording, styles, styles_cap),
+                                  DP_ARRAY(dp_recording, slots, slots_cap)};
+
+void dp_recording_free(dp_recording *recording, const dp_allocator *memory) {
+    if (recording) dp_arrays_free(memory, recording, DP_ARRAYS(arrays));
+    dp_free(memory, recording);
 }
 
-void dp_recording_free(dp_context *context) {
-    if (!context->recording) return;
-    free_arrays(context->recording, &context->memory);
-    dp_free(&context->memory, context->recording);
-    context->recording = NULL;
+uint64_t dp_recording_bytes(const dp_recording *recording) {
+    return recording ? sizeof *recording + dp_arrays_bytes(recording, DP_ARRAYS(arrays)) : 0;
 }
 
 static void remember(dp_recording *r, dp_result result, const char *message) {
@@ -440,6 +440,7 @@ dp_result dp_finish(dp_context *context, const dp_target *target, dp_diag *diag)
     if (!context) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_finish: context is NULL");
     dp_result result = check_finish(context, target, diag);
     if (!result) result = draw_recorded(context, target, diag);
+    context->stats.bytes = dp_context_bytes(context);
     context->recording_lost = false;
     dp_recording *const r = context->recording;
     if (!r) return result;

@@ -12,6 +12,18 @@
 
 #include <string.h>
 
+static const dp_array arrays[] = {DP_ARRAY(dp_mirror_store, rgba, rgba_cap),
+                                  DP_ARRAY(dp_mirror_store, distance, distance_cap)};
+
+void dp_mirror_store_free(dp_mirror_store *store, const dp_allocator *memory) {
+    dp_normal_store_free(&store->normals, memory);
+    dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+}
+
+uint64_t dp_mirror_store_bytes(const dp_mirror_store *store) {
+    return dp_normal_store_bytes(&store->normals) + dp_arrays_bytes(store, DP_ARRAYS(arrays));
+}
+
 /* The plane, its normal turned to the eye. It is of length 1 to double precision: with one of
  * floats distances from the plane, and so places in the image, would be off by as much as their own
  * rounding. */
