@@ -92,7 +92,8 @@ static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
     if (s->stats == STATS_JSON)
-        print_stats_json(!s->output || strcmp(s->output, "-") ? stdout : stderr, &d->stats, &d->target);
+        print_stats_json(!s->output || strcmp(s->output, "-") ? stdout : stderr, &d->stats,
+                         &d->target);
 }
 
 static int run(const tool_settings *s, drawing *d) {

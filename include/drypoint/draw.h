@@ -110,19 +110,19 @@ typedef struct dp_segment {
     float a[3], b[3]; /* both ends on the screen: x right, y down, px; third: distance along
                          the line of sight, world units */
     float world_a[3], world_b[3];
-    uint64_t polygon; /* of the source, counted from 0 over all its batches */
-    uint64_t other;   /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
-    uint32_t edge;    /* from corner `edge` to the next; UINT32_MAX for an intersection */
-    uint32_t group;   /* of the polygon; 0 where the source has no groups */
-    dp_line_end end[2];    /* at a and at b */
-    uint64_t hider[2]; /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
+    uint64_t polygon;   /* of the source, counted from 0 over all its batches */
+    uint64_t other;     /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
+    uint32_t edge;      /* from corner `edge` to the next; UINT32_MAX for an intersection */
+    uint32_t group;     /* of the polygon; 0 where the source has no groups */
+    dp_line_end end[2]; /* at a and at b */
+    uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
                           that hide the line right behind its end; UINT64_MAX: not known, as where
                           the source is streamed */
-    uint32_t level;   /* how many surfaces hide it; 0: it is visible */
-    uint32_t chain;   /* segments that are drawn in one go have one number, from 0 on … */
-    uint32_t place;   /* … and are numbered in the order in which they follow each other */
-    bool reversed;    /* in its chain it is drawn from b to a */
-    float width;      /* px */
+    uint32_t level;     /* how many surfaces hide it; 0: it is visible */
+    uint32_t chain;     /* segments that are drawn in one go have one number, from 0 on … */
+    uint32_t place;     /* … and are numbered in the order in which they follow each other */
+    bool reversed;      /* in its chain it is drawn from b to a */
+    float width;        /* px */
     dp_color color;
 } dp_segment;
 

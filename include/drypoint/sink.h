@@ -37,8 +37,8 @@ typedef struct dp_chain_stroke {
     uint32_t level; /* how many surfaces hide it; 0: it is visible */
     float width;    /* px, the whole line */
     dp_color color;
-    bool closed;                        /* the last segment ends where the first begins */
-    const dp_segment *const *segments;  /* [count] in the order in which they follow each other;
+    bool closed;                       /* the last segment ends where the first begins */
+    const dp_segment *const *segments; /* [count] in the order in which they follow each other;
                                            one that is `reversed` is drawn from b to a */
     size_t count;
 } dp_chain_stroke;

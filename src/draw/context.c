@@ -37,9 +37,8 @@ static void free_workers(dp_context *c) {
 }
 
 static uint64_t workers_bytes(const dp_context *c) {
-    uint64_t sum =
-        c->workers * (uint64_t)(sizeof *c->bin_workers + sizeof *c->finders + sizeof *c->printers +
-                                sizeof *c->found);
+    uint64_t sum = c->workers * (uint64_t)(sizeof *c->bin_workers + sizeof *c->finders +
+                                           sizeof *c->printers + sizeof *c->found);
     for (uint32_t i = 0; i < c->workers; i++)
         sum += dp_bin_worker_bytes(&c->bin_workers[i]) + dp_finder_bytes(&c->finders[i]) +
                dp_printer_bytes(&c->printers[i]) + dp_found_bytes(&c->found[i]);
@@ -90,7 +89,7 @@ void dp_context_destroy(dp_context *c) {
 uint64_t dp_context_bytes(const dp_context *c) {
     return sizeof *c + dp_threads_bytes(c->threads) + workers_bytes(c) + dp_frame_bytes(&c->frame) +
            dp_polygon_store_bytes(&c->polygons) + dp_normal_store_bytes(&c->normals) +
-           dp_adjacency_bytes(&c->adjacency) + dp_drawing_bytes(&c->drawing) + dp_shade_store_bytes(&c->shade) +
-           dp_mirror_store_bytes(&c->mirror) + dp_recording_bytes(c->recording) +
-           dp_stream_bytes(c->stream);
+           dp_adjacency_bytes(&c->adjacency) + dp_drawing_bytes(&c->drawing) +
+           dp_shade_store_bytes(&c->shade) + dp_mirror_store_bytes(&c->mirror) +
+           dp_recording_bytes(c->recording) + dp_stream_bytes(c->stream);
 }

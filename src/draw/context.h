@@ -32,8 +32,8 @@ struct dp_context {
 
     size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
     dp_polygon_store polygons;
-    dp_drawing drawing; /* the lines of the last picture */
-    bool drawn;         /* there is one */
+    dp_drawing drawing;      /* the lines of the last picture */
+    bool drawn;              /* there is one */
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */

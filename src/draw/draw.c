@@ -453,7 +453,8 @@ const dp_segment *dp_segments(dp_context *context, size_t *count) {
 }
 
 dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag) {
-    if (!context || !sink) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: context or sink is NULL");
+    if (!context || !sink)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: context or sink is NULL");
     if (!context->drawn) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: nothing has been drawn");
     return dp_hand_over(&context->frame, &context->drawing, sink, diag);
 }

@@ -224,7 +224,8 @@ static bool hides_point(const dp_tile *t, const dp_candidate *c, uint32_t index,
 /* The one that won a sample of the point's pixel, mostly; else the first of all. */
 static uint32_t find_hider(const dp_tile *t, const dp_candidate *c, float x, float y, float limit) {
     if (x >= 0 && y >= 0 && x < DP_TILE && y < DP_TILE) {
-        const uint32_t *const winner = t->winner + dp_pixel_lane(&t->sampling, (uint32_t)x, (uint32_t)y);
+        const uint32_t *const winner =
+            t->winner + dp_pixel_lane(&t->sampling, (uint32_t)x, (uint32_t)y);
         for (uint32_t i = 0; i < t->sampling.samples; i++)
             if (winner[i] != UINT32_MAX && hides_point(t, c, winner[i], x, y, limit))
                 return t->polygons[winner[i]].id;

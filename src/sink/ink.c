@@ -47,8 +47,7 @@ static float distance_to(const dp_stroke *s, float x, float y, float *t) {
     return sqrtf(dx * dx + dy * dy);
 }
 
-bool dp_stroke_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y,
-                       uint32_t worker) {
+bool dp_stroke_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker) {
     const dp_inking *const k = arg;
     const dp_stroke *const s = &k->drawing->strokes[index];
     (void)worker;
@@ -220,8 +219,7 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
     dp_color color = 0;
     for (size_t i = 0; i < count; i++) {
         const dp_stroke *const s = &ink->strokes[strokes[i]];
-        if (i + SOON < count && ink->hides)
-            prefetch_samples(ink, &ink->strokes[strokes[i + SOON]]);
+        if (i + SOON < count && ink->hides) prefetch_samples(ink, &ink->strokes[strokes[i + SOON]]);
         if (i && s->color != color) flush(ink, line, color);
         color = s->color;
         cover(ink, s);
@@ -232,8 +230,7 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
 void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
     const dp_frame *const frame = k->frame;
     size_t count, first[DP_LINE_COUNT + 1];
-    if (!dp_fetch_strokes(k, worker, tile, &count) ||
-        !sort_strokes(k, worker, count, first)) {
+    if (!dp_fetch_strokes(k, worker, tile, &count) || !sort_strokes(k, worker, count, first)) {
         worker->failed = true;
         return;
     }

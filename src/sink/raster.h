@@ -10,7 +10,7 @@
 /* A worker's scratch for one tile. */
 typedef struct dp_ink_worker {
     float coverage[64 * 64];
-    uint64_t row[64]; /* pixels of `coverage` that are set */
+    uint64_t row[64];       /* pixels of `coverage` that are set */
     float nearest[64 * 64]; /* brush.c: px from the spine; colour */
     dp_color color[64 * 64];
     uint32_t *strokes, *sorted; /* of the tile: as they come; ink.c: by class */

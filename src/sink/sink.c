@@ -67,8 +67,8 @@ static uint32_t longest_chain(const dp_chain_store *store) {
 static dp_result send_strokes(handing *h) {
     dp_result result = DP_OK;
     if (!h->sink->stroke && !h->sink->layer) return DP_OK;
-    h->order = dp_alloc_array(h->frame->memory, longest_chain(&h->drawing->chains) + 1u,
-                              sizeof *h->order);
+    h->order =
+        dp_alloc_array(h->frame->memory, longest_chain(&h->drawing->chains) + 1u, sizeof *h->order);
     if (!h->order) return dp_fail(h->diag, DP_ERR_MEMORY, "out of memory for a stroke");
     for (int i = 0; i < DP_LINE_COUNT && !result; i++) result = send_layer(h, dp_layers[i]);
     dp_free(h->frame->memory, h->order);

@@ -97,6 +97,5 @@ static dp_result end(void *user, dp_result so_far, dp_diag *diag) {
 }
 
 dp_sink dp_trace_sink(dp_tracing *tracing) {
-    return (dp_sink){
-        .user = tracing, .begin = begin, .layer = layer, .stroke = stroke, .end = end};
+    return (dp_sink){.user = tracing, .begin = begin, .layer = layer, .stroke = stroke, .end = end};
 }

@@ -115,7 +115,6 @@ static void partner_node(const chaining *c, uint32_t first) {
 
 /* ------- over gaps ------- */
 
-
 static int by_distance(const void *left, const void *right) {
     const bridge *const l = left, *const r = right;
     if (l->distance != r->distance) return l->distance < r->distance ? -1 : 1;

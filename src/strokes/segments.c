@@ -17,10 +17,9 @@
 
 enum { BLOCK = DP_TUNED(128, 7) };
 
-static const dp_array arrays[] = {DP_ARRAY(dp_drawing, pieces, pieces_cap),
-                                  DP_ARRAY(dp_drawing, segments, segments_cap),
-                                  DP_ARRAY(dp_drawing, strokes, strokes_cap),
-                                  DP_ARRAY(dp_drawing, sides, sides_cap)};
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_drawing, pieces, pieces_cap), DP_ARRAY(dp_drawing, segments, segments_cap),
+    DP_ARRAY(dp_drawing, strokes, strokes_cap), DP_ARRAY(dp_drawing, sides, sides_cap)};
 
 void dp_drawing_free(dp_drawing *drawing, const dp_allocator *memory) {
     dp_arrays_free(memory, drawing, DP_ARRAYS(arrays));

@@ -392,8 +392,8 @@ static bool draw_run(stylizer *h, const run *chain, uint32_t repeat, uint32_t *i
  * What is short may zigzag as it likes. */
 static bool is_cut(const stylizer *h, const run *r, uint32_t i) {
     const dp_link *const l = link_at(r, i + r->total - 1), *const m = link_at(r, i);
-    const dp_point a = link_start(h, l), b = link_end(h, l),
-                   c = link_start(h, m), d = link_end(h, m);
+    const dp_point a = link_start(h, l), b = link_end(h, l), c = link_start(h, m),
+                   d = link_end(h, m);
     const float least = 4 + 2 * h->drawing->strokes[m->segment].half_width;
     if (dp_hypotf(b.x - a.x, b.y - a.y) < least || dp_hypotf(d.x - c.x, d.y - c.y) < least)
         return false;
@@ -435,10 +435,8 @@ static bool find_lights(stylizer *h) {
 
 bool dp_stylize(const dp_frame *frame, dp_drawing *drawing) {
     dp_stylized_store *const store = &drawing->stylized;
-    stylizer h = {.frame = frame,
-                  .drawing = drawing,
-                  .store = store,
-                  .style = &frame->styles[0].stroke};
+    stylizer h = {
+        .frame = frame, .drawing = drawing, .store = store, .style = &frame->styles[0].stroke};
     store->count = 0;
     if (!drawing->stylizes) return true;
     if (!dp_chain_drawing(frame, drawing) || !find_lights(&h)) return false;
