@@ -3,7 +3,7 @@
  * Every pair of triangles whose boxes meet (found in the hierarchy of rays.c) is cut: the first by
  * the plane of the second, and what results by the second's three edges. Pairs with a vertex in
  * common are neighbours and do not count. Where one only touches the other's plane (an edge that
- * rests on a face) the segment is kept as a contact. Coplanar pairs are passed over. */
+ * rests on a face), the segment is a contact. Coplanar pairs are ignored. */
 #include "mesh.h"
 
 typedef struct search {

@@ -1,10 +1,11 @@
 /* Which lines of a model are visible, sample by sample.
  *
- * Every edge gets its class from its two polygons and the eye; what has one is clipped to the view
- * volume (and a margin around it), followed on the screen in steps of a quarter pixel, and each
- * step is visible when a ray from there to the eye (to the near plane, where things are cut off)
- * meets no other polygon. Rays start a tenth of a pixel off the surface, along the mean normal of
- * the line's two polygons, which are themselves passed over. */
+ *     each edge            its class, from its two polygons and the eye
+ *     each line            clipped to the view volume and a margin, sampled every quarter pixel
+ *     each sample          visible if a ray to the eye (to the near plane) meets no other polygon
+ *
+ * Rays start a tenth of a pixel off the surface, along the mean normal of the line's two polygons,
+ * which themselves do not count. */
 #include "reference.h"
 
 #include "mesh.h"

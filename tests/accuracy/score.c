@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REACH    1.0  /* px across the line in which ink is looked for */
-#define INKED    0.4  /* coverage that counts as ink there */
-#define BARE     0.3  /* coverage under which a pixel of the ideal stroke is uncovered */
-#define STRAY    1.5  /* px beyond a line's contour that ink may be */
-#define GRAIN    0.25 /* px between the points of a segment */
-#define ACROSS   0.1  /* px between the points of a profile */
-#define AVERAGED 32   /* samples (a quarter px each) that one width is averaged over */
-#define CELL     4.0  /* px, of the grid of points */
+#define REACH     1.0  /* px across the line in which ink is looked for */
+#define INKED     0.4  /* coverage that counts as ink there */
+#define UNCOVERED 0.3  /* coverage under which a pixel of the ideal stroke is uncovered */
+#define STRAY     1.5  /* px beyond a line's border where ink may be */
+#define GRAIN     0.25 /* px between the points of a segment */
+#define ACROSS    0.1  /* px between the points of a profile */
+#define AVERAGED  32   /* samples (a quarter px each) that one width is averaged over */
+#define CELL      4.0  /* px, of the grid of points */
 
 static bool wanted(uint32_t lines, unsigned kind) {
     return kind < DP_LINE_COUNT && (lines >> kind & 1);
@@ -231,7 +231,7 @@ static void measure_masks(const ref_truth *truth, const masks *mask, double px, 
         if (!mask->near[i]) out->stray += (double)mask->ink[i];
         if (mask->ideal[i] == 0) continue;
         ideal++;
-        if (mask->ink[i] >= (float)BARE) continue;
+        if (mask->ink[i] >= (float)UNCOVERED) continue;
         empty++;
         cracked += !hidden(truth, i, (double)mask->ideal[i], px);
     }

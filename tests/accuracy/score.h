@@ -8,7 +8,7 @@ typedef struct score {
     double recall;    /* share of the truth that has ink within 1 px */
     double precision; /* share of the ink within a line's reach of the truth: half its width and
                             1.5 px; for silhouettes the whole width and 1.5 px */
-    double uncovered; /* share of the ideal strokes, 1 px inside their contour, without ink; not of
+    double uncovered; /* share of the ideal strokes, 1 px inside their border, without ink; not of
                             silhouettes */
     double cracks;    /* the same without what a clearly nearer surface hides */
     double width_median; /* px, across the middles of long edges where no other line is near; 0:

@@ -1,6 +1,5 @@
-/* Runs a fuzzer's entry point over the files of directories, where libFuzzer is not there to do it:
- * what was once found stays found, with every compiler. One line per file, as the other tests
- * print. */
+/* Runs a fuzzer's entry point over the files of directories without libFuzzer, so that every
+ * compiler checks what was once found. One line per file, as in other tests. */
 #include <dirent.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -202,7 +202,7 @@ static bool is_left_out(const golden *g) {
 #endif
 }
 
-/* 1 where the picture is not as it is kept. */
+/* 1 if the picture differs from the stored one. */
 static int check_row(const char *folder, const golden *g, uint32_t width, uint32_t height) {
     const size_t pixels = (size_t)width * height;
     uint8_t *const rgba = malloc(4 * pixels);

@@ -1,6 +1,5 @@
-/* Golden pictures: small pictures, each a row of a table, compared with those that are kept
- * (decoded pixels). DP_GOLDEN_WRITE=1 writes those that are not there; look at them before they are
- * kept. */
+/* Golden pictures: small pictures, each a row of a table, compared with stored ones (decoded
+ * pixels). DP_GOLDEN_WRITE=1 writes those that are missing; look at them before committing. */
 #ifndef DP_GOLDEN_H
 #define DP_GOLDEN_H
 

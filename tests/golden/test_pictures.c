@@ -1,8 +1,8 @@
-/* One small picture per way of finding and drawing lines, of models that generated ones do not
- * have, compared with the one that is kept: quads, strokes by hand, adjacency, pencil, open and
- * badly wound models, fans, groups in one plane, streamed sources, mirrors, scaled views.
+/* Small pictures of all ways to find and draw lines, of models that the generated ones do not
+ * cover, compared with stored ones: quads, stylized strokes, adjacency, pencil, open and badly
+ * wound models, fans, groups in one plane, streamed sources, mirrors, scaled views.
  *
- * The pictures pin what is drawn today. Where that is known to be wrong the row says so. */
+ * They pin what is drawn today; where that is known to be wrong, the row says so. */
 #include "golden.h"
 
 #include <setjmp.h>

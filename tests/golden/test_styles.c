@@ -1,5 +1,5 @@
-/* One small picture per style, edge detector and mirror, compared with the one that is kept
- * (golden.h). */
+/* One small picture per style, edge detector and mirror, compared with the stored one (golden.h).
+ * */
 #include "golden.h"
 
 #include <setjmp.h>

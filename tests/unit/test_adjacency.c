@@ -27,7 +27,8 @@ static void expect_six(const uint32_t *six, const uint32_t expected[6]) {
         if (six[i] != expected[i]) fail_msg("index %d is %u, not %u", i, six[i], expected[i]);
 }
 
-/* Figure 2.2: corners at 0, 2, 4, what lies across the edges between them at 1, 3, 5. */
+/* Hermosilla and Vázquez 2010, Figure 2.2: corners at 0, 2, 4, what lies across the edges between
+ * them at 1, 3, 5. */
 static void test_six_indices_are_sorted_as_in_figure_2_2(void **state) {
     (void)state;
     static const float p[6][3] = {{0, 0, 0},  {2, 0, 0}, {1, 2, 0},
@@ -67,9 +68,9 @@ static void expect_across(const float p[][3], size_t vertices, const uint32_t *t
             fail_msg("triangle %zu: %u, not %u", i, six[6 * i + 1], expected[i]);
 }
 
-/* Two sheets, each of two sides in one place, meet at an edge: what looks at each other are sides
- * of different sheets, not the two of one. And of two pages in one place the later is next to what
- * comes at a greater angle, the earlier stays alone. */
+/* Two sheets, each with two coincident sides, meet at an edge: sides that face each other belong to
+ * different sheets. Of two coincident pages, the later is the neighbour of the one at the next
+ * greater angle; the earlier has none. */
 static void test_sides_of_one_sheet_do_not_look_at_each_other(void **state) {
     (void)state;
     static const float p[5][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
@@ -88,8 +89,7 @@ static void test_wrong_calls_and_bad_indices(void **state) {
     assert_int_equal(dp_adjacency_indices(NULL, NULL, six, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_adjacency_indices(&batch, NULL, NULL, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_OK);
-    expect_six(six,
-               (const uint32_t[6]){0, 2, 1, 0, 2, 1}); /* the broken one is nobody's neighbour */
+    expect_six(six, (const uint32_t[6]){0, 2, 1, 0, 2, 1}); /* the bad one is nobody's neighbour */
     batch.firsts = firsts, batch.polygon_count = 1;
     assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_ERR_ARGUMENT);
 }
@@ -131,12 +131,12 @@ static void unmake(made *m) {
     dp_threads_destroy(m->threads);
 }
 
-/* Two wedges that touch along z: the four pages' fronts look at each other in pairs, or away. */
+/* Two wedges that touch along z: the fronts of the four pages face each other in pairs, or away. */
 static void test_four_pages_are_paired_by_the_wedges_between_them(void **state) {
     (void)state;
     static const float p[6][3] = {{0, 0, 0},  {0, 0, 1},   {1, 1, 0},
                                   {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
-    /* front of page 0 (at 45 degrees) looks to growing angles, of page 1 (at 135) to falling ones,
+    /* front of page 0 (at 45 degrees) faces growing angles, of page 1 (at 135) to falling ones,
      * and so on */
     static const uint32_t t[12] = {0, 1, 2, 1, 0, 3, 0, 1, 4, 1, 0, 5};
     made m = {0};
@@ -182,8 +182,8 @@ static void test_polygons_have_neighbours_too(void **state) {
     unmake(&m);
 }
 
-/* Positions may change without a new topology; indices may not, nor may vertices part that were one
- * place. */
+/* Positions may change without a new topology; indices may not, and coincident vertices may not
+ * part. */
 static void test_it_is_built_once_per_topology(void **state) {
     (void)state;
     float p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -214,7 +214,8 @@ static void expect_point(const dp_fin_point *p, double x, double y, double tx, d
         fail_msg("(%g, %g) with (%g, %g, %g)", p->at.x, p->at.y, p->tx, p->ty, p->v);
 }
 
-/* Figures 2.3 to 2.5. Normals at 45 degrees: d_a = d_c = 2 * 5 sin(22.5), d_b = 10, stylized. */
+/* Hermosilla and Vázquez 2010, Figures 2.3 to 2.5. Normals at 45 degrees: d_a = d_c = 2 * 5
+ * sin(22.5), d_b = 10, by hand. */
 static void test_extrusion_and_its_texture_coordinates(void **state) {
     (void)state;
     const double s = sqrt(0.5);

@@ -1,5 +1,5 @@
-/* stream/classify.inc: what vectors of any width make of a chunk's triangles is what the general way
- * makes of them (stream/classify.c), and what they leave to it does not depend on the width.
+/* stream/classify.inc: kernels of any width decide about a chunk's triangles as stream/classify.c
+ * does, and what they leave to it does not depend on the width.
  *
  * With DRYPOINT_BENCH in the environment, times are printed as well. */
 #include "stream/kernels.h"
@@ -73,7 +73,7 @@ static dp_view make_view(bool orthographic) {
     return view;
 }
 
-/* Kernels that leave everything to the general way. */
+/* Kernels that leave everything undecided. */
 static void leave_all(dp_chunk *chunk, const dp_triangles *triangles, const dp_chunk_view *view) {
     (void)view;
     for (uint32_t t = 0; t < triangles->count; t++)
@@ -82,7 +82,7 @@ static void leave_all(dp_chunk *chunk, const dp_triangles *triangles, const dp_c
 
 static const dp_stream_kernels general = {.classify = leave_all, .touch = leave_all};
 
-/* A picture whose surface is known in part, and of which a tenth is looked at. */
+/* A picture whose surface is known in part, with a tenth of its pixels wanted. */
 typedef struct picture {
     dp_view view;
     dp_chunk_view chunk;

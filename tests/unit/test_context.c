@@ -1,5 +1,5 @@
-/* Contexts: independent of each other, tidy when the drawing is cancelled, on anyone's threads, and
- * plain about wrong arguments. */
+/* Contexts: independent of each other, reusable after a cancelled drawing, on an application's own
+ * threads, with plain messages about wrong arguments. */
 #include "drawing.h"
 
 #include <math.h>

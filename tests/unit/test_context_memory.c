@@ -1,4 +1,4 @@
-/* A context's memory: all of it comes back whichever allocation fails, and later frames ask for
+/* A context's memory: all of it is freed whichever allocation fails, and later frames allocate
  * none. */
 #include "drawing.h"
 

@@ -251,8 +251,8 @@ static void every_kernel(void **state) {
     }
 }
 
-/* Every look and both detectors: any kernels, any number of threads, in a context that drew other
- * looks before. */
+/* Every style and both detectors: any kernels, any number of threads, in a context that has drawn
+ * other styles before. */
 static void every_look(void **state) {
     static const char *const names[] = {"bolt", "boxes", "torus"};
     static const uint32_t samples[] = {4, 1, 8, 16};

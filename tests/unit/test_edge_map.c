@@ -1,5 +1,5 @@
-/* gbuffer: the detectors stylized on 5 x 5 pixels, and the G-buffer and edge map of whole
- * pictures. */
+/* gbuffer: the detectors on 5 x 5 pixels, worked out by hand, and the G-buffer and edge map of
+ * whole pictures. */
 #include "gbuffer/detect.h"
 #include "gbuffer/gbuffer.h"
 #include "base/kernels.h"
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-/* ------- operators, 5 x 5, stylized ------- */
+/* ------- operators, 5 x 5, by hand ------- */
 
 enum { SIDE = 5 };
 
@@ -240,18 +240,18 @@ static void a_box_face_on(void **state) {
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
             const bool in = x >= left && x < right && y >= top && y < bottom;
-            const bool rim = in && (x == left || x == right - 1 || y == top || y == bottom - 1);
+            const bool border = in && (x == left || x == right - 1 || y == top || y == bottom - 1);
             assert_int_equal(p.id[y][x], in);
             assert_true(in ? p.distance[y][x] == z : isinf(p.distance[y][x]));
             assert_true(p.normal[y][x][0] == 0 && p.normal[y][x][1] == 0 &&
                         p.normal[y][x][2] == (in ? 1.0f : 0));
             assert_int_equal(p.map[y][x][0], 255); /* no inner edges */
-            assert_int_equal(p.map[y][x][3], rim ? 0 : 255);
-            assert_int_equal(p.rgba[y][x][0], rim ? 0 : 255);
+            assert_int_equal(p.map[y][x][3], border ? 0 : 255);
+            assert_int_equal(p.rgba[y][x][0], border ? 0 : 255);
         }
 }
 
-/* "the linear distance from the camera position", 4.1.1 */
+/* "the linear distance from the camera position" (Nienhaus and Döllner 2003, 4.1.1) */
 static void distance_is_linear_whatever_near_and_far_are(void **state) {
     (void)state;
     static scene s;

@@ -1,6 +1,5 @@
-/* find/edge_table.c: edges that the table takes for one at first, as their keys have what it
- * compares in common, are told apart, and edges around flat vertices are not listed at all, by
- * kernels of any width. */
+/* find/edge_table.c: edges whose keys the table cannot tell apart are told apart by their vertices,
+ * and edges around flat interior vertices are not listed, by kernels of any width. */
 #include "base/hostile.h"
 #include "base/kernels.h"
 #include "find/edge_table.h"
@@ -98,7 +97,7 @@ static void pairs_apart(scene *s) {
     for (uint32_t t = 0; t < 20; t++) assert_int_equal(partner_of(s, t, 1, false), UINT32_MAX);
 }
 
-/* Two meet, one that seems to be the third is of another edge, and a third one comes. */
+/* Two triangles meet; a seeming third is of another edge; then a real third comes. */
 static void fans_apart(scene *s) {
     add_triangle(s, 1, 6, 100);
     add_triangle(s, 6, 1, 200);
@@ -119,7 +118,7 @@ static void same_way(scene *s) {
 
 /* ------- one-rings: what is listed ------- */
 
-/* The key of vertex `i`: where one-rings lie apart. */
+/* The key of vertex `i`; all vertices have their own slots of one-rings. */
 static uint32_t spread_key(uint32_t i) { return (i + 1) * 0x9e3779b1u; }
 
 static void begin_flat(scene *s) { s->worker.rings.spread = 0.25f * DP_RING_ONE * DP_RING_ONE; }
@@ -184,7 +183,7 @@ static void turn_away(scene *s, uint32_t triangle) {
 
 /* Of a vertex with flat front faces and some back faces, only edges between them are listed, by
  * both. */
-static void contour(scene *s) {
+static void contour_vertex(scene *s) {
     add_ring(s, 6);
     turn_away(s, 3);
     expect_spokes(s, 4);
@@ -285,9 +284,10 @@ static void for_all_kernels(void **state) {
 }
 
 int main(void) {
-    static trial trials[] = {{tells_apart}, {pairs_apart}, {fans_apart}, {same_way},      {flat},
-                             {open_ring},   {bent},        {unknown},    {wound_wrongly}, {clipped},
-                             {same_slot},   {contour},     {last_one}};
+    static trial trials[] = {{tells_apart},   {pairs_apart}, {fans_apart}, {same_way},
+                             {flat},          {open_ring},   {bent},       {unknown},
+                             {wound_wrongly}, {clipped},     {same_slot},  {contour_vertex},
+                             {last_one}};
     const struct CMUnitTest tests[] = {
         {"edges of one name are told apart", for_all_kernels, NULL, NULL, &trials[0]},
         {"pairs of one name are told apart", for_all_kernels, NULL, NULL, &trials[1]},
@@ -301,7 +301,7 @@ int main(void) {
         {"wrong winding opens a one-ring", for_all_kernels, NULL, NULL, &trials[8]},
         {"a clipped triangle opens a one-ring", for_all_kernels, NULL, NULL, &trials[9]},
         {"one-rings of one slot do not close each other", for_all_kernels, NULL, NULL, &trials[10]},
-        {"on a contour, edges between both facings are listed", for_all_kernels, NULL, NULL,
+        {"at a contour vertex, edges between both facings are listed", for_all_kernels, NULL, NULL,
          &trials[11]},
         {"one-rings know of all triangles, the last one too", for_all_kernels, NULL, NULL,
          &trials[12]},

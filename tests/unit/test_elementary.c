@@ -1,5 +1,5 @@
-/* Elementary functions: near the C library's, the same bits everywhere, and defined for whatever
- * comes. */
+/* Elementary functions: close to the C library's, the same bits everywhere, defined for every
+ * input. */
 #include "base/elementary.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* The primitive shaders against quads worked out stylized, and the paper's formulas. */
+/* The primitive shaders against quads worked out by hand, and the formulas of Raskar 2001, 2. */
 #include "features/features.h"
 
 #include <setjmp.h>
@@ -243,7 +243,7 @@ static void paper_silhouette_face_on(void **state) {
     }
 }
 
-/* P_k + w [E x N] [z sin(alpha) (V·C) / (V·N)], written out once more. */
+/* P_k + w [E x N] [z sin(alpha) (V·C) / (V·N)], written out again (Raskar 2001, 2.1). */
 static void paper_offset_is_as_printed(void **state) {
     const dp_view view = view_of(true);
     const dp_vec3 eye = {0, 0, 10}, c = {0, 0, -1};
@@ -275,7 +275,7 @@ static void paper_quads_at_several_angles(void **state) {
             assert_point(out[0].points[0], 200, 200);
             assert_point(out[0].points[2], at.x, at.y);
             assert_close(depth_at(&out[0], at.x, at.y), at.d, 1e-9);
-            /* where the eye looks the width is right, but for what perspective does to its depth */
+            /* along the axis the width is right, except for perspective over its depth */
             assert_close(out[0].points[3].y - 200, 6, perspective ? 1.5 : 1e-9);
         }
     }

@@ -1,6 +1,5 @@
-/* find/probes.c and find/hide.inc: which sample points lie hidden is what asking every point
- * about every polygon gives, with kernels of any width, for all but points that rounding may put on
- * either side. */
+/* find/visibility.c and find/hide.inc: kernels of any width hide the sample points that a test of
+ * every point against every polygon hides, except those that rounding may put on either side. */
 #include "find/finder.h"
 #include "find/kernels.h"
 #include "raster/kernels.h"
@@ -136,7 +135,7 @@ typedef struct counts {
     uint32_t hidden, seen, unsure;
 } counts;
 
-/* Asks every point about every polygon. */
+/* Tests every point against every polygon. */
 static void compare(const dp_finder *w, const float *before, counts *found) {
     for (uint32_t k = 0; k < w->lines.candidate_count; k++) {
         const dp_candidate *const c = &w->lines.candidates[k];

@@ -1,5 +1,4 @@
-/* The API of Raskar 2001, Figure 3: the same picture as the batch interface, and wrong calls
- * told. */
+/* The API of Raskar 2001, Figure 3: the same picture as dp_draw, and messages for wrong calls. */
 #include "scene.h"
 
 #include <math.h>

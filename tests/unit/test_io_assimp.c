@@ -1,5 +1,5 @@
-/* dp_io_open and dp_io_open_memory: own formats by own readers, others through Assimp with their
- * transforms and names. */
+/* dp_io_open and dp_io_open_memory: the library's formats by its own readers, others through Assimp
+ * with their transforms and names. */
 #include "reading.h"
 
 #include <drypoint/io.h>

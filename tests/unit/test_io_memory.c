@@ -1,6 +1,6 @@
-/* dp_source_open_memory: a model in memory is what the same bytes in a file are, byte for byte, in
- * every format: batches, names, colours, remarks, failures and drawings; and what lies beside it is
- * the application's to give. */
+/* dp_source_open_memory: in every format, a model in memory is the same as its bytes in a file:
+ * batches, names, colours, remarks, failures and drawings. Its other files come from the
+ * application. */
 #include "mesh/source.h"
 #include "reading.h"
 

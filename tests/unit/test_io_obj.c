@@ -113,8 +113,7 @@ static void long_names_are_cut(void **state) {
 
 static void other_lines_are_passed_over(void **state) {
     (void)state;
-    assert_trace("# made stylized\nmtllib a.mtl\n" SQUARE
-                 "vp 1 2\ns off\nl 1 2\np 1\ncurv 0 1 1 2\n"
+    assert_trace("# made by hand\nmtllib a.mtl\n" SQUARE "vp 1 2\ns off\nl 1 2\np 1\ncurv 0 1 1 2\n"
                  "unknown words here\nvolume 3\nfree\nobject\ngroups\nf 1 2 3\n",
                  "(0 0 0)(1 0 0)(1 1 0)\n");
 }

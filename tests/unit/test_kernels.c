@@ -1,4 +1,4 @@
-/* kernel/: vectors of any width give the bits of plain C; and what each kernel takes.
+/* Kernels: every width of vectors gives the bits of plain C; and what each kernel takes.
  *
  * Kernels that work on a whole tile are compared by the pictures and lines they make
  * (test_determinism.c). With DRYPOINT_BENCH in the environment, times are printed as well. */
@@ -104,8 +104,8 @@ static bool same_rect(const dp_tile_rect *a, const dp_tile_rect *b) {
            a->tag == b->tag && a->only == b->only;
 }
 
-/* A batch with an index out of range is left to the general way as a whole: the widths differ in
- * what they leave, never in what they place. */
+/* A batch with an index out of range is left undecided as a whole: widths differ in what they
+ * leave, never in what they place. */
 static void places_agree(void **state) {
     static dp_vertex vertices[VERTICES];
     static dp_tile_rect truth[TRIANGLES], rects[TRIANGLES];
@@ -172,16 +172,17 @@ static void parts_agree(void **state) {
     }
 }
 
-enum { CROWD = 150, CROWD_STRIDE = CROWD + DP_INTERSECTING_ROOM };
+enum { CANDIDATES = 150, CANDIDATE_STRIDE = CANDIDATES + DP_INTERSECTING_ROOM };
 
-/* Which corners of intersection candidates member a lie where one of b's does, a bit each; in how many pairs. */
+/* Which corners of intersection candidate a coincide with one of b's, a bit each; and how many
+ * pairs do. */
 static uint32_t shared_corners(const dp_intersecting *intersecting, uint32_t a, uint32_t b,
                                uint32_t *pairs) {
     uint32_t shared = 0;
     *pairs = 0;
     for (uint32_t i = 0; i < 9; i++) {
-        const bool same = intersecting->keys[i / 3 * CROWD_STRIDE + a] ==
-                          intersecting->keys[i % 3 * CROWD_STRIDE + b];
+        const bool same = intersecting->keys[i / 3 * CANDIDATE_STRIDE + a] ==
+                          intersecting->keys[i % 3 * CANDIDATE_STRIDE + b];
         *pairs += same;
         shared |= (uint32_t)same << i / 3;
     }
@@ -189,7 +190,7 @@ static uint32_t shared_corners(const dp_intersecting *intersecting, uint32_t a, 
 }
 
 static float member(const dp_intersecting *intersecting, uint32_t which, uint32_t of) {
-    return intersecting->members[which * CROWD_STRIDE + of];
+    return intersecting->members[which * CANDIDATE_STRIDE + of];
 }
 
 /* All corners of a that are not b's as well lie on one side of b's plane. */
@@ -222,40 +223,43 @@ static bool bounds_meet(const dp_intersecting *intersecting, uint32_t a, uint32_
 /* Triangles with corners in whole numbers, so that bounds touch and corners lie in planes now and
  * then; every fifth one's plane is not told. */
 static void fill_members(float *members, uint32_t *keys, uint32_t *seed) {
-    for (uint32_t i = 0; i < 3 * CROWD_STRIDE; i++) keys[i] = next_random(seed) % 12;
-    for (uint32_t i = 0; i < CROWD; i++) {
+    for (uint32_t i = 0; i < 3 * CANDIDATE_STRIDE; i++) keys[i] = next_random(seed) % 12;
+    for (uint32_t i = 0; i < CANDIDATES; i++) {
         float at[3], *const of = members + i;
         for (uint32_t k = 0; k < 3; k++) at[k] = (float)(next_random(seed) % 40);
         for (uint32_t k = 0; k < 3; k++) {
             float least = 100, most = 0;
             for (uint32_t c = 0; c < 3; c++) {
                 const float v = at[k] + (float)(next_random(seed) % 10);
-                of[(DP_INTERSECTING_CORNERS + 3 * c + k) * CROWD_STRIDE] = v;
+                of[(DP_INTERSECTING_CORNERS + 3 * c + k) * CANDIDATE_STRIDE] = v;
                 least = dp_minf(least, v), most = dp_maxf(most, v);
             }
-            of[(DP_INTERSECTING_LEAST + k) * CROWD_STRIDE] = least;
-            of[(DP_INTERSECTING_MOST + k) * CROWD_STRIDE] = most;
-            of[(DP_INTERSECTING_PLANE + k) * CROWD_STRIDE] = (float)(next_random(seed) % 3);
+            of[(DP_INTERSECTING_LEAST + k) * CANDIDATE_STRIDE] = least;
+            of[(DP_INTERSECTING_MOST + k) * CANDIDATE_STRIDE] = most;
+            of[(DP_INTERSECTING_PLANE + k) * CANDIDATE_STRIDE] = (float)(next_random(seed) % 3);
         }
-        of[DP_INTERSECTING_PLANE * CROWD_STRIDE] = i % 5 ? at[2] - at[0] - at[1] : NAN;
+        of[DP_INTERSECTING_PLANE * CANDIDATE_STRIDE] = i % 5 ? at[2] - at[0] - at[1] : NAN;
     }
 }
 
-/* Who meets whom, against all pairs one by one. */
+/* Which candidates meet, against a test of all pairs. */
 static void meetings_agree(void **state) {
-    static float members[DP_INTERSECTING_MEMBERS * CROWD_STRIDE];
-    static uint32_t met[CROWD_STRIDE], keys[3 * CROWD_STRIDE];
+    static float members[DP_INTERSECTING_MEMBERS * CANDIDATE_STRIDE];
+    static uint32_t met[CANDIDATE_STRIDE], keys[3 * CANDIDATE_STRIDE];
     (void)state;
     uint32_t seed = 9, neighbours = 0, beside = 0, crossing = 0;
     fill_members(members, keys, &seed);
-    const dp_intersecting intersecting = {
-        .members = members, .keys = keys, .met = met, .count = CROWD, .stride = CROWD_STRIDE};
+    const dp_intersecting intersecting = {.members = members,
+                                          .keys = keys,
+                                          .met = met,
+                                          .count = CANDIDATES,
+                                          .stride = CANDIDATE_STRIDE};
     dp_width list[DP_WIDTHS_MOST];
     const uint32_t kinds = dp_widths_list(list);
     for (uint32_t k = 0; k < kinds; k++) {
         const double start = now_ns();
-        for (uint32_t self = 0; self < CROWD; self++) {
-            const uint32_t end = self + 1 + next_random(&seed) % (CROWD - self),
+        for (uint32_t self = 0; self < CANDIDATES; self++) {
+            const uint32_t end = self + 1 + next_random(&seed) % (CANDIDATES - self),
                            count =
                                dp_find_kernels_for(list[k].lanes)->meet(&intersecting, self, end);
             uint32_t expected = 0, pairs;
@@ -275,7 +279,7 @@ static void meetings_agree(void **state) {
             }
             assert_int_equal(count, expected);
         }
-        report("meet", list[k], start, CROWD * CROWD / 4);
+        report("meet", list[k], start, CANDIDATES * CANDIDATES / 4);
     }
     assert_true(neighbours && beside && crossing);
 }
@@ -385,7 +389,7 @@ static bool is_near(dp_cell_bits cells, uint32_t box, uint32_t flags) {
            (flags & DP_POLYGON_FRONT ? DP_NEAR_FRONT : DP_NEAR_BACK);
 }
 
-/* Who comes near cells of pixels, against a look at each. */
+/* Which polygons come near cells of pixels, against a test of each. */
 static void approaches_agree(void **state) {
     enum { SEEN = 300 };
     static uint32_t words[DP_SEEN_MEMBERS * (SEEN + DP_SEEN_ROOM)], list[SEEN + DP_SEEN_ROOM];

@@ -1,5 +1,5 @@
-/* The kernels that ink: all agree with plain C, bit for bit, and plain C with what is defined. With
- * DRYPOINT_BENCH set it reports their times. */
+/* Kernels that ink: all agree with plain C, bit for bit, and plain C with the definition. With
+ * DRYPOINT_BENCH set, times are printed. */
 #include "sink/kernels.h"
 #include "core/blend.h"
 #include "core/frame.h"

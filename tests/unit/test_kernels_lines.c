@@ -1,5 +1,5 @@
-/* The kernels that find lines' sample points and edges that lie hidden: all agree with plain C, bit
- * for bit, and plain C with what is defined. */
+/* Kernels that find lines' sample points and hidden edges: all agree with plain C, bit for bit, and
+ * plain C with the definition. */
 #include "find/finder.h"
 #include "find/kernels.h"
 #include "strokes/kernels.h"

@@ -1,4 +1,4 @@
-/* mesh/normals and mesh/attributes: normals made and normals brought, texture coordinates. */
+/* mesh/normals and mesh/attributes: computed normals, a model's normals, texture coordinates. */
 #include "mesh/normals.h"
 #include "reading.h"
 

@@ -1,6 +1,6 @@
-/* All memory of a drawing is the application's: while dp_draw runs in any mode, nobody, the C
- * library included, calls malloc. This program's own malloc counts; what the application's
- * allocator gives comes from behind it. Skipped where a sanitizer has taken malloc's place. */
+/* All memory of a drawing is the application's: while dp_draw runs, in any mode, nothing calls
+ * malloc, the C library included. This program's own malloc counts; the application's allocator
+ * does not use it. Skipped where a sanitizer has replaced malloc. */
 #include "base/sort.h"
 #include "draw/context.h"
 

@@ -1,6 +1,5 @@
-/* The worked examples of Raskar 2001, in flatland.
- *
- * Flatland is (x, z), seen from +z; every segment is a wall drawn out along y. */
+/* The worked examples of Raskar 2001, in flatland: (x, z), seen from +z. Every segment is a wall
+ * that extends along y. */
 #include "variants.h"
 
 #include <math.h>
@@ -30,7 +29,7 @@ static void expect_line(const variant *v, uint32_t lines, double dihedral, doubl
     free(roof);
 }
 
-/* Figure 6: the ridge is sharper than the threshold, its quads stay visible. */
+/* Raskar 2001, Figure 6: the ridge is sharper than the threshold, its quads stay visible. */
 static void figure_6_a_sharp_ridge_shows(void **state) {
     (void)state;
     for (int i = 0; i < VARIANTS; i++) expect_line(&variants[i], DP_RIDGE, 80, 120, 240, true);

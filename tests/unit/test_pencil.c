@@ -71,7 +71,7 @@ static void test_the_texture_repeats_and_has_no_sign(void **state) {
         }
     sum /= SIZE * SIZE;
     assert_true(sum > 90 && sum < 200);
-    dp_make_graphite(values, 2, scratch); /* from bare paper to dark */
+    dp_make_graphite(values, 2, scratch); /* from empty paper to dark */
     for (int i = 0; i < SIZE * SIZE; i++)
         assert_true(values[i] == 255 && values[SIZE * SIZE + i] <= 255);
 }

@@ -1,5 +1,5 @@
-/* Progress: in every mode it runs forward and ends at exactly 1; who says stop is not asked
- * again, and the next drawing is as if nothing had been. */
+/* Progress: in every mode it never falls and ends at exactly 1; after a cancel it is not called
+ * again, and the next drawing is undisturbed. */
 #include "base/hostile.h"
 #include "draw/context.h"
 

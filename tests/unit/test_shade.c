@@ -1,4 +1,5 @@
-/* shade: composition in the paper's order, shared pixels, the mirror, bad input. */
+/* shade: composition in the paper's order (Nienhaus and Döllner 2003, 5), shared pixels, the
+ * mirror, bad input. */
 #include "base/vec.h"
 #include "base/kernels.h"
 #include "scene.h"
@@ -33,7 +34,8 @@ static dp_result draw_batch(const dp_batch *batch, const dp_camera *camera, cons
     return result;
 }
 
-/* Section 5: inner edges first, then profile edges over them, each in its own colour. */
+/* Nienhaus and Döllner 2003, 5: inner edges first, then profile edges over them, each in its own
+ * colour. */
 static void profile_edges_lie_over_inner_ones(void **state) {
     (void)state;
     static scene s;
@@ -104,21 +106,21 @@ static void quads_lie_over_shades(void **state) {
     scene_roof(&s, 80, 30);
     const dp_batch batch = scene_batch(&s);
     const dp_camera camera = scene_flat_camera();
-    for (int look = DP_SHADING_FLAT; look < DP_SHADING_COUNT; look++) {
+    for (int shading = DP_SHADING_FLAT; shading < DP_SHADING_COUNT; shading++) {
         const dp_style style = {.ink = DP_INK_QUADS,
                                 .line[DP_LINE_RIDGE] = {.width = 4, .color = DP_RGB(0, 90, 0)},
-                                .shade = {.shading = (dp_shading)look, .light = {0, 0, 1}}};
-        assert_int_equal(draw_batch(&batch, &camera, &style, look ? shaded : flat, NULL, NULL),
+                                .shade = {.shading = (dp_shading)shading, .light = {0, 0, 1}}};
+        assert_int_equal(draw_batch(&batch, &camera, &style, shading ? shaded : flat, NULL, NULL),
                          DP_OK);
         int inked = 0;
-        for (int y = 1; look && y < H - 1; y++)
+        for (int y = 1; shading && y < H - 1; y++)
             for (int x = 1; x < W - 1; x++) {
                 const bool whole = flat[y][x][0] == 0 && flat[y][x][1] == 90;
                 if (whole && memcmp(flat[y][x], shaded[y][x], 4) != 0)
-                    fail_msg("%s: (%d, %d)", dp_shading_name((dp_shading)look), x, y);
+                    fail_msg("%s: (%d, %d)", dp_shading_name((dp_shading)shading), x, y);
                 inked += whole;
             }
-        if (look) assert_true(inked > 100);
+        if (shading) assert_true(inked > 100);
     }
 }
 
@@ -205,7 +207,7 @@ static void compare_image(const pixels seen, const pixels expected, uint16_t ids
     assert_true(compared > W * H / 20);
 }
 
-/* One look, with lines or the edge map, in a mirror and as the rendering of the mirrored scene. */
+/* One style, with lines or the edge map, in a mirror and as the rendering of the mirrored scene. */
 static void check_mirror(dp_shading shading, bool edges, const float normal[3],
                          const dp_camera *camera, int *drawn) {
     static scene s, image;
@@ -246,7 +248,7 @@ static void a_mirror_shows_the_mirrored_scene(void **state) {
         for (int edges = 0; edges < 2; edges++) {
             int drawn = 0;
             if (shading == DP_SHADING_PENCIL)
-                continue; /* strokes are not mirrored: a hand draws them again */
+                continue; /* strokes are not mirrored: they lie on the screen */
             for (int k = 0; k < 8; k++) {
                 const dp_camera camera =
                     scene_camera(70 + 6.85 * k, 20 - 5.5 * k, 90 - 11.5 * k, -15, -5, 0);

@@ -1,5 +1,5 @@
-/* shade: the looks of surfaces and the cartoon map on runs of pixels, stylized; every width of
- * vectors gives the same. */
+/* shade: styles of surfaces and the cartoon map on runs of pixels, worked out by hand; every width
+ * of vectors gives the same. */
 #include "base/kernels.h"
 #include "shade/shade.h"
 
@@ -155,15 +155,15 @@ static void make_rows(pixel_rows *p, uint32_t seed) {
     for (int i = 0; i < 20; i++) p->shades[i / 4][i % 4] = (uint8_t)(12 * i);
 }
 
-/* What a run of n pixels becomes, by one look of one table, and then in bytes. */
-static void look_at(const dp_shaders *shaders, int look, bool object, bool textured, uint32_t n,
-                    pixel_rows *p, uint32_t *words) {
+/* Shades a run of n pixels with one style of one table, and packs it. */
+static void shade_run(const dp_shaders *shaders, int style, bool object, bool textured, uint32_t n,
+                      pixel_rows *p, uint32_t *words) {
     static dp_gbuffer g;
     g = (dp_gbuffer){.fx = 90,
                      .fy = 80,
                      .cx = 31,
                      .cy = 17,
-                     .perspective = look % 2,
+                     .perspective = style % 2,
                      .stride = DP_TILE,
                      .eye = {1, 2, 3},
                      .other = p->other[0] - 10 * DP_TILE};
@@ -190,7 +190,7 @@ static void look_at(const dp_shaders *shaders, int look, bool object, bool textu
                          .y = 11,
                          .n = n};
     shaders->paint((const float[4]){0.9f, 0.5f, 0.1f, 1}, &run);
-    if (shaders->styles[look]) shaders->styles[look](&setup, &run);
+    if (shaders->styles[style]) shaders->styles[style](&setup, &run);
     shaders->pack(&run, words);
 }
 
@@ -200,22 +200,23 @@ static void wider_vectors_shade_the_same(void **state) {
     static pixel_rows p;
     dp_width list[DP_WIDTHS_MOST];
     for (uint32_t k = 0, kinds = dp_widths_list(list); k < kinds; k++)
-        for (int look = 0; look < DP_SHADING_COUNT; look++)
+        for (int style = 0; style < DP_SHADING_COUNT; style++)
             for (int mode = 0; mode < 4; mode++) {
                 static const uint32_t lengths[4] = {1, 15, 33, DP_TILE};
                 const uint32_t n = lengths[mode] < DP_TILE ? lengths[mode] : DP_TILE;
                 uint32_t a[DP_TILE], b[DP_TILE];
-                make_rows(&p, (uint32_t)(100 * look + mode));
-                look_at(plain, look, mode & 1, mode & 2, n, &p, a);
-                look_at(dp_shaders_for(list[k].lanes), look, mode & 1, mode & 2, n, &p, b);
+                make_rows(&p, (uint32_t)(100 * style + mode));
+                shade_run(plain, style, mode & 1, mode & 2, n, &p, a);
+                shade_run(dp_shaders_for(list[k].lanes), style, mode & 1, mode & 2, n, &p, b);
                 for (uint32_t i = 0; i < n; i++)
                     if (p.id[1][i] && a[i] != b[i])
-                        fail_msg("%s, look %d, mode %d, pixel %u: %x, not %x", list[k].name, look,
+                        fail_msg("%s, style %d, mode %d, pixel %u: %x, not %x", list[k].name, style,
                                  mode, i, b[i], a[i]);
             }
 }
 
-/* The cartoon map, too; stylized: a mean of one surface's colours, weighed 1 2 1 both ways. */
+/* The cartoon map, also by hand: a mean of one surface's colours, weighed 1 2 1 in both
+ * directions. */
 static void wider_vectors_smooth_the_same(void **state) {
     (void)state;
     static uint8_t colors[3][3 * DP_TILE][4], out[2][DP_TILE][4];

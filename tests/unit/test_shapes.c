@@ -138,7 +138,7 @@ static void check_closed(const char *name, uint64_t request) {
     if (strcmp(name, "terrain")) {
         assert_int_equal(t.open, 0);
         assert_true(volume(&s) > 0.05);
-    } else { /* a square of n * n cells has 4 n edges at its contour */
+    } else { /* a square of n * n cells has 4 n edges at its border */
         const double n = sqrt((double)s.count / 2);
         assert_int_equal(t.open, (size_t)(4 * n + 0.5));
         volume(&s);

@@ -1,4 +1,4 @@
-/* base/sort: orders whatever comes, whatever its size, and survives an order that is none. */
+/* base/sort: sorts any keys, of any size, and survives a comparison that is no order. */
 #include "base/sort.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* mesh/source: arrays and callbacks as sources, tables that contradict themselves, extents. */
+/* mesh/source: arrays and callbacks as sources, inconsistent tables, extents. */
 #include <drypoint/drypoint.h>
 
 #include <math.h>

@@ -242,8 +242,8 @@ static void shuffled_soups(void **state) {
     }
 }
 
-/* A model that is there twice: of an edge's four triangles two and two run the same way, and any
- * two of them may meet first, in different chunks. */
+/* A model that is there twice: of an edge's four triangles two run one way and two the other, and
+ * any two may meet first, in different chunks. */
 static void doubled_soups(void **state) {
     (void)state;
     soup s;
@@ -259,7 +259,7 @@ static void doubled_soups(void **state) {
     free(s.corners);
 }
 
-/* More triangles that may cross others than are looked after: that some were given up is told. */
+/* More intersection candidates than the limit: that some were given up is reported. */
 static void too_many_crossings(void **state) {
     (void)state;
     if (DP_TUNED(false, true)) skip(); /* as many in small steps take too long */
@@ -308,30 +308,30 @@ static void fans_far_apart(void **state) {
     }
 }
 
-/* Which edges of a soup are kept, in as many readings as it takes with `limit` triangles. */
-static void keep(const soup *s, const dp_chunk_view *view, size_t limit, dp_pending *kept) {
-    static dp_allocator memory; /* outlives *kept */
+/* Joins the edges of a soup, in as many readings as `limit` triangles take. */
+static void join_all(const soup *s, const dp_chunk_view *view, size_t limit, dp_pending *pending) {
+    static dp_allocator memory; /* outlives *pending */
     bool enough = true;
     memory = dp_allocator_resolve(NULL);
-    *kept = (dp_pending){.memory = &memory, .view = view, .limit = limit, .shares = 1};
+    *pending = (dp_pending){.memory = &memory, .view = view, .limit = limit, .shares = 1};
     do {
         for (size_t i = 0; i < s->count; i++) {
-            const size_t first = kept->count;
-            assert_true(dp_reserve(&memory, &kept->triangles, &kept->cap, first + 1,
-                                   sizeof *kept->triangles));
-            dp_pending_triangle *const t = &kept->triangles[kept->count++];
+            const size_t first = pending->count;
+            assert_true(dp_reserve(&memory, &pending->triangles, &pending->cap, first + 1,
+                                   sizeof *pending->triangles));
+            dp_pending_triangle *const t = &pending->triangles[pending->count++];
             *t = (dp_pending_triangle){.number = (uint32_t)i, .polygon = (uint32_t)i};
             memcpy(t->corners, s->corners[i], sizeof t->corners);
             for (uint32_t e = 0; e < 3; e++)
-                t->edges[e] = dp_pending_follows(kept->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
-            assert_true(dp_pending_join(kept, first));
+                t->edges[e] =
+                    dp_pending_follows(pending->share, t, e) ? DP_EDGE_ALONE : DP_EDGE_PLAIN;
+            assert_true(dp_pending_join(pending, first));
         }
-    } while (dp_pending_next_share(kept, &enough));
+    } while (dp_pending_next_share(pending, &enough));
     assert_true(enough);
 }
 
-/* Where more edges wait than may be kept they are followed in several readings, and the same are
- * found. */
+/* Where more edges wait than the limit, several readings follow them, and find the same lines. */
 static void kept_in_shares(void **state) {
     (void)state;
     dp_camera camera;
@@ -348,8 +348,8 @@ static void kept_in_shares(void **state) {
     for (size_t i = 0; i < sizeof farthest / sizeof *farthest; i++) farthest[i] = DP_DEPTH_EMPTY;
     make_soup(&s, "torus", 40000);
     shuffle(&s);
-    keep(&s, &chunk_view, SIZE_MAX / 2, &all);
-    keep(&s, &chunk_view, 8000, &shares);
+    join_all(&s, &chunk_view, SIZE_MAX / 2, &all);
+    join_all(&s, &chunk_view, 8000, &shares);
     assert_int_equal(all.shares, 1);
     assert_true(shares.shares > 2);
     assert_int_equal(shares.lost, 0);
@@ -359,8 +359,8 @@ static void kept_in_shares(void **state) {
         assert_int_equal(all.earlier[i].number, shares.earlier[i].number);
         assert_memory_equal(all.earlier[i].edges, shares.earlier[i].edges, 3);
     }
-    keep(&s, &chunk_view, 20,
-         &few); /* but for the hostile build there is room for some thousand at any rate */
+    join_all(&s, &chunk_view, 20,
+             &few); /* but for the hostile build there is room for some thousand at any rate */
     assert_true(few.lost > 0 || DP_TUNED(true, false));
     dp_pending_free(&all);
     dp_pending_free(&shares);
@@ -401,7 +401,7 @@ static void one_pass(void **state) {
     free(s.corners);
 }
 
-/* What can be read only once needs one pass, or memory. */
+/* A source that can be read only once needs one pass, or memory. */
 static void read_once(void **state) {
     (void)state;
     soup s;

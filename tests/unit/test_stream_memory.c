@@ -1,6 +1,5 @@
-/* Streaming's memory is bounded: two million triangles of binary STL (100 MB), drawn by a process
- * of its own whose peak is looked at. Skipped where sanitizers or the hostile build make memory say
- * nothing. */
+/* Streaming's memory is bounded: the peak of a process that draws two million triangles of binary
+ * STL (100 MB). Skipped where sanitizers or the hostile build make memory meaningless. */
 #define _DEFAULT_SOURCE /* wait4 */
 #include "temporary.h"
 

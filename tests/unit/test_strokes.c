@@ -1,4 +1,4 @@
-/* Chains, stroke textures and the hand. */
+/* Chains, stroke textures and stylized strokes. */
 #include "temporary.h"
 
 #include <drypoint/drypoint.h>
