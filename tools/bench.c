@@ -59,7 +59,7 @@ static int draw_frames(bench *b, const dp_camera *camera, const dp_style *style,
 }
 
 static int measure(const tool_settings *s, bench *b) {
-    /* frames are timed from memory, unless streaming is asked for */
+    /* frames are timed from memory, unless --memory asks for streaming */
     const dp_context_desc desc = {.threads = s->threads,
                                   .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
     dp_style style = make_style(s);

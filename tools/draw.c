@@ -27,7 +27,7 @@ typedef struct drawing {
     look_data look;
 } drawing;
 
-/* Draws into a picture of its own, which the caller frees. */
+/* Draws into a new picture, which the caller frees. */
 static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     dp_camera camera;
     dp_extent seen = *extent;

@@ -1,4 +1,4 @@
-/* drypoint info MODEL: what is in it, and what would become of it when drawn. */
+/* drypoint info MODEL: what a model contains, and which of its polygons drawing would drop. */
 #include "commands.h"
 #include "edges.h"
 #include "progress.h"

@@ -1,5 +1,5 @@
 /* Planes of the target as pictures: normals as the paper's texture encodes them (half plus half,
- * opaque), distance from white (near) to black (far), groups as colours, the edge map as it is. */
+ * opaque), distance from white (near) to black (far), groups as colours, the edge map unchanged. */
 #include "planes.h"
 #include "output.h"
 #include "progress.h"

@@ -28,7 +28,7 @@ extern "C" {
 typedef enum dp_result {
     DP_OK = 0,
     DP_ERR_ARGUMENT,    /* the call is wrong: mend the program or the command line */
-    DP_ERR_MEMORY,      /* an allocation failed: give it more, or ask for less */
+    DP_ERR_MEMORY,      /* an allocation failed: provide more memory, or draw less */
     DP_ERR_IO,          /* the system refused to open, read or write */
     DP_ERR_FORMAT,      /* the file's content is not what its format says */
     DP_ERR_UNSUPPORTED, /* sound, but not something this build or this version does */

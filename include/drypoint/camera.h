@@ -31,7 +31,7 @@ DP_API dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double a
 DP_API dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect,
                                         double near_z, double far_z);
 
-/* A camera that sees a box whole from a direction. Zero is the default. */
+/* How a camera sees a whole box. Zero is the default. */
 typedef struct dp_fit {
     float min[3], max[3]; /* the box, world space */
     double direction[3];  /* from the box's centre to the eye; {0} means (1, 0.6, 1) */
@@ -44,13 +44,14 @@ typedef struct dp_fit {
     bool steady;   /* fit the box's sphere: the same size from every direction */
 } dp_fit;
 
-/* The box fills the picture but for a margin of 4 % on the narrower side. With `steady` the eye
- * looks at the box's centre from half its diagonal / sin(fov/2), fov the smaller of the vertical
- * and the horizontal one. Near and far enclose the box. DP_ERR_ARGUMENT for values out of range. */
+/* Sets the camera so that the box fills the picture, with a margin of 4 % on the narrower side, and
+ * near and far enclose the box. With `steady`, the eye's distance from the box's centre is half the
+ * box's diagonal / sin(fov / 2), with fov the smaller of the vertical and the horizontal one.
+ * DP_ERR_ARGUMENT for values out of range. */
 DP_API dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit);
 
-/* Near and far for a given eye and box: far encloses the box, near is as large as it allows, and at
- * least 1e-4 of far (so that a box around the eye works too). `view` must be set. */
+/* Near and far for a box: far encloses it; near is as large as the box allows, and at least 1e-4 of
+ * far, also for a box around the eye. camera->view must be set. */
 DP_API void dp_camera_near_far(const dp_camera *camera, const float min[3], const float max[3],
                                double *near_z, double *far_z);
 

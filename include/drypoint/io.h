@@ -48,8 +48,8 @@ DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *pict
  * DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
 DP_API dp_result dp_io_write_trace(const char *path, dp_context *context, dp_diag *diag);
 
-/* Makes a stroke texture of a PNG of any kind, at most 8192 px wide and high; its ink
- * is told as by dp_texture_create. The caller destroys *out. DP_ERR_IO, DP_ERR_FORMAT,
+/* Makes a stroke texture of a PNG of any kind, at most 8192 px wide and high, as
+ * dp_texture_create does. The caller destroys *out. DP_ERR_IO, DP_ERR_FORMAT,
  * DP_ERR_LIMIT, DP_ERR_MEMORY. */
 DP_API dp_result dp_io_read_texture(const char *path, const dp_allocator *allocator,
                                     dp_texture **out, dp_diag *diag);

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/* 0xRRGGBBAA. 0 stands for the default of where it is used. */
+/* 0xRRGGBBAA; 0 means the default, which each member states. */
 typedef uint32_t dp_color;
 
 typedef enum dp_shading {

@@ -6,7 +6,7 @@
 #include <drypoint/source.h>
 
 #define DP_STREAM_WINDOW  ((size_t)256 << 10) /* bytes: stays in the second-level cache */
-#define DP_STREAM_AHEAD   ((size_t)1024)      /* bytes that can be looked at ahead */
+#define DP_STREAM_AHEAD   ((size_t)1024)      /* bytes: how far readers may look ahead */
 #define DP_STREAM_UNKNOWN UINT64_MAX
 
 typedef struct dp_stream {

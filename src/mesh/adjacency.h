@@ -52,8 +52,8 @@ static inline uint32_t dp_across_corner(uint32_t across) { return across & ~DP_A
 
 /* The six indices of a triangle (Hermosilla and Vázquez 2010, Figure 2.2): its corners at 0, 2 and
  * 4; at 1, 3 and 5 the corner across the edge between its neighbours in the list. Across an open
- * edge that is the triangle's own third corner: its own back, so that Listing 2.1 finds an outline
- * there without a change. */
+ * edge that is the triangle's own third corner: its own back, so that the test of Listing 2.1 finds
+ * an outline there unchanged. */
 void dp_adjacency_six(const dp_adjacency *adjacency, const dp_polygons *polygons, uint32_t triangle,
                       uint32_t six[6]);
 

@@ -14,7 +14,7 @@ typedef struct entry {
     const char *name;
     const char *about;
     dp_builder *build;
-    uint32_t fine; /* when no number of triangles is asked for */
+    uint32_t fine; /* default, if no number of triangles is given */
 } entry;
 
 static const entry entries[] = {

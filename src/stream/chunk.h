@@ -17,7 +17,7 @@ enum {
 /* px: lines and samples this far outside the picture count too, as bins are widened. */
 #define DP_CLASSIFY_MARGIN 2
 /* Pixel sizes: a triangle is hidden if it lies this far behind the surface in all blocks around it,
- * as in cull.c. */
+ * as in raster/cull.c. */
 #define DP_CLASSIFY_SLACK 6
 /* px: rounding of positions on the screen. */
 #define DP_CLASSIFY_ROUNDING (1.0f / 512)

@@ -228,7 +228,7 @@ bool dp_stream_draw_apart(const dp_stream_draw *s, dp_finder *w, dp_stream_worke
     return true;
 }
 
-/* With one reading, samples beside the tile are looked at, which other workers may be redrawing:
+/* With one reading, samples beside the tile are read, which other workers may be redrawing:
  * the tile then draws into a copy. */
 static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;

@@ -233,7 +233,8 @@ static void test_extrusion_and_its_texture_coordinates(void **state) {
     expect_point(&p[3], 110, 45, 110 - t, 50, 1);
     expect_point(&p[4], 110, 50, 110, 50, 0);
     expect_point(&p[5], 110 + 5 * s, 50 - 5 * s, 110, 50, 1);
-    assert_true(p[1].at.d == 1 && p[3].at.d == 2); /* z stays (Listing 2.2) */
+    /* z is unchanged (Hermosilla and Vázquez 2010, Listing 2.2) */
+    assert_true(p[1].at.d == 1 && p[3].at.d == 2);
 }
 
 static void test_a_normal_against_the_extrusion_is_turned_round(void **state) {

@@ -34,7 +34,7 @@ static void send_box(void) {
         for (int c = 0; c < 4; c++) dp_vertex3fv(context, at[corner[f][c]]);
 }
 
-/* Figure 3, call by call, against dp_draw. */
+/* Raskar 2001, Figure 3, call by call, against dp_draw. */
 static void figure_3_draws_what_the_batch_draws(void **state) {
     const float min[3] = {-30, -30, -30}, max[3] = {30, 30, 30};
     const dp_camera camera = scene_camera(120, 80, 120, 0, 0, 0);

@@ -35,7 +35,7 @@ static void figure_6_a_sharp_ridge_shows(void **state) {
     for (int i = 0; i < VARIANTS; i++) expect_line(&variants[i], DP_RIDGE, 80, 120, 240, true);
 }
 
-/* Figure 7: it is not, both quads are hidden by the neighbours. */
+/* Raskar 2001, Figure 7: it is not, both quads are hidden by the neighbours. */
 static void figure_7_a_flat_ridge_does_not(void **state) {
     (void)state;
     for (int i = 0; i < VARIANTS; i++) {
@@ -45,7 +45,8 @@ static void figure_7_a_flat_ridge_does_not(void **state) {
     }
 }
 
-/* Figure 8, (i) and (ii): a valley sharper than the threshold; (iii) and (iv): one that is not. */
+/* Raskar 2001, Figure 8, (i) and (ii): a valley sharper than the threshold; (iii) and (iv): one
+ * that is not. */
 static void figure_8_only_a_sharp_valley_shows(void **state) {
     (void)state;
     for (int i = 0; i < VARIANTS; i++) {
@@ -56,7 +57,7 @@ static void figure_8_only_a_sharp_valley_shows(void **state) {
     }
 }
 
-/* Section 2.2: "this technique can support the complete range of angles (0, 360)". */
+/* Raskar 2001, 2.2: "this technique can support the complete range of angles (0, 360)". */
 static void thresholds_hold_over_the_whole_range(void **state) {
     static const double thresholds[] = {20, 75, 120, 165, 178, 182, 195, 240, 285, 340};
     static const double angles[] = {30, 60, 90, 135, 172, 180, 188, 225, 270, 300, 330};
@@ -72,8 +73,8 @@ static void thresholds_hold_over_the_whole_range(void **state) {
     }
 }
 
-/* Figure 10: A, then B, then C, under the one-pass between-test. A and B meet in a valley of 270
- * degrees, B and C in a ridge of 135. */
+/* Raskar 2001, Figure 10: A, then B, then C, under the one-pass between-test. A and B meet in a
+ * valley of 270 degrees, B and C in a ridge of 135. */
 static void add_a(scene *s) { scene_wall(s, -60, 60, 0, 0, 45); }
 static void add_b(scene *s) { scene_wall(s, 0, 0, 40, 40, 45); }
 static void add_c(scene *s) { scene_wall(s, 40, 40, 80, 40, 45); }
@@ -156,7 +157,7 @@ static void plane_test_is_free_of_order(void **state) {
     free(back);
 }
 
-/* Section 2.4: two polygons that cross, seen from the front. */
+/* Raskar 2001, 2.4: two polygons that cross, seen from the front. */
 static void intersections_show_where_interiors_cross(void **state) {
     (void)state;
     for (int i = 0; i < VARIANTS; i++) {
@@ -176,8 +177,8 @@ static void intersections_show_where_interiors_cross(void **state) {
     }
 }
 
-/* Section 3: a ridge edge that is also a silhouette comes out as a silhouette when both are asked
- * for. */
+/* Raskar 2001, 3: a ridge edge that is also a silhouette comes out as a silhouette when both are
+ * asked for. */
 static void an_edge_at_the_rim_is_a_silhouette(void **state) {
     const float min[3] = {-30, -30, -30}, max[3] = {30, 30, 30};
     const dp_camera camera = scene_camera(120, 80, 120, 0, 0, 0);
