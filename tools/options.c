@@ -160,8 +160,7 @@ static void begin(walk *w) {
     }
 }
 
-/* A preset's options, before all others. Their values lie in memory that stays: settings point to
- * them. */
+/* Applies a preset's options, before all others. Settings point into `words`. */
 static bool apply_preset(tool_settings *settings, const char *name) {
     static char words[1024];
     char *argv[64] = {NULL};

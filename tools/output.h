@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Standard output, a device or a pipe: has no ending to go by, and is written in place. */
+/* Is it standard output, a device or a pipe? These are written in place, and have no ending. */
 bool output_in_place(const char *path);
 /* ".png", in either case. */
 bool output_has_ending(const char *path, const char *ending);

@@ -94,7 +94,7 @@ typedef struct dp_detectors {
     void (*c1_scaled)(dp_rows d, const float *slope, const dp_depth_measure *m, int pass,
                       int radius, uint32_t n, float *i_z);
 
-    /* Slope of the surface, pixel sizes per px, from its normals; the run begins at pixel (x, y).
+    /* Slope of the surface, pixel sizes per px, from its normals. (x, y): first pixel of the run.
      * */
     void (*c1_slope)(const dp_rays *rays, const float *nx, const float *ny, const float *nz,
                      uint32_t x, uint32_t y, uint32_t n, float *slope);

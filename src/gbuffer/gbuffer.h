@@ -65,8 +65,7 @@ typedef struct dp_gbuffer {
 void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory);
 uint64_t dp_gbuffer_bytes(const dp_gbuffer *g);
 
-/* Allocates planes for the frame's picture, if `textured` with u and v. False when memory is out.
- * */
+/* Allocates planes for the frame's picture; u and v if `textured`. False when memory is out. */
 bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured);
 
 /* First pass: fills a tile from its samples (fill.c). */

@@ -19,8 +19,7 @@ static void copy_name(const char *name, size_t length, char *to) {
     to[length] = 0;
 }
 
-/* The file's path: in the model's folder, unless its name begins with a slash. False if too long.
- * */
+/* The file's path: in the model's folder, unless it begins with a slash. False if too long. */
 static bool find_place(const char *path, const char *name, size_t length, char place[PATH]) {
     const char *const slash = strrchr(path, '/');
     const bool absolute = *name == '/' || *name == '\\';

@@ -1,5 +1,5 @@
-/* Fingerprints: blocks are hashed in parallel, four sums side by side, then their hashes in order.
- * */
+/* Fingerprints: blocks are hashed in parallel, four sums side by side, then the blocks' hashes in
+ * order. */
 #include "mesh/fingerprint.h"
 
 #include "base/hostile.h"

@@ -241,8 +241,7 @@ static void find_strands(const dp_pencil_table *p, const corners *c, dp_strands 
     }
 }
 
-/* As printed: each corner's exact angle. Neighbouring pixels of one polygon share cosine and sine.
- * */
+/* As printed: each corner's exact angle. Pixels side by side often share cosine and sine. */
 static void find_strands_printed(const corners *c, dp_strands *s) {
     s->count = 3 * c->count;
     for (uint32_t i = 0; i < c->count; i++)

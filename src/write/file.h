@@ -13,8 +13,7 @@ typedef struct dp_output {
     char *temporary; /* path while it is written; NULL: written in place */
 } dp_output;
 
-/* Opens an output; "-" is standard output. DP_ERR_IO, DP_ERR_MEMORY; then nothing is left behind.
- * */
+/* Opens an output; "-" is standard output. DP_ERR_IO, DP_ERR_MEMORY, and no file is left then. */
 dp_result dp_output_open(dp_output *output, const char *path, dp_diag *diag);
 /* DP_ERR_IO if anything since the opening could not be written. */
 dp_result dp_output_write(dp_output *output, const void *bytes, size_t size, dp_diag *diag);

@@ -1,5 +1,4 @@
-/* One small picture per style, edge detector and mirror, compared with the stored one (golden.h).
- * */
+/* One small picture per style, edge detector and mirror, compared with a stored one (golden.h). */
 #include "golden.h"
 
 #include <setjmp.h>
