@@ -9,7 +9,7 @@
  *                     more: a fan  sort by angle about the edge; pair neighbours whose fronts face
  *                                    each other (they bound one wedge of the outside), again and
  *                                    again; pair the others as they come
- *     note_odd      polygons with an open or flipped edge, for who looks at them separately
+ *     note_odd      polygons with an open or flipped edge
  *     note_fans     corners of fans
  *
  * Linear in the number of edges. Invariant: across[across[c]] == c, flipped or not.

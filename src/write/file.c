@@ -3,7 +3,7 @@
  * A regular file is written under another name in the same directory and renamed over its target
  * when complete. It takes the old file's permissions; of a symbolic link, the target is replaced.
  * Devices and pipes are written in place. Errors of the system (a full disk, say) may come as late
- * as closing: only dp_output_commit tells success.
+ * as closing: only the result of dp_output_commit is final.
  *
  * Not handled: fsync (a power failure may still lose the new file), locks, Windows. */
 #define _XOPEN_SOURCE 700 /* realpath */

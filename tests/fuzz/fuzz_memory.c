@@ -1,6 +1,6 @@
-/* Fuzzes dp_source_open_memory as applications call it: up to the first 0 byte the input is a model
- * of whatever format, behind it is every file that the model names. A model with a 0 byte in it
- * (any binary one) is read whole as well. */
+/* Fuzzes dp_source_open_memory as applications call it. Up to the first 0 byte the input is a
+ * model, of any format; the rest is every file that the model names. A model with a 0 byte in it
+ * (any binary one) is also read whole. */
 #include "reader.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

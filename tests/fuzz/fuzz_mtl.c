@@ -1,4 +1,4 @@
-/* Fuzzes the reader of material libraries; what it finds must be found again under its name. */
+/* Fuzzes the reader of material libraries; each material found must be found again by its name. */
 #include "io/mtl.h"
 
 #include <stdlib.h>

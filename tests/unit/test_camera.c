@@ -1,4 +1,4 @@
-/* camera: OpenGL's conventions, fitting, and what is refused. */
+/* camera: OpenGL's conventions, fitting, and bad arguments. */
 #include <drypoint/camera.h>
 
 #include <math.h>

@@ -37,7 +37,7 @@ static void add_triangle(scene *s, uint32_t a, uint32_t b, uint32_t c) {
     memcpy(w->tile.normals[t], (float[4]){0, 0, 1, 0}, sizeof *w->tile.normals);
 }
 
-/* Nothing is flat, so that every edge is told of. */
+/* Nothing is flat, so that every edge is listed. */
 static void begin(scene *s, dp_width kernels) {
     static const float positions[3 * MOST][3];
     dp_finder *const w = &s->worker;
@@ -64,7 +64,7 @@ static void fill(scene *s) {
     assert_true(dp_edge_table_list(&s->worker) && dp_edge_table_fill(&s->worker));
 }
 
-/* The partner of an edge; UINT32_MAX: none. Fails where the edge has not been told of. */
+/* The partner of an edge; UINT32_MAX: none. Fails if the edge is not listed. */
 static uint32_t partner_of(const scene *s, uint32_t polygon, uint32_t edge, bool more) {
     for (uint32_t n = dp_edge_table_next(&s->worker, 0); n != UINT32_MAX;
          n = dp_edge_table_next(&s->worker, n + 1)) {

@@ -107,7 +107,7 @@ static void hide(scene *s, dp_width kernels) {
     dp_hide_points(w);
 }
 
-/* 1: hidden, 0: not, -1: cannot be told. */
+/* 1: hidden, 0: visible, -1: undecidable. */
 static int hides(const dp_finder *w, const dp_tile_polygon *p, float x, float y, float limit) {
     const float beside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}, slack = 1e-3f;
     const float d = dp_minf(dp_plane_at(p, x, y), p->nearest);

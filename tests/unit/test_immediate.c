@@ -244,7 +244,7 @@ static void style_holds_for_the_whole_picture(void **state) {
     dp_set_style(context, &(const dp_style){0});
 }
 
-/* The first wrong call is told by the next dp_finish, which draws nothing; then all is well
+/* The next dp_finish reports the first wrong call and draws nothing; then all is well
  * again. */
 static void expect_misuse(const char *what) {
     dp_diag diag = {0};
@@ -336,7 +336,7 @@ static int destroy_context(void **state) {
     return 0;
 }
 
-/* An allocator that counts what it has handed out. */
+/* An allocator that counts its blocks. */
 static void *counted_alloc(size_t size, void *user) {
     void *const block = malloc(size);
     if (block) ++*(long *)user;

@@ -1,5 +1,4 @@
-/* io/mtl: the colours of an OBJ's materials, where libraries are looked for, and what is wrong with
- * them. */
+/* io/mtl: the colours of an OBJ's materials, where libraries are sought, and their errors. */
 #include "reading.h"
 
 #include "io/mtl.h"

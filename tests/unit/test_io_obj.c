@@ -1,4 +1,4 @@
-/* io/obj: corners of every form, groups, continued lines, and what is wrong with a file. */
+/* io/obj: corners of every form, groups, continued lines, and errors. */
 #include "reading.h"
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -1,4 +1,4 @@
-/* io/off: the keyword's variants, extras, comments, and what is wrong with a file. */
+/* io/off: the keyword's variants, extras, comments, and errors. */
 #include "reading.h"
 
 #define TRIANGLE "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"

@@ -1,5 +1,5 @@
-/* dp_source_open: which format a file is taken for, by content before name; and every cut of every
- * sample, every allocation that fails. */
+/* dp_source_open: formats are detected by content before name; every truncation of every sample;
+ * every allocation that fails. */
 #include "reading.h"
 
 #include <dirent.h>

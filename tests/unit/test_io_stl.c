@@ -1,4 +1,4 @@
-/* io/stl: both kinds, solids as groups, batches, and what is wrong with a file. */
+/* io/stl: both kinds, solids as groups, batches, and errors. */
 #include "reading.h"
 
 #define FACET(a, b, c)                                                                             \

@@ -221,7 +221,7 @@ static bool bounds_meet(const dp_intersecting *intersecting, uint32_t a, uint32_
 }
 
 /* Triangles with corners in whole numbers, so that bounds touch and corners lie in planes now and
- * then; every fifth one's plane is not told. */
+ * then; every fifth one's plane is unknown. */
 static void fill_members(float *members, uint32_t *keys, uint32_t *seed) {
     for (uint32_t i = 0; i < 3 * CANDIDATE_STRIDE; i++) keys[i] = next_random(seed) % 12;
     for (uint32_t i = 0; i < CANDIDATES; i++) {

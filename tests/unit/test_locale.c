@@ -1,5 +1,5 @@
-/* base/print, and files and messages under a locale with a decimal comma: as under any other.
- * Skipped, where it says so, if there is no such locale and none can be made. */
+/* base/print, files and messages are the same under a locale with a decimal comma. Skipped, with a
+ * message, if there is no such locale and none can be made. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "base/print.h"
 

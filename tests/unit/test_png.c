@@ -1,5 +1,5 @@
-/* Pictures written as PNG: pixels come back, in the fewest channels, and files are whole or
- * untouched. */
+/* Pictures written as PNG: the same pixels when read, the fewest channels, and files that are
+ * complete or untouched. */
 #define _XOPEN_SOURCE 700 /* symlink, mkdtemp */
 #include "temporary.h"
 

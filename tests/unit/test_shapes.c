@@ -1,5 +1,5 @@
-/* Generated models: closed, oriented, without slivers of no area, about as many triangles as asked
- * for, the same again after a rewind. Edges are matched by the bits of their ends' positions. */
+/* Generated models: closed, oriented, without triangles of no area, about the number of triangles
+ * asked for, the same after a rewind. Edges are matched by the bits of their ends' positions. */
 #include <drypoint/shapes.h>
 
 #include <math.h>

@@ -78,7 +78,7 @@ static void the_extent_of_nothing_is_zero(void **state) {
     dp_source_destroy(source);
 }
 
-/* An application's source that counts its calls and hands out whatever batch it is given. */
+/* An application's source that counts its calls and returns any batch it is given. */
 typedef struct app {
     dp_batch batch;
     dp_result result;

@@ -240,7 +240,7 @@ static void draw(const char *shape, const dp_style *style, uint32_t threads, uin
     assert_int_equal(draw_with(&(dp_context_desc){.threads = threads}, shape, style, rgba), DP_OK);
 }
 
-/* A texture that tells its u: red falls and rises again by one from texel to texel. */
+/* A texture whose colour encodes u: red falls and rises again by one from texel to texel. */
 static dp_texture *ruler(void) {
     static uint8_t pixels[8][256][4];
     for (int y = 0; y < 8; y++)

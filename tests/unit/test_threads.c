@@ -1,4 +1,5 @@
-/* base/threads: every index once, no worker number twice at a time, on own and foreign threads. */
+/* base/threads: every index runs once, no two tasks have the same worker number at a time, on own
+ * and foreign threads. */
 #include "base/threads.h"
 
 #include <pthread.h>

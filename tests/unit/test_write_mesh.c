@@ -1,5 +1,5 @@
-/* Models written as PLY, STL and OBJ, read back with the library's own readers: same polygons, same
- * bits; what cannot be written is left out or refused, and files are whole or untouched. */
+/* Models written as PLY, STL and OBJ, and read with the library's own readers: the same polygons,
+ * the same bits. What cannot be written is left out or refused; files are complete or untouched. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "temporary.h"
 
