@@ -1,5 +1,5 @@
-/* drypoint bench MODEL --frames N: draws the same frame again and again. Loading and the first
- * frame, in which the context's memory grows, are not counted; of each time the median is told. */
+/* drypoint bench MODEL --frames N: draws the same frame N times and reports the median of each
+ * time. Loading and the first frame, in which the context's memory grows, are not counted. */
 #include "commands.h"
 #include "look.h"
 #include "report.h"
@@ -22,7 +22,7 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* times[0 … count) sorted: the middle, the mean of the two middle ones when even. */
+/* The median of times[0, count), which it sorts. */
 static double median(double *times, uint32_t count) {
     qsort(times, count, sizeof *times, by_value);
     return 0.5 * (times[(count - 1) / 2] + times[count / 2]);
@@ -49,7 +49,7 @@ static void print_result(const tool_settings *s, const bench *b, double *times) 
 
 static int draw_frames(bench *b, const dp_camera *camera, const dp_style *style,
                        const char *model) {
-    for (uint32_t k = 0; k <= b->count; k++) { /* frame 0 is not kept */
+    for (uint32_t k = 0; k <= b->count; k++) { /* frame 0 is not counted */
         dp_diag diag = {0};
         const dp_result result = dp_draw(b->context, b->source, camera, style, &b->target, &diag);
         if (result) return report_failure(result == DP_ERR_ARGUMENT ? NULL : model, &diag);

@@ -13,26 +13,25 @@ int command_bench(const tool_settings *s);
 /* Opens a file, standard input ("-") or a generated model ("shape:NAME[:TRIANGLES]").
  * 0, or the exit code after a message. */
 int open_model(const tool_settings *s, dp_source **out);
-/* Its extent; an error when there is nothing to see. */
+/* The model's extent. 0, or the exit code after a message, also when there is nothing to see. */
 int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent);
 
-/* What the settings say, for a model of that extent. 0, or the exit code after a message. */
+/* The camera of the settings, for a model of that extent. 0, or the exit code after a message. */
 int make_camera(const tool_settings *s, const dp_extent *extent, dp_camera *camera);
 dp_style make_style(const tool_settings *s);
-/* The style's stroke; a texture is for the caller to destroy. 0, or the exit code after a
- * message. */
+/* Fills style->stroke; the caller destroys *texture. 0, or the exit code after a message. */
 int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture);
-/* One that strokes are asked for where lines have none. */
+/* Warns if stroke options are given for lines that have no strokes. */
 void warn_strokeless(const tool_settings *s, const dp_style *style);
-/* Size and samples; no planes yet. */
+/* The target's size and samples; no planes yet. */
 dp_target make_target(const tool_settings *s);
 
-/* Statistics of a frame. */
+/* Prints the statistics of a frame. */
 void print_stats_table(FILE *out, const dp_stats *stats);
 void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target);
-/* One warning that counts dropped polygons by cause; nothing when there are none. */
+/* Warns of dropped polygons, counted by cause, if there are any. */
 void warn_dropped(const dp_stats *stats);
-/* One that lines may be missing; nothing when all edges were followed. */
+/* Warns that lines may be missing, if not all edges were followed. */
 void warn_lost(const dp_stats *stats);
 
 #endif

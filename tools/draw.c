@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A picture is a PNG: any other ending is a slip. */
+/* A picture is a PNG; any other ending is taken for a mistake. */
 static bool check_ending(const char *path) {
     if (output_in_place(path) || output_has_ending(path, ".png")) return true;
     return wrong_usage("-o %s: pictures are written as PNG; name it %.*s.png", path,

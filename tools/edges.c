@@ -1,10 +1,12 @@
-/* Counts a model's open edges with a hash table over the positions of their ends, so that models
- * without shared vertices (STL) count right too. The table grows with the model: this is a tool for
- * looking at files, the drawing itself needs nothing like it.
+/* Counts a model's edges by their polygons, in a hash table over the positions of their ends, so
+ * that models without shared vertices (STL) count right too.
  *
- * Invariant: a slot is free while its count is 0; the table is never more than half full. An edge
- * is known by a 64-bit fingerprint of both ends' bits: at a hundred million edges the odds that two
- * fall together are about one in four thousand, and the price one wrong count. */
+ * The table grows with the model, as this is a tool to inspect files; drawing needs nothing like
+ * it.
+ *
+ * Invariant: a slot is free while its count is 0; the table is at most half full. An edge is
+ * identified by a 64-bit fingerprint of its ends' bits: with a hundred million edges, two coincide
+ * with a probability of about 1 / 4000, and one count is wrong then. */
 #include "edges.h"
 
 #include "progress.h"
@@ -45,7 +47,7 @@ static uint64_t position_hash(const float p[3]) {
     return hash;
 }
 
-/* From the hashes of both ends: the same both ways round. */
+/* Of the hashes of both ends, the same in both directions. */
 static uint64_t edge_key(uint64_t x, uint64_t y) { return mix(x < y ? x * 3 + y : y * 3 + x); }
 
 static slot *find(const table *t, uint64_t key) {
@@ -84,8 +86,8 @@ static bool count_waiting(table *t) {
     return true;
 }
 
-/* Nearly all the time goes into waiting for memory: keys are collected and their slots asked for
- * ahead, which saves about half of it. */
+/* Nearly all time is spent waiting for memory: keys are collected and their slots prefetched, which
+ * saves about half of it. */
 static bool add_edge(table *t, uint64_t key) {
 #if defined(__GNUC__)
     if (t->size) __builtin_prefetch(&t->slots[(size_t)key & (t->size - 1)]);
@@ -117,7 +119,7 @@ static double area2(const dp_batch *batch, size_t first, size_t last) {
     return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
 }
 
-/* True: it can be drawn. Else its cause is counted. */
+/* Can a polygon be drawn? Otherwise the cause is counted. */
 static bool sound(const dp_batch *batch, size_t first, size_t last, edge_counts *counts) {
     if (last - first < 3) {
         counts->corners++;

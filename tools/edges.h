@@ -1,4 +1,4 @@
-/* Counting edges, for info. */
+/* Counts edges, for info. */
 #ifndef TOOL_EDGES_H
 #define TOOL_EDGES_H
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Strings in JSON: names of files may hold anything. */
+/* Prints a JSON string; names of files may contain any byte. */
 static void json_string(FILE *out, const char *text) {
     fputc('"', out);
     for (; *text; text++) {

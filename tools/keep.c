@@ -1,8 +1,8 @@
-/* Reads a source whole into arrays: a pipe of STL can be read only once, but fitting a camera and
- * drawing take two readings.
+/* Reads a source whole into arrays, so that it can be read again: a pipe of STL can be read only
+ * once, but fitting a camera and drawing take two readings.
  *
- * Invariant: `batch` describes what has been kept so far; all arrays grow by half at least. Edge
- * flags are kept only once a batch brings some: then earlier corners count as flagged. */
+ * Invariant: `batch` describes all polygons so far; arrays grow by at least half. There are edge
+ * flags only once a batch has some; earlier corners then count as flagged. */
 #include "keep.h"
 
 #include <stdio.h>
@@ -47,7 +47,7 @@ static bool add(kept *k, const dp_batch *b) {
                sizeof *k->positions);
     for (size_t c = 0; c < b->corner_count; c++) {
         const uint32_t v = b->indices ? b->indices[c] : (uint32_t)c;
-        const bool there = v < b->vertex_count; /* a wrong index must stay wrong */
+        const bool there = v < b->vertex_count; /* a bad index must stay bad */
         k->indices[k->corners + c] = there ? (uint32_t)(k->vertices + v) : UINT32_MAX;
         k->flags[k->corners + c] = b->edge_flags ? b->edge_flags[c] : 1;
     }

@@ -1,4 +1,4 @@
-/* From settings to shading and edge map: words to values, textures from PNG files, names to
+/* From settings to shading, edge map and mirror: words to values, textures from PNG files, names to
  * groups. */
 #include "look.h"
 #include "report.h"
@@ -16,7 +16,7 @@ static int read_texture(const char *name, const char *path, dp_io_pixels *pixels
     return EXIT_FAILED;
 }
 
-/* The middle row. */
+/* Reads toon shades: the middle row of a picture. */
 static int read_shades(const tool_settings *s, look_data *data, dp_shade *shade) {
     dp_io_pixels p;
     if (!s->shade_texture) return 0;
@@ -30,8 +30,8 @@ static int read_shades(const tool_settings *s, look_data *data, dp_shade *shade)
     return data->shades ? 0 : EXIT_FAILED;
 }
 
-/* Luminance; what is transparent is white, the paper. In the file dark is ink: priorities run the
- * other way, a pencil's brightness does not. */
+/* Reads a stroke texture: luminance over white paper. Dark is ink in the file: a pencil's
+ * brightness is the luminance, priorities are 255 minus it. */
 static int read_strokes(const tool_settings *s, look_data *data, dp_shade *shade) {
     dp_io_pixels p;
     if (!s->strokes) return 0;
@@ -61,7 +61,7 @@ static void from_angles(const double angles[2], float light[3]) {
 
 enum { GROUPS = 65536 };
 
-/* Is the group called so? Parts of "object/group/material" count as names, too. */
+/* Has the group this name? Parts of "object/group/material" count as names too. */
 static bool is_called(const char *group, const char *name, size_t length) {
     if (strlen(group) == length && !strncmp(group, name, length)) return true;
     for (const char *part = group;;) {
@@ -140,7 +140,7 @@ static void make_edge_map(const tool_settings *s, dp_edge_map *map) {
 int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_style *style) {
     dp_shade *const shade = &style->shade;
     if (s->shading == 1)
-        shade->shading = DP_SHADING_PAPER; /* the words begin with it, the values with flat */
+        shade->shading = DP_SHADING_PAPER; /* the first word; the first value is flat */
     if (s->shading > 2) shade->shading = (dp_shading)(s->shading - 1);
     const bool lit = shade->shading != DP_SHADING_FLAT && shade->shading != DP_SHADING_PAPER;
     shade->model_colors = s->model_colors ? s->model_colors == SWITCH_ON : lit && !s->style.surface;
@@ -197,7 +197,7 @@ void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
                                                      : 0);
     const double off = n[0] * (double)m->center[0] + n[1] * (double)m->center[1] +
                        n[2] * (double)m->center[2] - offset;
-    for (int i = 0; i < 8; i++) /* the mirror around its middle */
+    for (int i = 0; i < 8; i++) /* corners of a box around the mirror */
         for (int k = 0; k < 3; k++) {
             const double half = 0.5 * (double)m->size * sqrt(fmax(1 - n[k] * n[k], 0));
             const float at =

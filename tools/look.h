@@ -1,10 +1,10 @@
-/* Shading and edge map as the settings say, with the pictures that they borrow. */
+/* Shading, edge map and mirror of the settings, with the pictures that they borrow. */
 #ifndef TOOL_LOOK_H
 #define TOOL_LOOK_H
 
 #include "options.h"
 
-/* What the style borrows while drawing. Zero is empty. */
+/* Data that the style borrows while drawing. Zero is empty. */
 typedef struct look_data {
     uint8_t *shades;   /* [width][4] */
     uint8_t *strokes;  /* [height][width] */
@@ -12,11 +12,11 @@ typedef struct look_data {
 } look_data;
 
 /* Fills in the style's shade, edge_map and, with --edges, lines. `source` names groups. 0, or the
- * exit code after a message. look_free either way. */
+ * exit code after a message; call look_free in any case. */
 int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_style *style);
-/* The mirror, for a model of that extent, which grows to what is seen with it. */
+/* Fills style->mirror for a model of that extent; extends *extent by the mirror and its image. */
 void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style);
-/* Near and far of a camera that was fitted to `seen`, for what the mirror shows as well. */
+/* Extends near and far of a camera that was fitted to `seen` to what the mirror shows. */
 void look_deepen(const dp_style *style, const dp_extent *seen, dp_camera *camera);
 void look_free(look_data *data);
 

@@ -1,4 +1,4 @@
-/* The program: parses the command line and hands over to a command. */
+/* The program: parses the command line and calls a command. */
 #include "commands.h"
 #include "progress.h"
 #include "report.h"

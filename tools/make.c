@@ -1,4 +1,4 @@
-/* drypoint make SHAPE -o FILE: a generated model as a file, streamed. */
+/* drypoint make SHAPE -o FILE: writes a generated model to a file, batch by batch. */
 #include "commands.h"
 #include "output.h"
 #include "progress.h"
@@ -6,7 +6,7 @@
 
 #include <drypoint/io.h>
 
-/* By the ending; PLY for standard output, devices and pipes. */
+/* The format by the ending; PLY for standard output, devices and pipes. */
 static bool file_kind(const char *path, dp_mesh_file *kind) {
     static const struct {
         const char *ending;

@@ -1,4 +1,4 @@
-/* Opening models for every command: files, standard input, generated shapes. */
+/* Opens models for every command: files, standard input, generated shapes. */
 #include "commands.h"
 #include "keep.h"
 #include "progress.h"
@@ -41,7 +41,7 @@ static int open_shape(const char *text, dp_source **out) {
     return report_failure(NULL, &diag);
 }
 
-/* Nothing has to be known of the model before it is drawn, and it is read once. */
+/* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
            s->ink != 2;
@@ -71,7 +71,7 @@ int open_model(const tool_settings *s, dp_source **out) {
     return EXIT_FAILED;
 }
 
-/* A hundred times as far to either side as the eye is away: near and far follow from it. */
+/* The extent assumed then, for near and far: a hundred times the eye's distance, on all sides. */
 static void unseen_extent(const tool_settings *s, dp_extent *extent) {
     double square = 0;
     *extent = (dp_extent){.polygons = 1};
@@ -85,7 +85,7 @@ static void unseen_extent(const tool_settings *s, dp_extent *extent) {
 int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) {
     const char *const name = strcmp(s->model, "-") ? s->model : "standard input";
     dp_diag diag = {0};
-    if (!dp_source_rewindable(source)) { /* drawn unseen: it is taken to lie around the target */
+    if (!dp_source_rewindable(source)) { /* drawn with an assumed extent around the target */
         unseen_extent(s, extent);
         return 0;
     }

@@ -1,4 +1,4 @@
-/* --help and the man page, both written from the tables. */
+/* Writes --help and the man page from the tables. */
 #include "options.h"
 
 #include <ctype.h>
@@ -6,7 +6,7 @@
 
 enum { INDENT = 26, COLUMNS = 80 };
 
-/* Words of `text` in lines that start at INDENT; the first begins where the cursor is: there. */
+/* Prints `text` in lines that start at column INDENT, where the cursor already is. */
 static void wrap(FILE *out, const char *text) {
     int column = INDENT;
     while (*text) {
@@ -85,7 +85,7 @@ void options_help(FILE *out, tool_command command) {
 
 /* ---- man ---- */
 
-/* Text with troff's special characters made harmless. */
+/* Prints text with troff's special characters escaped. */
 static void troff(FILE *out, const char *text) {
     for (; *text; text++) {
         if (*text == '-')

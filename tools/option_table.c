@@ -1,4 +1,4 @@
-/* The tables: options, commands, groups. Whoever adds an option adds it here and to `settings`. */
+/* The tables: options, commands, groups. A new option is added here and to tool_settings. */
 #include "options.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* Values of options: strict, each error says what is wrong, with what, and what would do. */
+/* Parses values of options, strictly. Errors name the option, the bad value and valid ones. */
 #include "options.h"
 #include "report.h"
 
@@ -41,7 +41,7 @@ int word_index(const char *words, const char *word) {
 
 /* ---- numbers ---- */
 
-/* A plain decimal number and nothing else, up to `end`. */
+/* Reads a plain decimal number, and nothing else, up to `end`. */
 static bool read_number(const char *text, const char *end, double *number) {
     char copy[64];
     const size_t n = (size_t)(end - text);
@@ -88,7 +88,7 @@ static bool store_count(const option *o, const char *value, uint64_t *to) {
     return true;
 }
 
-/* A whole number of bytes, or of K, M or G (powers of 1024). */
+/* Stores a number of bytes, or of K, M or G (powers of 1024). */
 static bool store_bytes(const option *o, const char *value, double *to) {
     static const char units[] = "KMG";
     const char *end = end_of(value);
@@ -151,8 +151,7 @@ static bool store_plane(const option *o, const char *value, tool_settings *setti
     return wrong_usage("--%s: the normal is zero; give one like 0,1,0", o->name);
 }
 
-/* A word before "=" that is no such name is rather a slip than the beginning of a file's
- * name. */
+/* Is the word before "=" no such name? That is probably a mistake, not part of a file's name. */
 static bool unknown_output(const char *value, size_t length) {
     char name[64];
     int best = 0;
@@ -166,7 +165,7 @@ static bool unknown_output(const char *value, size_t length) {
                        name, output_names[best], value);
 }
 
-/* NAME=FILE for what has a name, else a file. */
+/* Stores NAME=FILE under its name, anything else as the picture's file. */
 static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
     for (int k = 0; value[length] && k < OUTPUT_COUNT; k++) {
@@ -201,7 +200,7 @@ static bool store_size(const option *o, const char *value, uint32_t to[2]) {
 
 /* ---- words ---- */
 
-/* The word of `words` that is spelt most like this one. */
+/* The word of `words` that is spelt most like `word`. */
 static const char *nearest_word(const char *words, const char *word, char *best, size_t size) {
     unsigned least = UINT32_MAX;
     for (;;) {

@@ -1,7 +1,7 @@
-/* Walks the command line along the table of options.
+/* Parses the command line by the table of options.
  *
- * The first word may be a command; without one the program draws. Options may stand anywhere, as
- * --name value, --name=value or -o value; -- ends them; - is a model or output like any other. */
+ * The first word may be a command; without one the program draws. Options may come anywhere, as
+ * --name value, --name=value or -o value; -- ends them; - is a model or output. */
 #include "options.h"
 #include "presets.h"
 #include "report.h"
@@ -58,7 +58,7 @@ static bool takes_value(const option *o) {
     return o->kind != OPTION_FLAG && o->kind != OPTION_QUESTION;
 }
 
-/* The value after the option's name: joined to it, or the next word. */
+/* Finds the value of an option: after "=", or the next word. */
 static bool find_value(walk *w, const option *o, const char **value) {
     if (*value || !takes_value(o)) return true;
     const char *const next = w->at < w->argc ? w->argv[w->at] : NULL;
@@ -166,7 +166,7 @@ static bool apply_preset(tool_settings *settings, const char *name) {
     char *argv[64] = {NULL};
     walk w = {.argc = 1, .at = 1, .argv = argv, .settings = settings};
     const preset *const p = preset_find(name);
-    if (!p) return true; /* the option's own check tells */
+    if (!p) return true; /* the option's own check reports it */
     snprintf(words, sizeof words, "%s", p->options);
     for (char *word = strtok(words, " "); word && w.argc < 63; word = strtok(NULL, " "))
         argv[w.argc++] = word;

@@ -1,5 +1,5 @@
-/* The command line: one table of options, from which parsing, --help, the man page and the
- * suggestion of the nearest option come. */
+/* The command line: one table of options serves parsing, --help, the man page and suggestions of
+ * the nearest option. */
 #ifndef TOOL_OPTIONS_H
 #define TOOL_OPTIONS_H
 
@@ -17,12 +17,12 @@ typedef enum tool_command {
     COMMAND_COUNT
 } tool_command;
 
-/* What is asked about the command instead of running it. */
+/* A question about the command, instead of running it. */
 typedef enum question { QUESTION_NONE = 0, QUESTION_HELP, QUESTION_VERSION, QUESTION_MAN } question;
 
 typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 
-/* Words of an option: their index in the table's argument text, from 1; 0 is "not said". */
+/* Words of an option: their index in the table's argument text, from 1; 0 means not given. */
 enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
@@ -40,7 +40,7 @@ typedef enum output_plane {
 } output_plane;
 extern const char *const output_names[OUTPUT_COUNT];
 
-/* Everything the command line can say; zero is "not said". */
+/* All options of the command line; zero means not given. */
 typedef struct tool_settings {
     tool_command command;
     question question;
@@ -60,7 +60,7 @@ typedef struct tool_settings {
     bool has_fov, has_ortho, has_azimuth, has_elevation;
     int view; /* word */
 
-    dp_style style; /* lines, widths and colours; the rest is below */
+    dp_style style; /* lines, widths and colours; other members follow below */
     double ridge_angle, valley_angle;
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
@@ -150,7 +150,7 @@ typedef struct option {
     option_group group;
     unsigned commands; /* set of 1u << command */
     size_t at;         /* offset of the value in tool_settings */
-    size_t given;      /* offset of the bool that says the option was there; 0: none */
+    size_t given;      /* offset of the bool that says whether it was given; 0: none */
     double least, most;
     const char *help;
 } option;
@@ -175,7 +175,7 @@ bool option_store(const option *o, const char *value, tool_settings *settings);
 /* Which of `words` ("exact|paper") is the word, from 1; 0: none. */
 int word_index(const char *words, const char *word);
 
-/* Letters to change to get from a to b: small when one is a slip for the other. */
+/* Edit distance from a to b, in letters. */
 unsigned spelling_distance(const char *a, const char *b);
 
 void options_help(FILE *out, tool_command command);

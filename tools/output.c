@@ -1,5 +1,5 @@
-/* Looking at an output's path before the work begins, so that no hour of drawing ends in a typing
- * error. Not a promise: the writer checks again. */
+/* Checks an output's path before the work begins, so that a typing error is found before the
+ * drawing. The writer checks again. */
 #include "output.h"
 #include "report.h"
 

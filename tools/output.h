@@ -1,4 +1,4 @@
-/* Where results go: questions about an output's path, answered before any work is done. */
+/* Questions about an output's path, answered before any work is done. */
 #ifndef TOOL_OUTPUT_H
 #define TOOL_OUTPUT_H
 
@@ -6,7 +6,7 @@
 
 /* Is it standard output, a device or a pipe? These are written in place, and have no ending. */
 bool output_in_place(const char *path);
-/* ".png", in either case. */
+/* Does the path end so (".png", say), in any case? */
 bool output_has_ending(const char *path, const char *ending);
 /* Length of the path without its ending. */
 int output_stem(const char *path);

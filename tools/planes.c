@@ -71,7 +71,7 @@ static void draw_distance(const dp_target *t, size_t n, uint8_t *rgba) {
     }
 }
 
-/* Hues a golden section apart. */
+/* One colour per group: hues apart by the golden ratio. */
 static void draw_ids(const dp_target *t, size_t n, uint8_t *rgba) {
     for (size_t i = 0; i < n; i++) {
         gray(rgba + 4 * i, 1);

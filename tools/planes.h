@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-/* Allocates what of the target is asked for. 0, or the exit code after a message. */
+/* Allocates the target's planes that are asked for. 0, or the exit code after a message. */
 int planes_prepare(const tool_settings *s, dp_target *target);
 /* Writes the files. */
 int planes_write(const tool_settings *s, const dp_target *target);

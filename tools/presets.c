@@ -1,4 +1,4 @@
-/* --preset NAME: options that go together, read before those of the command line, which may change
+/* --preset NAME: sets of options. They are read before those of the command line, which override
  * them. */
 #include "options.h"
 #include "presets.h"

@@ -1,4 +1,4 @@
-/* Looks that are options put together. */
+/* Presets: named sets of options. */
 #ifndef TOOL_PRESETS_H
 #define TOOL_PRESETS_H
 
@@ -6,7 +6,7 @@ typedef struct preset {
     const char *name, *options; /* the second as on a command line, single spaces */
 } preset;
 
-/* NULL: there is none of that name. */
+/* The preset of that name, or NULL. */
 const preset *preset_find(const char *name);
 
 #endif

@@ -1,11 +1,13 @@
-/* The progress bar, and what Ctrl-C does.
+/* The progress bar, and Ctrl-C.
  *
- * The program's only mutable globals are here, because a signal handler can reach nothing else.
- * While no output is being written there is nothing to tidy up, so the handler ends the program
- * there and then; while it is, only a flag is set: the writer is asked to stop at its next report,
- * removes its temporary file, and interrupt_release ends the program. A second signal while writing
- * to something that does not take it still only interrupts the system call, which fails and ends
- * the writer. */
+ * Here are the program's only mutable globals, because a signal handler can reach nothing else.
+ *
+ *     no output is being written   the handler ends the program at once
+ *     an output is being written   the handler sets a flag; at its next report the writer is told
+ *                                    to stop and removes its temporary file; interrupt_release ends
+ *                                    the program
+ *
+ * If a writer is blocked, a signal interrupts its system call, which fails and ends the writer. */
 #include "progress.h"
 
 #include <signal.h>

@@ -10,11 +10,11 @@ void progress_begin(const char *what, bool quiet);
 /* For the library: fraction in [0, 1], negative when the end is unknown. Non-zero after Ctrl-C. */
 int progress_report(void *user, double fraction);
 void progress_end(void);
-/* Takes the bar off the terminal, so that something else can be printed. */
+/* Removes the bar from the terminal, so that something else can be printed. */
 void progress_clear(void);
 
-/* From now on SIGINT and SIGTERM end the program with 130 and 143: at once, except between hold and
- * release, when an output file is being written: then progress_report asks the writer to stop. */
+/* From now on SIGINT and SIGTERM end the program with 130 and 143: at once, or, between hold and
+ * release (an output file is being written), after progress_report has told the writer to stop. */
 void interrupt_install(void);
 void interrupt_hold(void);
 void interrupt_release(void);

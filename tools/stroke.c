@@ -1,4 +1,4 @@
-/* --stroke and its company: from settings to a texture and what the hand does. */
+/* --stroke and related options: from settings to a texture and a stroke style. */
 #include "commands.h"
 #include "report.h"
 
@@ -54,7 +54,7 @@ int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
     return 0;
 }
 
-/* Nothing that was asked for is left out without a word. */
+/* No option is ignored without a message. */
 void warn_strokeless(const tool_settings *s, const dp_style *style) {
     const bool asked = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
                        s->repeats > 1 || s->width_by_depth > 0 || s->width_by_light > 0;

@@ -1,8 +1,10 @@
 /* From settings to camera, style and target.
  *
- * Four cases of a camera: nothing said or a direction: the model's box is fitted. --target alone:
- * as fitted, but around that point. --eye alone: towards the box's centre, with a field of view
- * that shows it whole unless --fov says otherwise. Both: as said. */
+ *     given              camera
+ *     nothing, or a view the model's box, fitted
+ *     --target           as fitted, but around that point
+ *     --eye              towards the box's centre, showing it whole unless --fov is given
+ *     --eye, --target    as given */
 #include "commands.h"
 #include "report.h"
 
@@ -67,7 +69,7 @@ static double smaller_half(double fov, double aspect) {
 /* The vertical field of view that shows a sphere from a distance. */
 static double fov_for(double radius, double distance, double aspect) {
     if (distance <= radius * 1.05)
-        return default_fov; /* inside, or so near that lines would bend */
+        return default_fov; /* inside, or so near that perspective would distort */
     const double t = tan(asin(radius / distance));
     return 2 * atan(aspect < 1 ? t / aspect : t) / degree;
 }
@@ -93,7 +95,7 @@ static dp_result project(const tool_settings *s, const dp_extent *extent, const 
     return dp_camera_perspective(camera, zoomed(fov, zoom), b->aspect, near_z, far_z);
 }
 
-/* With an eye or a target given. */
+/* Places a camera for which an eye or a target is given. */
 static dp_result place(const tool_settings *s, const dp_extent *extent, dp_camera *camera) {
     static const double y_up[3] = {0, 1, 0};
     const box b = box_of(s, extent);
