@@ -160,14 +160,15 @@ static void begin(walk *w) {
     }
 }
 
-/* Applies a preset's options, before all others. Settings point into `words`. */
-static bool apply_preset(tool_settings *settings, const char *name) {
-    static char words[1024];
+enum { PRESETS_MOST = 8, PRESET_WORDS = 1024 /* bytes */ };
+
+/* Applies a preset's options, before all others. Settings point into `words`, which stay. */
+static bool apply_preset(tool_settings *settings, const char *name, char words[PRESET_WORDS]) {
     char *argv[64] = {NULL};
     walk w = {.argc = 1, .at = 1, .argv = argv, .settings = settings};
     const preset *const p = preset_find(name);
     if (!p) return true; /* the option's own check reports it */
-    snprintf(words, sizeof words, "%s", p->options);
+    snprintf(words, PRESET_WORDS, "%s", p->options);
     for (char *word = strtok(words, " "); word && w.argc < 63; word = strtok(NULL, " "))
         argv[w.argc++] = word;
     while (w.at < w.argc)
@@ -175,15 +176,20 @@ static bool apply_preset(tool_settings *settings, const char *name) {
     return true;
 }
 
+/* Presets in their order: a later one changes what an earlier one said. */
 static bool apply_presets(walk *w) {
+    static char words[PRESETS_MOST][PRESET_WORDS];
+    int count = 0;
     for (int k = w->at; k < w->argc && strcmp(w->argv[k], "--"); k++) {
         const char *const value = !strcmp(w->argv[k], "--preset") && k + 1 < w->argc
                                       ? w->argv[k + 1]
                                   : !strncmp(w->argv[k], "--preset=", 9) ? w->argv[k] + 9
                                                                          : NULL;
-        if (value && w->settings->command != COMMAND_INFO && w->settings->command != COMMAND_MAKE &&
-            !apply_preset(w->settings, value))
-            return false;
+        if (!value || w->settings->command == COMMAND_INFO || w->settings->command == COMMAND_MAKE)
+            continue;
+        if (count == PRESETS_MOST)
+            return wrong_usage("--preset is given more than %d times", PRESETS_MOST);
+        if (!apply_preset(w->settings, value, words[count++])) return false;
     }
     return true;
 }

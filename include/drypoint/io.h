@@ -44,8 +44,8 @@ typedef struct dp_io_picture {
 
 DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag);
 
-/* Writes the lines of the last dp_draw as text (dp_trace), with the same care; "-" is standard output.
- * DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
+/* Writes the lines of the last dp_draw as text (dp_trace), with the same care; "-" is standard
+ * output. DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
 DP_API dp_result dp_io_write_trace(const char *path, dp_context *context, dp_diag *diag);
 
 /* Makes a stroke texture of a PNG of any kind, at most 8192 px wide and high, as

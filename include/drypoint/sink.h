@@ -1,7 +1,7 @@
 /* drypoint/sink.h: where a drawing goes: a table of functions that takes it stroke by stroke.
  *
- * dp_draw inks its strokes into the target's pixels. Afterwards the same drawing can be handed to any
- * number of other sinks, the application's own among them:
+ * dp_draw inks its strokes into the target's pixels. Afterwards the same drawing can be handed to
+ * any number of other sinks, the application's own among them:
  *
  *     static dp_result count(void *user, const dp_chain_stroke *stroke, dp_diag *diag) {
  *         *(size_t *)user += stroke->count;

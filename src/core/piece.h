@@ -19,8 +19,8 @@ typedef struct dp_piece {
 
 #define DP_CROSSING UINT32_MAX
 
-/* At the end of a piece there is no hidden sample point: the spine ends, or leaves the picture; or it
- * is not known which polygon hides it. */
+/* At the end of a piece there is no hidden sample point: the spine ends, or leaves the picture; or
+ * it is not known which polygon hides it. */
 enum { DP_HIDER_NONE = -1, DP_HIDER_PICTURE = -2, DP_HIDER_UNKNOWN = -3 };
 
 typedef struct dp_tile_pieces {

@@ -610,6 +610,8 @@ presets() {
     run 0 shape:bolt -o before.png --size 120x90 --style gooch --preset patent
     cmp -s changed.png before.png || fail "the preset's place matters"
     cmp -s changed.png patent.png && fail "options do not change presets"
+    run 0 shape:cube -o two.png --size 120x90 --preset pencil --preset blueprint
+    silent err
     wrong shape:bolt -o out.png --preset cartoons -- "did you mean cartoon?"
 }
 textures() {
