@@ -126,8 +126,8 @@ typedef struct dp_segment {
     dp_color color;
 } dp_segment;
 
-/* The segments, in an order that depends neither on tiles nor on threads; chains are made when it is
- * first asked for them after a drawing. Borrowed: valid until the next call that draws, or the
+/* The segments, in an order that depends neither on tiles nor on threads. The first call after a
+ * drawing makes the chains. Borrowed: valid until the next call that draws, or the
  * context's end. NULL and 0 when there are none, or memory is out. */
 DP_API const dp_segment *dp_segments(dp_context *context, size_t *count);
 

@@ -46,16 +46,16 @@ typedef struct dp_chain_stroke {
 /* What a drawing is handed to. Any function may be NULL. They are called in this order, from the
  * thread that sends: begin, surface, then for each class that has strokes, from the bottom up
  * (valleys, intersections, ridges, borders, silhouettes), layer and its strokes, then end. What is
- * pointed to is borrowed until the function returns. A result other than DP_OK ends the drawing; its
- * reason goes into `diag`, which may be NULL. */
+ * pointed to is borrowed until the function returns. A result other than DP_OK ends the drawing;
+ * its reason goes into `diag`, which may be NULL. */
 typedef struct dp_sink {
     void *user;
     dp_result (*begin)(void *user, const dp_sheet *sheet, dp_diag *diag);
-    /* What lies below all lines: the planes of the last dp_draw's target, which are the caller's. */
+    /* What lies below all lines: the planes of the last dp_draw's target, which the caller owns. */
     dp_result (*surface)(void *user, const dp_target *target, dp_diag *diag);
     dp_result (*layer)(void *user, dp_line line, dp_diag *diag);
     dp_result (*stroke)(void *user, const dp_chain_stroke *stroke, dp_diag *diag);
-    /* Called whenever begin has succeeded, or was NULL. `so_far`: what stopped the drawing, or DP_OK.
+    /* Called if begin succeeded or was NULL. `so_far`: what stopped the drawing, or DP_OK.
      * Its own result is that of the whole unless something stopped it before. */
     dp_result (*end)(void *user, dp_result so_far, dp_diag *diag);
 } dp_sink;

@@ -1,11 +1,10 @@
 /* Drawing one picture: the stages in order. The context keeps their memory (context.c).
  *
- *   source -> gather -> vertices -> bin -> tiles (faces, edges, visibility) -> segments -> ink ->
- * target
+ *     source → gather → vertices → bin → tiles (faces, edges, visibility) → segments, chains
+ *            → shading → sink (ink) → target
  *
- * Each stage runs in parallel over blocks, chunks or tiles and is over before the next begins; what
- * a stage hands on is in submission or tile order, so that the picture does not depend on
- * threads. */
+ * Each stage runs in parallel over blocks, chunks or tiles and ends before the next begins. What a
+ * stage hands on is in submission or tile order, so that the picture does not depend on threads. */
 #include "draw/context.h"
 #include "draw/tile.h"
 

@@ -1,11 +1,11 @@
-/* Immediate mode: Raskar 2001, Figure 3. Calls are recorded, dp_finish draws.
+/* Immediate mode (Raskar 2001, Figure 3): calls are recorded, and dp_finish draws.
  *
- * Data structure: one vertex per dp_vertex call, and polygons as corner lists over them, so that
- * strips and fans share what they share. Every distinct state is a group with a style of its own;
- * groups are found by hash. Invariant: what is recorded is always whole polygons; the vertices of
- * an unfinished one lie at the end, after `start`. The flag of an edge is that of its vertex that
- * came first: an edge that two polygons of a strip share has one flag. Incomplete primitives at
- * dp_end are ignored, as in OpenGL. */
+ * Data structure: one vertex per dp_vertex call, and polygons as lists of corners over them, so
+ * that strips and fans share vertices. Every distinct state is a group with a style of its own;
+ * groups are found by hash. Invariant: the recording holds whole polygons only; the vertices of an
+ * unfinished one lie at the end, after `start`. An edge has the flag of its first vertex: an edge
+ * that two polygons of a strip share has one flag. Incomplete primitives at dp_end are ignored, as
+ * in OpenGL. */
 #include "draw/context.h"
 
 #include "base/diag.h"

@@ -1,10 +1,12 @@
-/* A planar mirror (Nienhaus and Döllner 2003, 5): the scene is drawn twice, first reflected, with
- * its lines found afresh from where its image stands, then itself with the mirror as one more
- * polygon, whose pixels show the first picture. The mirror's pixels in the G-buffer are what the
- * stencil buffer is in the paper; what stands before the mirror hides it, edges and strokes lie
- * over it, and its outline is anti-aliased like any other.
+/* A planar mirror (Nienhaus and Döllner 2003, 5).
  *
- * The image is lit by the image of the light, so that it looks as the scene does. */
+ *     draw the reflected scene, with lines of its own, into a picture of the context
+ *     draw the scene with the mirror as one more polygon, whose pixels show that picture
+ *
+ * The mirror's pixels in the G-buffer do what the stencil buffer does in the paper: what stands
+ * before the mirror hides it, edges and strokes lie over it, and its outline is anti-aliased like
+ * any other. The reflected scene is lit by the reflected light, so that it looks as the scene
+ * does. */
 #include "draw/context.h"
 
 #include "base/diag.h"

@@ -205,8 +205,8 @@ typedef struct run_end {
     uint32_t beyond; /* the next one outside; UINT32_MAX where it is another tile's */
 } run_end;
 
-/* Where the sample point beyond an end lies, and what it takes to hide it: its own limit is infinite
- * since it is hidden, and so it follows from the run's. */
+/* Where the sample point beyond an end lies, and how near a polygon must be to hide it. The point's
+ * own limit is infinite, as it is hidden; this one continues those of the run. */
 static void point_beyond(const dp_probes *p, const run_end *e, float *x, float *y, float *limit) {
     const bool known = e->beyond != UINT32_MAX;
     *x = known ? p->x[e->beyond] : 2 * p->x[e->point] - p->x[e->inward];

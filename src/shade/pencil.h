@@ -12,7 +12,8 @@ uint64_t dp_pencil_store_bytes(const dp_pencil_store *store);
 bool dp_pencil_begin(dp_pencil_store *store, const dp_frame *frame, dp_gbuffer *g,
                      dp_shading_setup *setup);
 
-/* Vertex stage: directions of minimal curvature (world space, [vertices]) to turns on the screen. */
+/* Vertex stage: directions of minimal curvature (world space, [vertices]) to turns on the
+ * screen. */
 void dp_pencil_vertices(const dp_frame *frame, const float (*along)[3], dp_turn *turns);
 
 /* Fills powers[256 dark][256 value] with 255 (value / 255) ^ (dark / 255 S + O). */

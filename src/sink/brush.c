@@ -1,13 +1,15 @@
 /* Inking stylized strokes: with texture and a width that varies, over the surface.
  *
- * A chain is one stroke: of its parts, a pixel belongs to the one whose spine is nearest, which
- * gives it u (along) and v (across); so u runs on through joints without a jump. Chains are laid
- * over each other one by one, classes in the order of plain strokes. Coverage is that of plain
- * strokes (ink.c) times the texture's ink.
+ *     for each class, for each chain in the tile:
+ *         for each part: cover pixels; a pixel belongs to the part whose spine is nearest
+ *         blend the pixels over the picture
+ *
+ * The nearest part gives a pixel u (along) and v (across), so that u runs on through joints without
+ * a jump. Coverage is that of plain strokes (ink.c) times the texture's ink.
  *
  * Parts that lie outside (extruded silhouettes, Hermosilla and Vázquez 2010, 2.3) have v = 0 on the
- * spine and 1 at their width outside. Between two of them lies a sector around their common point,
- * so that there are no gaps at any width. */
+ * spine and 1 at their width outside. A sector around their common point joins two of them, so
+ * that there are no gaps at any width. */
 #include "sink/raster.h"
 
 #include "core/blend.h"

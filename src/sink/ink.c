@@ -1,14 +1,14 @@
-/* Inking strokes: round-ended capsules with analytic anti-aliasing, over the surface.
+/* Inking plain strokes: round-ended capsules with analytic anti-aliasing, over the surface.
  *
- * Coverage of a pixel is the overlap of a one pixel wide box, moved across the stroke, with the
+ * The coverage of a pixel is the overlap of a box one pixel wide, moved across the stroke, with the
  * stroke's width: exact for straight strokes, and the same on both sides of a joint. Strokes of one
  * class and colour are united by the largest coverage, so that joints of many short segments show
- * no seams; then each class is laid over the picture in the order of dp_layers.
+ * no seams; then each class is blended over the picture in the order of dp_layers.
  *
- * A stroke is hidden only by what is clearly nearer than its spine: further out across the stroke
- * the surface may come nearer (a valley's sides) and still belong to it; and what lies behind the
- * planes of the polygons that meet at the spine does, as a rounded outline does. It is cut so where
- * outlines are drawn, at which it then ends; where they are not, a cut without a line to end at
+ * Only a surface that is clearly nearer than its spine hides a stroke: beside the spine the surface
+ * may come nearer (the sides of a valley) and still belong to it, and so may what lies behind the
+ * planes of the polygons that meet at the spine (a rounded outline). Strokes are cut where the
+ * surface hides them only if outlines are drawn, at which they then end; without outlines a cut
  * looks like a defect, and strokes end round. */
 #include "sink/raster.h"
 

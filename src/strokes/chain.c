@@ -1,10 +1,13 @@
-/* Chaining segments by equal ends.
+/* Joining segments end to end.
  *
- * Data structure: a segment has two ends, 2 i at a and 2 i + 1 at b. A hash table over the ends'
- * bits puts ends that are one node into a list; in each node ends are mated in pairs, straightest
- * first. A chain is then a walk from partner to partner. Ends that are left over are then mated over
- * small gaps, nearest first, found in a grid. Invariant: partner[partner[e]] == e. The order of
- * everything comes from the segments' order, never from the hash. */
+ *     put ends with equal bits, class and colour into one node (hash table)
+ *     in each node: pair the two ends that go on straightest, again and again
+ *     over small gaps: pair open ends, nearest first (grid)
+ *     walk from partner to partner: each walk is a chain
+ *
+ * Data structure: segment i has two ends, 2 i at a and 2 i + 1 at b; `partner` of each end.
+ * Invariant: partner[partner[e]] == e. The order of everything follows the order of the segments,
+ * never the hash. */
 #include "strokes/chain.h"
 
 #include "base/sort.h"

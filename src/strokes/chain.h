@@ -1,4 +1,4 @@
-/* Chains: segments of one class joined end to end, in the order in which a hand would draw them. */
+/* Chains: segments of one class joined end to end, as a pen draws them without being lifted. */
 #ifndef DP_STROKES_CHAIN_H
 #define DP_STROKES_CHAIN_H
 

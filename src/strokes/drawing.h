@@ -1,6 +1,6 @@
 /* A drawing: the lines of one picture, from visible pieces to strokes.
  *
- *     pieces -> segments (and a stroke each) -> chains -> stylized strokes, if a style asks for them
+ *     pieces → segments, and a stroke each → chains → stylized strokes, if a style asks for them
  *
  * Sinks take it from here (src/sink/). */
 #ifndef DP_STROKES_DRAWING_H

@@ -1,10 +1,15 @@
 /* From the tiles' pieces to visible feature segments.
  *
- * A piece is a run of sample points [k0, k1) of an edge's spine. Where a spine crosses a tile
- * border its run continues in the neighbour with the next number: such open pieces are sorted by
- * edge and joined. All others are segments as they are. What the tile knew of a piece's edge when
- * it found it (its segment geometry) need not be found again; ends and planes are made of that, many segments
- * at once. The order (tile by tile, then the joined ones by polygon) does not depend on threads. */
+ *     join pieces: a spine that crosses a tile border has a piece in each tile; the sample points
+ *         of the second begin where those of the first end
+ *     make segments, many at once: ends on the screen and in the world, planes of the polygons
+ *         beside them, and what ends them (segments.inc)
+ *
+ * Data structure: a piece is a run [k0, k1) of the sample points of a spine. Pieces that touch a
+ * tile border (`open`) are sorted by edge and joined; all others are segments as they are. The
+ * tile has kept the spine's ends and normals (segment geometry); they are computed again only
+ * where it has not. Invariant: the order (tile by tile, then the joined ones by polygon) does not
+ * depend on threads. */
 #include "strokes/drawing.h"
 #include "strokes/segment_batch.h"
 

@@ -1,14 +1,15 @@
 /* Stylizing: from chains of segments to stylized strokes.
  *
- * Each chain is walked once per repeat. Its spine is taken up at even distances, smoothed where it
- * is ragged and not where it has a corner, moved off by jitter, run on by overshoot; then each pair
- * of points is a part of a stroke, with the width that taper, depth and light leave and with u from the length
- * so far. A closed chain's texture is stretched to fit a whole number of times, so that it has no
- * seam.
+ *     for each chain, cut at corners where a pen is lifted, and for each repeat:
+ *         take points along it at even distances
+ *         smooth them, but not at corners; move them by jitter; lengthen both ends by overshoot
+ *         make a part of a stroke of each two points: width by taper, depth and light; u by length
  *
- * Errors, as of a hand, are noise over the arc length, seeded by the style's seed, the repeat, and the
- * polygon at which the chain begins: nothing depends on threads or on what else is in the
- * picture. */
+ * The texture of a closed chain is stretched to fit a whole number of times, so that it has no
+ * seam. Jitter is noise over the arc length, seeded by the style's seed, the repeat and the
+ * polygon at which the chain begins: it depends neither on threads nor on the rest of the
+ * picture. Extruded silhouettes (Hermosilla and Vázquez 2010, 2.3) lie outside their chain and are
+ * not moved. */
 #include "strokes/drawing.h"
 
 #include "features/silhouette_edge.h"
