@@ -15,7 +15,7 @@ some are missing. The same seed draws the same faults from the same files.
 
 Tests labelled quick are run, and stop at the first that fails, crashes or hangs. Where none does, pictures are
 compared by scripts/hashes.sh. The score is noticed / (noticed + unseen that change pictures); what changes nothing
-that is looked at may be the same program or a gap, and is worth a look stylized. build/mutants/report.txt has it all.
+that is looked at may be the same program or a gap, and is worth a look by hand. build/mutants/report.txt has it all.
 """
 import argparse
 import collections
@@ -55,7 +55,7 @@ Verdict = collections.namedtuple("Verdict", "number fault text state note")  # s
 STATES = {  # in the order of the report
     "unseen": "change pictures, unseen",
     "wide": "change no picture, but a test that is not quick notices",
-    "silent": "change nothing that we can see (perhaps the same program: look stylized)",
+    "silent": "change nothing that we can see (perhaps the same program: look by hand)",
     "noticed": "noticed",
 }
 
