@@ -201,17 +201,20 @@ static bool make_groups(dp_finder *w) {
 /* A run of visible sample points, as numbers of the candidate's, and one of its ends. */
 typedef struct run_end {
     uint32_t point;  /* the visible one at the end, as a probe */
-    uint32_t inward; /* the next one within the run; the same where there is none */
+    uint32_t inward; /* the next one the other way, hidden where the run is of one point; the same
+                        where that is another tile's */
     uint32_t beyond; /* the next one outside; UINT32_MAX where it is another tile's */
 } run_end;
 
 /* Where the sample point beyond an end lies, and how near a polygon must be to hide it. The point's
- * own limit is infinite, as it is hidden; this one continues those of the run. */
+ * own limit is infinite, as it is hidden; this one continues those of the run, or is that of the
+ * run's only point. */
 static void point_beyond(const dp_probes *p, const run_end *e, float *x, float *y, float *limit) {
     const bool known = e->beyond != UINT32_MAX;
     *x = known ? p->x[e->beyond] : 2 * p->x[e->point] - p->x[e->inward];
     *y = known ? p->y[e->beyond] : 2 * p->y[e->point] - p->y[e->inward];
-    *limit = 2 * p->limit[e->point] - p->limit[e->inward];
+    const float end = p->limit[e->point], inward = p->limit[e->inward];
+    *limit = inward < INFINITY ? 2 * end - inward : end;
 }
 
 static bool hides_point(const dp_tile *t, const dp_candidate *c, uint32_t index, float x, float y,
@@ -253,9 +256,11 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
     if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1))
         return;
     const uint32_t first = c->probe + (k0 - c->k0), last = c->probe + (k1 - 1 - c->k0);
-    const run_end start = {first, first < last ? first + 1 : first,
-                           k0 > c->k0 ? first - 1 : UINT32_MAX};
-    const run_end end = {last, first < last ? last - 1 : last, k1 < c->k1 ? last + 1 : UINT32_MAX};
+    const bool starts = k0 == c->k0, ends = k1 == c->k1; /* with the tile's part of the spine */
+    const run_end start = {first, first < last || !ends ? first + 1 : first,
+                           starts ? UINT32_MAX : first - 1};
+    const run_end end = {last, first < last || !starts ? last - 1 : last,
+                         ends ? UINT32_MAX : last + 1};
     w->found->pieces[w->found->piece_count++] =
         (dp_piece){.a = c->a,
                    .b = c->b,

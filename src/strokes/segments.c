@@ -161,17 +161,42 @@ static dp_point take_end(const dp_segment_batch *made, uint32_t i, int k, float 
     return p;
 }
 
-/* Does the near or the far plane cut a spine there? */
+/* Does the near or the far plane cut a spine there? w - z and w + z are affine in world space: over
+ * their gradients they are distances from the planes, which tell at any ratio of near to far; z / w
+ * is nearly 1 for much of the depth where near is close to the eye. */
 static bool lies_on_plane(const dp_view *view, const float world[3]) {
     const dp_clip_point c = dp_to_clip(view, dp_v3f(world));
-    return fabs(fabs(c.z) - c.w) <= 1e-5 * fabs(c.w);
+    const double *const z = view->clip[2], *const w = view->clip[3];
+    const double reach = 1e-5 * fabs(c.distance) + 1e-6 * dp_length(dp_v3f(world));
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const dp_vec3 gradient = dp_v3(w[0] + sign * z[0], w[1] + sign * z[1], w[2] + sign * z[2]);
+        if (fabs(c.w + sign * c.z) <= reach * dp_length(gradient)) return true;
+    }
+    return false;
+}
+
+/* Does a segment leave the picture at its end, as far as half the distance of two sample points and
+ * what those are lifted by tell? Where a tile holds only one sample point of a line, it does not know
+ * which way the line goes on. */
+static bool leaves_picture(const dp_view *view, const float end[3], const float other[3]) {
+    const double most[2] = {view->width, view->height};
+    const double on[2] = {(double)end[0] - (double)other[0], (double)end[1] - (double)other[1]};
+    const double length = sqrt(on[0] * on[0] + on[1] * on[1]);
+    for (int i = 0; i < 2 && length > 0; i++) {
+        const double beyond = (double)end[i] + on[i] / length * (DP_PROBE_SPACING / 2);
+        if (on[i] < 0 ? beyond < DP_PROBE_LIFT : on[i] > 0 && beyond > most[i] - DP_PROBE_LIFT)
+            return true;
+    }
+    return false;
 }
 
 /* Why a piece ends where it does. A spine that the near or far plane has cut ends there. */
 static void take_line_end(const dp_frame *frame, const dp_piece *piece, int k, dp_segment *out) {
     const int32_t hider = (int32_t)piece->hider[k];
+    const bool leaves = hider == DP_HIDER_UNKNOWN &&
+                        leaves_picture(&frame->view, k ? out->b : out->a, k ? out->a : out->b);
     out->hider[k] = UINT64_MAX;
-    if (hider == DP_HIDER_PICTURE) {
+    if (hider == DP_HIDER_PICTURE || leaves) {
         out->end[k] = DP_END_PICTURE;
     } else if (hider == DP_HIDER_NONE) {
         const float *const world = k ? out->world_b : out->world_a;
