@@ -104,7 +104,8 @@ typedef enum dp_line_end {
     DP_END_PICTURE     /* the picture's edge, or the near or the far plane */
 } dp_line_end;
 
-/* A visible piece of a feature line, as found by the last dp_draw with DP_INK_STROKES. */
+/* A visible piece of a feature line, as found by the last dp_draw with DP_INK_STROKES, or with
+ * DP_EDGES_ADJACENCY. */
 typedef struct dp_segment {
     dp_line line;
     float a[3], b[3]; /* both ends on the screen: x right, y down, px; third: distance along
@@ -113,7 +114,7 @@ typedef struct dp_segment {
     uint64_t polygon;   /* of the source, counted from 0 over all its batches */
     uint64_t other;     /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
     uint32_t edge;      /* from corner `edge` to the next; UINT32_MAX for an intersection */
-    uint32_t group;     /* of the polygon; 0 where the source has no groups */
+    uint32_t group;     /* of the polygon; 0 where the source has no groups, or is streamed */
     dp_line_end end[2]; /* at a and at b */
     uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
                           that hide the line right behind its end; UINT64_MAX: not known, as where
@@ -128,7 +129,7 @@ typedef struct dp_segment {
 
 /* The segments, in an order that depends neither on tiles nor on threads. The first call after a
  * drawing makes the chains. Borrowed: valid until the next call that draws, or the
- * context's end. NULL and 0 when there are none, or memory is out. */
+ * context's end. NULL and 0 when there are none, the last dp_draw failed, or memory is out. */
 DP_API const dp_segment *dp_segments(dp_context *context, size_t *count);
 
 /* Stages of a frame, in order. */

@@ -46,8 +46,9 @@ typedef struct dp_chain_stroke {
 /* What a drawing is handed to. Any function may be NULL. They are called in this order, from the
  * thread that sends: begin, surface, then for each class that has strokes, from the bottom up
  * (valleys, intersections, ridges, borders, silhouettes), layer and its strokes, then end. What is
- * pointed to is borrowed until the function returns. A result other than DP_OK ends the drawing;
- * its reason goes into `diag`, which may be NULL. */
+ * pointed to is borrowed until the function returns. They may ask the context for its segments and
+ * statistics, or send to another sink, but not draw with it. A result other than DP_OK ends the
+ * drawing; its reason goes into `diag`, which may be NULL. */
 typedef struct dp_sink {
     void *user;
     dp_result (*begin)(void *user, const dp_sheet *sheet, dp_diag *diag);
@@ -56,13 +57,16 @@ typedef struct dp_sink {
     dp_result (*layer)(void *user, dp_line line, dp_diag *diag);
     dp_result (*stroke)(void *user, const dp_chain_stroke *stroke, dp_diag *diag);
     /* Called if begin succeeded or was NULL. `so_far`: what stopped the drawing, or DP_OK.
-     * Its own result is that of the whole unless something stopped it before. */
+     * Its own result is that of the whole unless something stopped it before; then that one's reason
+     * stands, and `diag` is NULL here. */
     dp_result (*end)(void *user, dp_result so_far, dp_diag *diag);
 } dp_sink;
 
-/* Hands the lines of the last dp_draw to a sink. Strokes come in an order that does not depend on
- * threads. Drawings with DP_INK_QUADS have no strokes. DP_ERR_ARGUMENT (nothing has been drawn),
- * DP_ERR_MEMORY, and whatever the sink returns. */
+/* Hands the lines of the last dp_draw to a sink, which may be done any number of times. Strokes come
+ * in an order that does not depend on threads. Drawings with DP_INK_QUADS have none, but for those
+ * whose edges come by adjacency. Like all that takes a context, it serves one thread at a time.
+ * DP_ERR_ARGUMENT (nothing has been drawn, or the last dp_draw failed), DP_ERR_MEMORY before anything
+ * of the sink is called, and whatever the sink returns. */
 DP_API dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag);
 
 /* Text, written piece by piece; a result other than DP_OK ends it. */

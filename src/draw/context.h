@@ -63,6 +63,9 @@ dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag);
 
+/* There is no drawing, as before the first one. */
+void dp_forget_drawing(dp_context *context);
+
 enum { DP_PICTURE_MOST = 32768 /* px, either side */ };
 
 /* The target with its defaults filled in; DP_ERR_ARGUMENT, DP_ERR_LIMIT. */

@@ -396,14 +396,18 @@ static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
     return result;
 }
 
+void dp_forget_drawing(dp_context *c) {
+    c->drawn = false;
+    c->drawing.count = 0;
+    c->drawing.chained = false;
+}
+
 dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *camera,
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag) {
     dp_frame *const f = &c->frame;
     c->stats = (dp_stats){0};
-    c->drawn = false;
-    c->drawing.count = 0;
-    c->drawing.chained = false;
+    dp_forget_drawing(c);
     f->painted_later = false;
     f->ink_layer = NULL;
     f->adjacency = NULL;
@@ -437,6 +441,7 @@ static dp_result draw_styled(dp_context *c, dp_source *source, const dp_camera *
 
 dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
                   const dp_style *style, const dp_target *target, dp_diag *diag) {
+    if (context) dp_forget_drawing(context);
     if (!context || !source || !camera || !target)
         return dp_fail(diag, DP_ERR_ARGUMENT, "dp_draw: context, source, camera or target is NULL");
     const dp_result result = draw_styled(context, source, camera, style, target, diag);
@@ -444,9 +449,16 @@ dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camer
     return result;
 }
 
+/* Makes the chains when they are first asked for; statistics count their memory from then on. */
+static bool chain_drawing(dp_context *c) {
+    if (c->drawing.chained) return true;
+    const bool done = dp_chain_drawing(&c->frame, &c->drawing);
+    c->stats.bytes = dp_context_bytes(c);
+    return done;
+}
+
 const dp_segment *dp_segments(dp_context *context, size_t *count) {
-    const bool any = context && context->drawn && context->drawing.count &&
-                     dp_chain_drawing(&context->frame, &context->drawing);
+    const bool any = context && context->drawn && context->drawing.count && chain_drawing(context);
     if (count) *count = any ? context->drawing.count : 0;
     return any ? context->drawing.segments : NULL;
 }
@@ -455,6 +467,8 @@ dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag) {
     if (!context || !sink)
         return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: context or sink is NULL");
     if (!context->drawn) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_send: nothing has been drawn");
+    if (!chain_drawing(context))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the chains of a drawing");
     return dp_hand_over(&context->frame, &context->drawing, sink, diag);
 }
 

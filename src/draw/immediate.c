@@ -438,6 +438,7 @@ static dp_result check_finish(dp_context *context, const dp_target *target, dp_d
 
 dp_result dp_finish(dp_context *context, const dp_target *target, dp_diag *diag) {
     if (!context) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_finish: context is NULL");
+    dp_forget_drawing(context);
     dp_result result = check_finish(context, target, diag);
     if (!result) result = draw_recorded(context, target, diag);
     context->stats.bytes = dp_context_bytes(context);

@@ -163,6 +163,7 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     c->share_to = 0.5; /* two pictures, of much the same work */
     result = draw_image(c, source, camera, style, target, &plane, &view, diag);
     c->share_to = 1;
+    dp_forget_drawing(c); /* the image's is not the picture's */
     if (result) return result;
     result = dp_add_quad_source(source, (const float(*)[3])corners, DP_MIRROR_GROUP, &c->memory,
                                 &with_mirror, diag);

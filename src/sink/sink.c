@@ -6,7 +6,7 @@
 
 typedef struct handing {
     const dp_frame *frame;
-    dp_drawing *drawing;
+    const dp_drawing *drawing;
     const dp_sink *sink;
     const dp_segment **order; /* the segments of one chain */
     dp_diag *diag;
@@ -75,16 +75,25 @@ static dp_result send_strokes(handing *h) {
     return result;
 }
 
-dp_result dp_hand_over(const dp_frame *frame, dp_drawing *drawing, const dp_sink *sink,
-                       dp_diag *diag) {
-    handing h = {.frame = frame, .drawing = drawing, .sink = sink, .diag = diag};
-    if ((sink->stroke || sink->layer) && !dp_chain_drawing(frame, drawing))
-        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the chains of a drawing");
-    const dp_sheet sheet = sheet_of(&h);
-    dp_result result = sink->begin ? sink->begin(sink->user, &sheet, diag) : DP_OK;
+static dp_result hand_over(handing *h) {
+    const dp_sink *const sink = h->sink;
+    const dp_sheet sheet = sheet_of(h);
+    dp_result result = sink->begin ? sink->begin(sink->user, &sheet, h->diag) : DP_OK;
     if (result) return result;
-    if (sink->surface) result = sink->surface(sink->user, &frame->target, diag);
-    if (!result) result = send_strokes(&h);
-    const dp_result last = sink->end ? sink->end(sink->user, result, diag) : DP_OK;
+    if (sink->surface) result = sink->surface(sink->user, &h->frame->target, h->diag);
+    if (!result) result = send_strokes(h);
+    const dp_result last =
+        sink->end ? sink->end(sink->user, result, result ? NULL : h->diag) : DP_OK;
     return result ? result : last;
+}
+
+dp_result dp_hand_over(const dp_frame *frame, const dp_drawing *drawing, const dp_sink *sink,
+                       dp_diag *diag) {
+    dp_diag unused;
+    dp_diag *const why = diag ? diag : &unused;
+    handing h = {.frame = frame, .drawing = drawing, .sink = sink, .diag = why};
+    why->result = DP_OK;
+    const dp_result result = hand_over(&h);
+    if (result && why->result != result) dp_fail(why, result, "the sink failed");
+    return result;
 }

@@ -5,9 +5,9 @@
 #include "strokes/drawing.h"
 #include <drypoint/sink.h>
 
-/* Calls the sink's functions in their order (drypoint/sink.h). Chains are made only for a sink that
- * takes strokes. */
-dp_result dp_hand_over(const dp_frame *frame, dp_drawing *drawing, const dp_sink *sink,
+/* Calls the sink's functions in their order (drypoint/sink.h). A sink that takes layers or strokes,
+ * or looks at how many there are, needs a drawing that is chained (dp_chain_drawing). */
+dp_result dp_hand_over(const dp_frame *frame, const dp_drawing *drawing, const dp_sink *sink,
                        dp_diag *diag);
 
 /* A sink that writes a drawing as text. */

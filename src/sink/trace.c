@@ -1,6 +1,6 @@
 /* The trace sink: a drawing as text, for tests and for a look at what a sink gets. The format is
- * described in drypoint/sink.h. Numbers have six digits, which is a hundredth of a pixel or less,
- * and a point in any locale. */
+ * described in drypoint/sink.h. Numbers have six digits, which is a hundredth of a pixel up to
+ * 10000 px, and a point in any locale. */
 #include "sink/sink.h"
 
 #include "base/print.h"
