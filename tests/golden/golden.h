@@ -1,5 +1,6 @@
 /* Golden pictures: small pictures, each a row of a table, compared with stored ones (decoded
- * pixels). DP_GOLDEN_WRITE=1 writes those that are missing; look at them before committing. */
+ * pixels), or their traces. DP_GOLDEN_WRITE=1 writes those that are missing; look at them before
+ * committing. */
 #ifndef DP_GOLDEN_H
 #define DP_GOLDEN_H
 
@@ -47,5 +48,10 @@ typedef struct golden {
 /* Compares all of them; files lie in golden/`folder`. */
 void golden_check(const char *folder, const golden *rows, size_t count, uint32_t width,
                   uint32_t height);
+
+/* The same for traces (drypoint/sink.h): text that must be equal, with 1, 2 and 7 threads and at any
+ * width of vectors. */
+void golden_check_traces(const char *folder, const golden *rows, size_t count, uint32_t width,
+                         uint32_t height);
 
 #endif
