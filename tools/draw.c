@@ -87,13 +87,17 @@ static int write_trace(const tool_settings *s, const drawing *d) {
     return result ? report_failure(NULL, &diag) : 0;
 }
 
+/* Is it standard output? */
+static bool is_standard(const char *path) { return path && !strcmp(path, "-"); }
+
 static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_dropped(&d->stats);
     if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
     if (s->stats == STATS_JSON)
-        print_stats_json(!s->output || strcmp(s->output, "-") ? stdout : stderr, &d->stats,
-                         &d->target);
+        print_stats_json(is_standard(s->output) || is_standard(s->outputs[OUTPUT_TRACE]) ? stderr
+                                                                                         : stdout,
+                         &d->stats, &d->target);
 }
 
 static int run(const tool_settings *s, drawing *d) {

@@ -144,6 +144,9 @@ static bool check_present(const tool_settings *s) {
     if (!s->output && !traces && (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
         return wrong_usage("no output given; add -o %s",
                            s->command == COMMAND_DRAW ? "OUT.png" : "OUT.ply");
+    const bool both = traces && s->output && !strcmp(s->outputs[OUTPUT_TRACE], "-");
+    if (both && !strcmp(s->output, "-"))
+        return wrong_usage("picture and trace cannot both go to standard output; give one a file");
     return true;
 }
 

@@ -556,6 +556,61 @@ outputs_beside() {
     run 0 shape:gear -o ./a=b.png --size 60x40
     is_png ./a=b.png
 }
+# The lines as text: alone, beside a picture, to standard output; and no half a file.
+traces() {
+    run 0 shape:cube $small -o trace=alone.txt
+    silent out
+    silent err
+    absent out.png
+    says alone.txt 'drypoint trace 1'
+    says alone.txt 'picture 160 120 paper #ffffffff'
+    run 0 shape:cube $small -o out.png -o trace=beside.txt
+    is_png out.png
+    cmp -s alone.txt beside.txt || fail "the picture changes the trace"
+    run 0 shape:cube $small -o trace=-
+    silent err
+    cmp -s alone.txt out || fail "standard output differs"
+    run 0 shape:cube $small -o trace=- --stats=json
+    cmp -s alone.txt out || fail "statistics are in the trace"
+    says err '"frame_ms"'
+    run 0 shape:cube $small -o trace=alone.txt --stats=json
+    says out '"frame_ms"'
+    for threads in 1 2 7; do
+        run 0 shape:gear $small --threads $threads -o trace=$threads.txt
+        cmp -s 1.txt $threads.txt || fail "$threads threads differ from one"
+    done
+    run 0 shape:gear $small --ink quads -o trace=quads.txt
+    says quads.txt 'end 0 strokes 0 segments'
+}
+traces_that_fail() {
+    run 1 shape:cube $small -o trace=none/t.txt -o out.png
+    one_line
+    says err 'none/t.txt'
+    absent out.png
+    echo old >t.txt
+    run 1 missing.obj -o trace=t.txt
+    [ "$(cat t.txt)" = old ] || fail "the old file is gone"
+    wrong shape:cube -o trace= -- 'a file is missing; give trace=FILE'
+    wrong shape:cube -o trac=t.txt -o out.png -- 'did you mean trace?'
+    wrong shape:cube -o - -o trace=- -- 'standard output'
+    wrong bench shape:cube -o trace=t.txt -- 'does not belong to'
+    no_temporary
+    [ -w /dev/full ] || return
+    run 1 shape:cube $small -o trace=/dev/full
+    one_line
+    says err 'No space left on device'
+}
+traces_of_streamed_models() {
+    local small="--size 160x120 --lines silhouette,ridge,valley"
+    run 0 make terrain --triangles 600000 -o t.stl
+    run 0 t.stl $small -o trace=streamed.txt --memory 48M
+    silent err
+    says streamed.txt 'layer silhouette'
+    says streamed.txt ' hidden'
+    grep -q 'hidden by' streamed.txt && fail "a streamed model's lines are hidden by polygons that nobody kept"
+    run 0 t.stl $small -o trace=threads.txt --memory 48M --threads 3
+    cmp -s streamed.txt threads.txt || fail "differs with three threads"
+}
 # Normals that are none, that contradict the winding or are not numbers; faces without area, and wound both ways.
 odd_normals() {
     cat >odd.ply <<'END'
@@ -647,7 +702,7 @@ absurd_thresholds() {
     done
 }
 
-tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
+tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts dropped_are_counted missing_materials_are_told old_file_stays_on_error full_disk devices unwritable_places
