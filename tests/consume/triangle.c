@@ -1,5 +1,12 @@
-/* Draws one triangle; succeeds when some pixel got dark. */
+/* Draws one triangle; succeeds when its outline is one stroke of three segments and some pixel got
+ * dark. */
 #include <drypoint/drypoint.h>
+
+static dp_result count(void *user, const dp_chain_stroke *stroke, dp_diag *diag) {
+    (void)diag;
+    *(size_t *)user += stroke->closed ? stroke->count : 0;
+    return DP_OK;
+}
 
 int main(void) {
     static const float corners[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
@@ -15,6 +22,9 @@ int main(void) {
         dp_camera_fit(&camera, &fit) || dp_source_from_arrays(&triangle, NULL, &source, NULL) ||
         dp_draw(context, source, &camera, NULL, &target, NULL))
         return 2;
+    size_t segments = 0;
+    const dp_sink sink = {.user = &segments, .stroke = count};
+    if (dp_send(context, &sink, NULL) || segments != 3) return 3;
     dp_source_destroy(source);
     dp_context_destroy(context);
     for (int i = 0; i < 64 * 64; i++)
