@@ -49,8 +49,12 @@ static dp_result draw(const dp_context_desc *desc, const char *name, const dp_st
                               .line_class = out->line_class,
                               .normal = out->normal};
     if (!result) result = dp_draw(context, source, &camera, style, &target, diag);
+    dp_stats stats = {0};
+    dp_stats_of(context, &stats);
+    const dp_segment *const segments = result ? NULL : dp_segments(context, &out->count);
+    if (!result && stats.segments && !segments) /* no memory for their chains */
+        result = diag->result = DP_ERR_MEMORY;
     if (!result) {
-        const dp_segment *const segments = dp_segments(context, &out->count);
         out->segments = calloc(out->count + 1, sizeof *segments);
         assert_non_null(out->segments);
         if (out->count) memcpy(out->segments, segments, out->count * sizeof *segments);
