@@ -166,7 +166,8 @@ typedef struct dp_stats {
                        returned: all that the context, from its creation on, has asked of its
                        allocator and not given back, to the byte. Not counted: what sources and
                        textures hold, the target, the stacks of the threads; nor what was given back
-                       before, as all that streaming a source takes is */
+                       before, as all that streaming a source takes is. Chains count once they
+                       are made (dp_segments) */
     uint64_t adjacency_bytes; /* of it, adjacency (DP_EDGES_ADJACENCY) */
     double curvature_ms; /* making directions of least curvature took (DP_SHADING_PENCIL); 0 where
                             they were kept */
