@@ -111,7 +111,8 @@ typedef struct dp_segment {
     float a[3], b[3]; /* both ends on the screen: x right, y down, px; third: distance along
                          the line of sight, world units */
     float world_a[3], world_b[3];
-    uint64_t polygon;   /* of the source, counted from 0 over all its batches */
+    uint64_t polygon;   /* of the source, counted from 0 over all its batches; a mirror comes as one
+                           more after them */
     uint64_t other;     /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
     uint32_t edge;      /* from corner `edge` to the next; UINT32_MAX for an intersection */
     uint32_t group;     /* of the polygon; 0 where the source has no groups, or is streamed */
@@ -119,9 +120,9 @@ typedef struct dp_segment {
     uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
                           that hide the line right behind its end; UINT64_MAX: not known, as where
                           the source is streamed */
-    uint32_t level;     /* how many surfaces hide it; 0: it is visible */
-    uint32_t chain;     /* segments that are drawn in one go have one number, from 0 on … */
-    uint32_t place;     /* … and are numbered in the order in which they follow each other */
+    uint32_t level;     /* how many surfaces hide it; always 0 in this version: it is visible */
+    uint32_t chain;     /* number of its chain: segments that a pen draws in one go; from 0 on */
+    uint32_t place;     /* its place in the chain, from 0 on */
     bool reversed;      /* in its chain it is drawn from b to a */
     float width;        /* px */
     dp_color color;
@@ -169,9 +170,9 @@ typedef struct dp_stats {
                        before, as all that streaming a source takes is. Chains count once they
                        are made (dp_segments) */
     uint64_t adjacency_bytes; /* of it, adjacency (DP_EDGES_ADJACENCY) */
-    double curvature_ms; /* making directions of least curvature took (DP_SHADING_PENCIL); 0 where
+    double curvature_ms; /* time to make directions of least curvature (DP_SHADING_PENCIL); 0 where
                             they were kept */
-    double adjacency_ms; /* building that took, in the frame that built it; otherwise 0 */
+    double adjacency_ms; /* time to build adjacency; 0 where it was kept */
     double stage_ms[DP_STAGE_COUNT];
     double frame_ms;
 } dp_stats;

@@ -24,7 +24,8 @@ extern "C" {
 typedef struct dp_sheet {
     uint32_t width, height;  /* px */
     dp_color paper, surface; /* of the first style */
-    size_t strokes, segments;
+    size_t strokes;          /* to come; 0 where the sink takes neither layers nor strokes */
+    size_t segments;
 } dp_sheet;
 
 /* A chain of segments of one class and colour, drawn without lifting the pen. Consecutive segments
@@ -34,8 +35,8 @@ typedef struct dp_chain_stroke {
     dp_line line;
     uint32_t chain; /* as in dp_segment */
     uint32_t group; /* of the first segment */
-    uint32_t level; /* how many surfaces hide it; 0: it is visible */
-    float width;    /* px, the whole line */
+    uint32_t level; /* how many surfaces hide it; always 0 in this version: it is visible */
+    float width;    /* px, the whole line, of the first segment */
     dp_color color;
     bool closed;                       /* the last segment ends where the first begins */
     const dp_segment *const *segments; /* [count] in the order in which they follow each other;
@@ -43,7 +44,9 @@ typedef struct dp_chain_stroke {
     size_t count;
 } dp_chain_stroke;
 
-/* What a drawing is handed to. Any function may be NULL. They are called in this order, from the
+/* What a drawing is handed to: the lines as found, before a style bends or textures them. Any
+ * function may be NULL, all of them too. A function must not call anything that draws with, or sends
+ * from, the same context; to stop, it returns DP_ERR_CANCELLED, or what has failed. They are called in this order, from the
  * thread that sends: begin, surface, then for each class that has strokes, from the bottom up
  * (valleys, intersections, ridges, borders, silhouettes), layer and its strokes, then end. What is
  * pointed to is borrowed until the function returns. They may ask the context for its segments and
@@ -52,7 +55,8 @@ typedef struct dp_chain_stroke {
 typedef struct dp_sink {
     void *user;
     dp_result (*begin)(void *user, const dp_sheet *sheet, dp_diag *diag);
-    /* What lies below all lines: the planes of the last dp_draw's target, which the caller owns. */
+    /* The finished picture, lines included: the planes of the last drawing's target, which the
+     * caller must not have freed. Draw with style.lines = DP_NO_LINES for the surface alone. */
     dp_result (*surface)(void *user, const dp_target *target, dp_diag *diag);
     dp_result (*layer)(void *user, dp_line line, dp_diag *diag);
     dp_result (*stroke)(void *user, const dp_chain_stroke *stroke, dp_diag *diag);
@@ -72,7 +76,7 @@ DP_API dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag
 /* Text, written piece by piece; a result other than DP_OK ends it. */
 typedef dp_result dp_text_writer(void *user, const char *text, size_t size, dp_diag *diag);
 
-/* Hands the lines of the last dp_draw to a writer as text, one line for every end of a segment:
+/* Hands the lines of the last dp_draw to a writer as text:
  *
  *     drypoint trace 1
  *     picture 320 240 paper #ffffffff surface #ffffffff
@@ -83,9 +87,13 @@ typedef dp_result dp_text_writer(void *user, const char *text, size_t size, dp_d
  *     to 131 97.5 4.0625 edge 18 0 other 22 hidden by 40
  *     end 1 strokes 2 segments
  *
- * Places are px on the screen and the distance along the line of sight; the edge is polygon and
- * corner of the source, or `crossing` for an intersection. Ends are `vertex`, `crossing`, `picture`
- * or `hidden`, by a polygon where it is known. */
+ * `stroke` is followed by the number of its chain, and has `closed` at its end where it is closed.
+ * `from` begins it, each `to` ends one segment; where a segment does not begin where the one before
+ * ended (stylized strokes), a line `gap` says where it begins. Positions are x and y, px, and the
+ * distance along the line of sight. `edge` gives polygon and corner of the source, `crossing` the
+ * polygon of an intersection, `other` the second polygon where it is known. What ends a segment comes
+ * last: `vertex` (left out where the stroke runs on), `crossing`, `picture` or `hidden`, by a polygon
+ * where it is known. */
 DP_API dp_result dp_trace(dp_context *context, dp_text_writer *write, void *user, dp_diag *diag);
 
 #ifdef __cplusplus

@@ -26,7 +26,7 @@ struct dp_context {
     int (*progress)(void *user, double fraction);
     void *user;
     double share_from, share_to; /* of the drawing's progress that this picture is: 0 to 1, or less
-                                    where several make one (shade/mirror.c) */
+                                    where several make one (mirror.c) */
     dp_threads *threads;
     uint32_t workers;
 

@@ -96,8 +96,8 @@ static void begin_view(dp_frame *f) {
 
 static bool begin_workers(dp_context *c) {
     for (uint32_t i = 0; i < c->workers; i++) {
-        dp_bin_worker_init(&c->bin_workers[i]);
-        if (!dp_finder_init(&c->finders[i], &c->frame, &c->found[i])) return false;
+        dp_bin_worker_begin(&c->bin_workers[i]);
+        if (!dp_finder_begin(&c->finders[i], &c->frame, &c->found[i])) return false;
     }
     return true;
 }

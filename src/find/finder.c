@@ -1,13 +1,13 @@
 /* A worker's memory for finding lines: see finder.h. */
 #include "find/finder.h"
 
-bool dp_finder_init(dp_finder *finder, const dp_frame *frame, dp_found *found) {
+bool dp_finder_begin(dp_finder *finder, const dp_frame *frame, dp_found *found) {
     finder->found = found;
     found->piece_count = found->geometry_count = 0;
     finder->lines.owners = NULL;
     finder->lines.streamed = false;
     dp_one_rings_init(&finder->rings, frame->flat_cosine);
-    return dp_tile_init(&finder->tile, frame);
+    return dp_tile_begin(&finder->tile, frame);
 }
 
 void dp_finder_free(dp_finder *finder) {

@@ -22,7 +22,7 @@ typedef struct dp_finder {
 } dp_finder;
 
 /* Like dp_tile_…; `found` belongs to the caller (finder.c). */
-bool dp_finder_init(dp_finder *finder, const dp_frame *frame, dp_found *found);
+bool dp_finder_begin(dp_finder *finder, const dp_frame *frame, dp_found *found);
 void dp_finder_free(dp_finder *finder);
 uint64_t dp_finder_bytes(const dp_finder *finder);
 void dp_finder_open(dp_finder *finder, uint32_t index);

@@ -15,7 +15,7 @@ typedef struct job {
     dp_bin_worker *workers;
 } job;
 
-void dp_bin_worker_init(dp_bin_worker *worker) {
+void dp_bin_worker_begin(dp_bin_worker *worker) {
     worker->stats = (dp_stats){0};
     worker->failed = false;
 }

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-bool dp_tile_init(dp_tile *tile, const dp_frame *frame) {
+bool dp_tile_begin(dp_tile *tile, const dp_frame *frame) {
     tile->frame = frame;
     tile->memory = *frame->memory;
     tile->failed = false;

@@ -141,7 +141,7 @@ typedef struct dp_tile {
 
 /* `init`: before a frame's first tile; false: out of memory. `free` frees all memory, `bytes`
  * counts it (tile.c). */
-bool dp_tile_init(dp_tile *tile, const dp_frame *frame);
+bool dp_tile_begin(dp_tile *tile, const dp_frame *frame);
 void dp_tile_free(dp_tile *tile);
 uint64_t dp_tile_bytes(const dp_tile *tile);
 

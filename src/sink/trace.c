@@ -63,6 +63,13 @@ static dp_result put_edge(const dp_tracing *t, const dp_segment *s, dp_diag *dia
     return put(t, diag, " edge %llu %u%s", (unsigned long long)s->polygon, s->edge, other);
 }
 
+/* Does a segment begin where the one before it in the stroke ends? */
+static bool meets(const dp_segment *before, const dp_segment *s) {
+    const float *const p = before->reversed ? before->a : before->b,
+                       *const q = s->reversed ? s->b : s->a;
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
 static dp_result put_segment(const dp_tracing *t, const dp_chain_stroke *stroke, size_t i,
                              dp_diag *diag) {
     const dp_segment *const s = stroke->segments[i];
@@ -72,6 +79,9 @@ static dp_result put_segment(const dp_tracing *t, const dp_chain_stroke *stroke,
     if (i == 0) {
         result = put_place(t, "from", first ? s->b : s->a, diag);
         if (!result) result = put_end(t, s, first, stroke->closed, diag);
+    } else if (!meets(stroke->segments[i - 1], s)) {
+        result = put_place(t, "gap", first ? s->b : s->a, diag);
+        if (!result) result = put_end(t, s, first, false, diag);
     }
     if (!result) result = put_place(t, "to", last ? s->b : s->a, diag);
     if (!result) result = put_edge(t, s, diag);

@@ -37,7 +37,7 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_drawing *
 int dp_piece_order(const dp_piece *left, const dp_piece *right);
 
 /* Puts segments into an order that does not depend on tiles, joins them to chains and numbers them,
- * once a picture: who asks for it pays for it, as plain ink does not need it (chains.c). False when
+ * once a picture: who asks for it pays for it, as plain ink does not need it (drawing.c). False when
  * memory is out. */
 bool dp_chain_drawing(const dp_frame *frame, dp_drawing *drawing);
 

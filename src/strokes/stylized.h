@@ -27,7 +27,7 @@ typedef struct dp_stylized_store {
     size_t stylized_cap, points_cap, lights_cap, count;
 } dp_stylized_store;
 
-/* Are lines stylized rather than as plain strokes? */
+/* Are lines drawn as stylized strokes rather than as plain ones? */
 bool dp_is_stylized(const dp_frame *frame);
 /* Do outlines lie beside their spines, on the outside, as extruded silhouettes do? */
 bool dp_lies_outside(const dp_frame *frame);

@@ -2,6 +2,7 @@
  * message, if there is no such locale and none can be made. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "base/print.h"
+#include "temporary.h"
 
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
@@ -20,11 +21,11 @@
 
 #include <cmocka.h>
 
-static char directory[64];
+static char directory[256];
 
 static int enter_directory(void **state) {
     (void)state;
-    strcpy(directory, "/tmp/drypoint-locale-XXXXXX");
+    temporary_name(directory, sizeof directory, "locale");
     return mkdtemp(directory) ? 0 : -1;
 }
 

@@ -2,6 +2,7 @@
  * again, and the next drawing is undisturbed. */
 #include "base/hostile.h"
 #include "draw/context.h"
+#include "temporary.h"
 
 #include <drypoint/drypoint.h>
 #include <drypoint/io.h>
@@ -48,7 +49,7 @@ typedef struct mode {
     bool file;    /* a binary STL, whose length is known and which is read by several threads */
 } mode;
 
-static char path[] = "/tmp/drypoint-progress-XXXXXX";
+static char path[256];
 
 static dp_source *as_file(dp_source *shape) {
     dp_source *source = NULL;
@@ -214,6 +215,7 @@ int main(void) {
         cmocka_unit_test(edge_maps),       cmocka_unit_test(mirrors),
         cmocka_unit_test(streamed),
     };
+    temporary_name(path, sizeof path, "progress");
     const int file = mkstemp(path);
     if (file < 0 || close(file)) return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
