@@ -61,16 +61,16 @@ typedef struct dp_sink {
     dp_result (*layer)(void *user, dp_line line, dp_diag *diag);
     dp_result (*stroke)(void *user, const dp_chain_stroke *stroke, dp_diag *diag);
     /* Called if begin succeeded or was NULL. `so_far`: what stopped the drawing, or DP_OK.
-     * Its own result is that of the whole unless something stopped it before; then that one's reason
-     * stands, and `diag` is NULL here. */
+     * Its own result is that of the whole unless something stopped it before; then that one's
+     * reason stands, and `diag` is NULL here. */
     dp_result (*end)(void *user, dp_result so_far, dp_diag *diag);
 } dp_sink;
 
-/* Hands the lines of the last dp_draw to a sink, which may be done any number of times. Strokes come
- * in an order that does not depend on threads. Drawings with DP_INK_QUADS have none, but for those
- * whose edges come by adjacency. Like all that takes a context, it serves one thread at a time.
- * DP_ERR_ARGUMENT (nothing has been drawn, or the last dp_draw failed), DP_ERR_MEMORY before anything
- * of the sink is called, and whatever the sink returns. */
+/* Hands the lines of the last dp_draw to a sink, which may be done any number of times. Strokes
+ * come in an order that does not depend on threads. Drawings with DP_INK_QUADS have none, but for
+ * those whose edges come by adjacency. Like all that takes a context, it serves one thread at a
+ * time. DP_ERR_ARGUMENT (nothing has been drawn, or the last dp_draw failed), DP_ERR_MEMORY, and
+ * whatever the sink returns. */
 DP_API dp_result dp_send(dp_context *context, const dp_sink *sink, dp_diag *diag);
 
 /* Text, written piece by piece; a result other than DP_OK ends it. */

@@ -176,8 +176,8 @@ static bool lies_on_plane(const dp_view *view, const float world[3]) {
 }
 
 /* Does a segment leave the picture at its end, as far as half the distance of two sample points and
- * what those are lifted by tell? Where a tile holds only one sample point of a line, it does not know
- * which way the line goes on. */
+ * what those are lifted by tell? Where a tile holds only one sample point of a line, it does not
+ * know which way the line goes on. */
 static bool leaves_picture(const dp_view *view, const float end[3], const float other[3]) {
     const double most[2] = {view->width, view->height};
     const double on[2] = {(double)end[0] - (double)other[0], (double)end[1] - (double)other[1]};

@@ -279,8 +279,8 @@ static void write_text(const char *path, const text *t) {
     assert_int_equal(fclose(file), 0);
 }
 
-/* Of several polygons that hide an end, the one that is named depends on what the tile saw first: in
- * the hostile build, whose tiles are smaller, it may be another one, or none that is known. */
+/* Of several polygons that hide an end, the one that is named depends on what the tile saw first:
+ * in the hostile build, whose tiles are smaller, it may be another one, or none that is known. */
 static void leave_out_hiders(text *t) {
 #ifdef DP_HOSTILE
     char *to = t->bytes;

@@ -49,8 +49,8 @@ typedef struct golden {
 void golden_check(const char *folder, const golden *rows, size_t count, uint32_t width,
                   uint32_t height);
 
-/* The same for traces (drypoint/sink.h): text that must be equal, with 1, 2 and 7 threads and at any
- * width of vectors. */
+/* The same for traces (drypoint/sink.h): text that must be equal, with 1, 2 and 7 threads and
+ * at any width of vectors. */
 void golden_check_traces(const char *folder, const golden *rows, size_t count, uint32_t width,
                          uint32_t height);
 

@@ -1,6 +1,6 @@
-/* The traces of small drawings (golden.h): what each line is, what ends it and what hides it, how lines
- * are chained; of models with lines of all classes, open and badly wound ones, groups, pictures that
- * cut them, stylized strokes, adjacency, streamed sources.
+/* The traces of small drawings (golden.h): what each line is, what ends it and what hides it, how
+ * lines are chained; of models with lines of all classes, open and badly wound ones, groups,
+ * pictures that cut them, stylized strokes, adjacency, streamed sources.
  *
  * The traces pin what is found today. */
 #include "golden.h"

@@ -1,5 +1,5 @@
-/* Sinks and segments (drypoint/sink.h): the order of calls, what stops them, chains, and what ends a
- * segment, looked at with rays through random triangles. */
+/* Sinks and segments (drypoint/sink.h): the order of calls, what stops them, chains, and what
+ * ends a segment, looked at with rays through random triangles. */
 #include "scene.h"
 
 #include <math.h>
@@ -569,8 +569,8 @@ static void ends_are_what_they_say(void **state) {
     }
 }
 
-/* The planes end lines only where they cut them, also where the near one is close to the eye, so that
- * z / w is nearly 1 for all that is seen. */
+/* The planes end lines only where they cut them, also where the near one is close to the eye, so
+ * that z / w is nearly 1 for all that is seen. */
 static void planes_end_lines(void **state) {
     static const double nears[] = {1e-3, 1, 230};
     (void)state;
@@ -627,7 +627,7 @@ static dp_result drop_text(void *user, const char *text, size_t size, dp_diag *d
     return DP_OK;
 }
 
-/* In whichever way the drawing is asked for, any allocation may fail; then it can be asked again. */
+/* However the drawing is asked for, any allocation may fail; then it can be asked again. */
 static void memory_may_run_out(void **state) {
     const dp_camera camera = scene_camera(0, 0, EYE, 0, 0, 0);
     dp_context *const shared = context;
