@@ -17,7 +17,7 @@ static dp_sheet sheet_of(const handing *h) {
                       .height = h->frame->target.height,
                       .paper = h->drawing->paper,
                       .surface = h->drawing->surface,
-                      .strokes = h->drawing->chained ? h->drawing->drawing.chain_count : 0,
+                      .strokes = h->drawing->chained ? h->drawing->chains.chain_count : 0,
                       .segments = h->drawing->count};
 }
 
@@ -46,8 +46,8 @@ static dp_result send_stroke(const handing *h, uint32_t index) {
 
 static dp_result send_layer(const handing *h, dp_line line) {
     bool any = false;
-    for (uint32_t c = 0; c < h->drawing->drawing.chain_count; c++) {
-        if (line_of(h, &h->drawing->drawing.chains[c]) != line) continue;
+    for (uint32_t c = 0; c < h->drawing->chains.chain_count; c++) {
+        if (line_of(h, &h->drawing->chains.chains[c]) != line) continue;
         dp_result result = DP_OK;
         if (!any && h->sink->layer) result = h->sink->layer(h->sink->user, line, h->diag);
         if (!result && h->sink->stroke) result = send_stroke(h, c);

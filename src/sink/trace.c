@@ -65,8 +65,8 @@ static dp_result put_edge(const dp_tracing *t, const dp_segment *s, dp_diag *dia
 
 /* Does a segment begin where the one before it in the stroke ends? */
 static bool meets(const dp_segment *before, const dp_segment *s) {
-    const float *const p = before->reversed ? before->a : before->b,
-                       *const q = s->reversed ? s->b : s->a;
+    const float *const p = before->reversed ? before->a : before->b, *const q =
+                                                                         s->reversed ? s->b : s->a;
     return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
 }
 

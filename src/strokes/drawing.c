@@ -82,8 +82,8 @@ static dp_chain_rule rule_of(const dp_frame *frame, const dp_drawing *d) {
 }
 
 static void number_segments(dp_drawing *d) {
-    for (uint32_t c = 0; c < d->drawing.chain_count; c++) {
-        const dp_chain *const chain = &d->drawing.chains[c];
+    for (uint32_t c = 0; c < d->chains.chain_count; c++) {
+        const dp_chain *const chain = &d->chains.chains[c];
         for (uint32_t i = 0; i < chain->count; i++) {
             const dp_link *const link = &d->chains.links[chain->first + i];
             dp_segment *const s = &d->segments[link->segment];

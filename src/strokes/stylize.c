@@ -443,7 +443,7 @@ bool dp_stylize(const dp_frame *frame, dp_drawing *drawing) {
     if (!dp_chain_drawing(frame, drawing) || !find_lights(&h)) return false;
     find_distances(&h);
     uint32_t id = 0;
-    for (uint32_t c = 0; c < drawing->drawing.chain_count; c++)
-        if (!draw_chain(&h, &drawing->drawing.chains[c], &id)) return false;
+    for (uint32_t c = 0; c < drawing->chains.chain_count; c++)
+        if (!draw_chain(&h, &drawing->chains.chains[c], &id)) return false;
     return store->count < UINT32_MAX;
 }

@@ -21,7 +21,7 @@
 
 #include <cmocka.h>
 
-static char directory[256];
+static char directory[80];
 
 static int enter_directory(void **state) {
     (void)state;

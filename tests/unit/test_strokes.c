@@ -44,8 +44,8 @@ static void test_segments_are_chained_whatever_way_they_run(void **state) {
     const dp_stroke s[] = {stroke(1, 0, 2, 0), stroke(1, 0, 0, 0), stroke(3, 0, 2, 0),
                            stroke(9, 9, 8, 8)};
     chain(s, 4, -2, 0);
-    assert_int_equal(drawing.chain_count, 2);
-    assert_int_equal(drawing.chains[0].count, 3);
+    assert_int_equal(chains.chain_count, 2);
+    assert_int_equal(chains.chains[0].count, 3);
     const dp_link expected[] = {{1, true}, {0, false}, {2, true}};
     for (int i = 0; i < 3; i++) {
         assert_int_equal(chains.links[i].segment, expected[i].segment);
@@ -59,10 +59,10 @@ static void test_rings_are_closed(void **state) {
     const dp_stroke s[] = {stroke(0, 0, 1, 0), stroke(1, 1, 1, 0), stroke(1, 1, 0, 1),
                            stroke(0, 1, 0, 0)};
     chain(s, 4, -2, 0);
-    assert_int_equal(drawing.chain_count, 1);
-    assert_true(drawing.chains[0].closed && drawing.chains[0].count == 4);
+    assert_int_equal(chains.chain_count, 1);
+    assert_true(chains.chains[0].closed && chains.chains[0].count == 4);
     chain(s, 4, 0.5f, 0); /* every corner is too sharp */
-    assert_int_equal(drawing.chain_count, 4);
+    assert_int_equal(chains.chain_count, 4);
     free_chains();
 }
 
@@ -71,7 +71,7 @@ static void test_at_a_crossing_the_straightest_go_on(void **state) {
     const dp_stroke s[] = {stroke(-1, 0, 0, 0), stroke(0, -1, 0, 0), stroke(0, 0, 1, 0),
                            stroke(0, 0, 0, 1)};
     chain(s, 4, -2, 0);
-    assert_int_equal(drawing.chain_count, 2);
+    assert_int_equal(chains.chain_count, 2);
     assert_int_equal(chains.links[0].segment, 0);
     assert_int_equal(chains.links[1].segment, 2);
     free_chains();
@@ -81,14 +81,14 @@ static void test_small_gaps_are_bridged(void **state) {
     (void)state;
     const dp_stroke s[] = {stroke(0, 0, 10, 0), stroke(12, 0, 20, 0), stroke(26, 0, 30, 0)};
     chain(s, 3, -2, 3);
-    assert_int_equal(drawing.chain_count, 2);
-    assert_int_equal(drawing.chains[0].count, 2);
+    assert_int_equal(chains.chain_count, 2);
+    assert_int_equal(chains.chains[0].count, 2);
     const dp_stroke alone[] = {stroke(0, 0, 1, 0)};
     chain(alone, 1, -2, 3); /* never to itself */
-    assert_int_equal(drawing.chain_count, 1);
-    assert_false(drawing.chains[0].closed);
+    assert_int_equal(chains.chain_count, 1);
+    assert_false(chains.chains[0].closed);
     chain(alone, 0, -2, 3);
-    assert_int_equal(drawing.chain_count, 0);
+    assert_int_equal(chains.chain_count, 0);
     free_chains();
 }
 
