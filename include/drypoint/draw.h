@@ -118,8 +118,8 @@ typedef struct dp_segment {
     uint32_t group;     /* of the polygon; 0 where the source has no groups, or is streamed */
     dp_line_end end[2]; /* at a and at b */
     uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
-                          that hide the line right behind its end; UINT64_MAX: not known, as where
-                          the source is streamed */
+                          that hide the line within two pixels of its end; UINT64_MAX: not known, as
+                          where the source is streamed, and now and then where tiles meet */
     uint32_t level;     /* how many surfaces hide it; always 0 in this version: it is visible */
     uint32_t chain;     /* number of its chain: segments that a pen draws in one go; from 0 on */
     uint32_t place;     /* its place in the chain, from 0 on */

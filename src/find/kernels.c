@@ -14,7 +14,6 @@
 #include "find/points.inc"
 #include "find/meet.inc"
 #include "find/hide.inc"
-#include "find/next_at.inc"
 
 const dp_find_kernels DP_KERNEL_TABLE(dp_find_kernels) = {
     .list_edges = list_edges,
@@ -26,5 +25,4 @@ const dp_find_kernels DP_KERNEL_TABLE(dp_find_kernels) = {
     .come_near = come_near,
     .meet = meet,
     .hide = hide,
-    .next_at = next_at,
 };

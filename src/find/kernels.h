@@ -40,9 +40,6 @@ typedef struct dp_find_kernels {
     uint32_t (*meet)(const struct dp_intersecting *intersecting, uint32_t self, uint32_t end);
     /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_finder *worker);
-    /* The number of the first seen polygon from `from` on whose box holds pixel (x, y) of the tile;
-     * seen_count where there is none (next_at.inc). */
-    uint32_t (*next_at)(const struct dp_tile *tile, uint32_t from, uint32_t x, uint32_t y);
 } dp_find_kernels;
 
 DP_KERNEL_TABLES(dp_find_kernels);

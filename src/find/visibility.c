@@ -217,29 +217,59 @@ static void point_beyond(const dp_probes *p, const run_end *e, float *x, float *
     *limit = inward < INFINITY ? 2 * end - inward : end;
 }
 
-static bool hides_point(const dp_tile *t, const dp_candidate *c, uint32_t index, float x, float y,
+/* Does the polygon's plane lie nearer than `limit` at a point? Not if it is the line's own. */
+static bool lies_before(const dp_tile *t, const dp_candidate *c, uint32_t index, float x, float y,
                         float limit) {
     const dp_tile_polygon *const p = &t->polygons[index];
-    return p->id != c->a && p->id != c->b && dp_is_surface(t, p) &&
-           dp_minf(dp_plane_at(p, x, y), p->nearest) > limit && dp_tile_covers(t, p, x, y);
+    return p->id != c->a && p->id != c->b && dp_minf(dp_plane_at(p, x, y), p->nearest) > limit;
 }
 
-/* The one that won a sample of the point's pixel, mostly; else the first of all. */
-static uint32_t find_hider(const dp_tile *t, const dp_candidate *c, float x, float y, float limit) {
-    if (x >= 0 && y >= 0 && x < DP_TILE && y < DP_TILE) {
-        const uint32_t *const winner =
-            t->winner + dp_pixel_lane(&t->sampling, (uint32_t)x, (uint32_t)y);
-        for (uint32_t i = 0; i < t->sampling.samples; i++)
-            if (winner[i] != UINT32_MAX && hides_point(t, c, winner[i], x, y, limit))
-                return t->polygons[winner[i]].id;
+/* A search for what hides a point of the tile. */
+typedef struct hider_search {
+    const dp_tile *tile;
+    const dp_candidate *candidate;
+    float x, y, limit;
+    float least;    /* distance of the nearest sample so far, px, squared */
+    uint32_t hider; /* whose sample that is, a polygon of the frame */
+} hider_search;
+
+/* Distance of sample i of pixel (px, py) from the point, px, squared. */
+static float sample_distance(const hider_search *h, uint32_t px, uint32_t py, uint32_t i) {
+    const dp_sampling *const s = &h->tile->sampling;
+    const float x = s->samples == 1 ? 0.5f : s->x[i / 4][i % 4],
+                y = s->samples == 1 ? 0.5f : s->y[i / 4][i % 4];
+    const float dx = h->x - (float)px - x, dy = h->y - (float)py - y;
+    return dx * dx + dy * dy;
+}
+
+/* Looks at what has won the pixel's samples; true when a polygon covers the point itself. */
+static bool search_pixel(hider_search *h, uint32_t px, uint32_t py) {
+    const dp_tile *const t = h->tile;
+    const uint32_t *const winner = t->winner + dp_pixel_lane(&t->sampling, px, py);
+    for (uint32_t i = 0, last = UINT32_MAX; i < t->sampling.samples; i++) {
+        if (winner[i] == last) continue;
+        last = winner[i];
+        if (last == UINT32_MAX || !lies_before(t, h->candidate, last, h->x, h->y, h->limit))
+            continue;
+        const bool covers = dp_tile_covers(t, &t->polygons[last], h->x, h->y);
+        const float distance = covers ? 0 : sample_distance(h, px, py, i);
+        if (distance < h->least) h->least = distance, h->hider = t->polygons[last].id;
+        if (covers) return true;
     }
-    const dp_find_kernels *const kernels = dp_find_kernels_for(t->frame->lanes);
-    const uint32_t px = (uint32_t)dp_maxf(0, dp_minf(x, DP_TILE - 1)),
-                   py = (uint32_t)dp_maxf(0, dp_minf(y, DP_TILE - 1));
-    for (uint32_t i = kernels->next_at(t, 0, px, py); i < t->seen_count;
-         i = kernels->next_at(t, i + 1, px, py))
-        if (hides_point(t, c, t->seen[i], x, y, limit)) return t->polygons[t->seen[i]].id;
-    return (uint32_t)DP_HIDER_UNKNOWN;
+    return false;
+}
+
+/* What has won samples of the point's pixel, or else of those around it, and lies before the point:
+ * the polygon that covers it, else that of the nearest sample, which hides the line a little
+ * further on. */
+static uint32_t find_hider(const dp_tile *t, const dp_candidate *c, float x, float y, float limit) {
+    hider_search h = {t, c, x, y, limit, INFINITY, (uint32_t)DP_HIDER_UNKNOWN};
+    const uint32_t px = (uint32_t)x, py = (uint32_t)y;
+    if (search_pixel(&h, px, py) || h.least < INFINITY) return h.hider;
+    for (uint32_t qy = py ? py - 1 : 0; qy <= py + 1 && qy < DP_TILE; qy++)
+        for (uint32_t qx = px ? px - 1 : 0; qx <= px + 1 && qx < DP_TILE; qx++)
+            if (search_pixel(&h, qx, qy)) return h.hider;
+    return h.hider;
 }
 
 static uint32_t hider_at(const dp_finder *w, const dp_candidate *c, const run_end *e) {
@@ -249,7 +279,9 @@ static uint32_t hider_at(const dp_finder *w, const dp_candidate *c, const run_en
     const double at_x = (double)x + w->tile.tile_x, at_y = (double)y + w->tile.tile_y;
     if (at_x < 0 || at_y < 0 || at_x >= view->width || at_y >= view->height)
         return (uint32_t)DP_HIDER_PICTURE;
-    return w->lines.streamed ? (uint32_t)DP_HIDER_UNKNOWN : find_hider(&w->tile, c, x, y, limit);
+    /* In another tile the line most often goes on, and the search would find nothing. */
+    if (w->lines.streamed || e->beyond == UINT32_MAX) return (uint32_t)DP_HIDER_UNKNOWN;
+    return find_hider(&w->tile, c, x, y, limit);
 }
 
 static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
