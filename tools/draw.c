@@ -18,6 +18,23 @@ static bool check_ending(const char *path) {
                        output_stem(path), path);
 }
 
+/* Every output has a file of its own, and none is the model. */
+static bool check_outputs(const tool_settings *s) {
+    const char *paths[OUTPUT_COUNT + 2] = {s->model};
+    size_t count = 1;
+    if (s->output) paths[count++] = s->output;
+    for (int k = 0; k < OUTPUT_COUNT; k++)
+        if (s->outputs[k]) paths[count++] = s->outputs[k];
+    for (size_t i = 1; i < count; i++)
+        for (size_t k = 0; k < i; k++) {
+            if (k == 0 && !strcmp(paths[0], "-")) continue; /* standard input */
+            if (!output_same(paths[i], paths[k])) continue;
+            return k ? wrong_usage("two outputs go to %s; name another file", paths[i])
+                     : wrong_usage("%s is the model; name another file for the output", paths[i]);
+        }
+    return true;
+}
+
 typedef struct drawing {
     dp_source *source;
     dp_context *context;
@@ -115,6 +132,7 @@ static int run(const tool_settings *s, drawing *d) {
 int command_draw(const tool_settings *s) {
     const char *const trace = s->outputs[OUTPUT_TRACE];
     if (s->output && !check_ending(s->output)) return EXIT_USAGE;
+    if (!check_outputs(s)) return EXIT_USAGE;
     if (s->output && !output_possible(s->output)) return EXIT_FAILED;
     if (trace && !output_possible(trace)) return EXIT_FAILED;
     drawing d = {0};

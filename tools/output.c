@@ -27,6 +27,12 @@ bool output_has_ending(const char *path, const char *ending) {
     return dot && !strcasecmp(dot, ending);
 }
 
+bool output_same(const char *path, const char *other) {
+    struct stat a, b;
+    if (stat(path, &a) || stat(other, &b)) return !strcmp(path, other);
+    return S_ISREG(a.st_mode) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 int output_stem(const char *path) {
     const char *const dot = strrchr(name_of(path), '.');
     return (int)(dot ? (size_t)(dot - path) : strlen(path));

@@ -10,6 +10,8 @@ bool output_in_place(const char *path);
 bool output_has_ending(const char *path, const char *ending);
 /* Length of the path without its ending. */
 int output_stem(const char *path);
+/* Are both one regular file, or one that does not exist yet under one name? */
+bool output_same(const char *path, const char *other);
 /* Can a file be made there? A message on stderr if not; the writing itself may still fail. */
 bool output_possible(const char *path);
 

@@ -593,6 +593,9 @@ traces_that_fail() {
     wrong shape:cube -o trace= -- 'a file is missing; give trace=FILE'
     wrong shape:cube -o trac=t.txt -o out.png -- 'did you mean trace?'
     wrong shape:cube -o - -o trace=- -- 'standard output'
+    wrong shape:cube -o both.png -o trace=both.png -- 'two outputs go to both.png'
+    run 0 make cube -o model.ply
+    wrong model.ply -o trace=./model.ply -- 'is the model'
     wrong bench shape:cube -o trace=t.txt -- 'does not belong to'
     no_temporary
     [ -w /dev/full ] || return
