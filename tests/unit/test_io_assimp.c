@@ -97,7 +97,8 @@ static void scenes_in_memory_are_those_in_files(void **state) {
     assert_string_equal(trace_memory(&cut, NULL), trace_file(".ac", "AC3Db rubbish\n", NULL));
     const dp_memory_file strange = {.data = "hello\n", .size = 6, .name = "x.xyzzy"};
     assert_contains(trace_memory(&strange, NULL), "not in a known format");
-    const dp_memory_file own = {.data = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", .size = 39};
+    static const char off[] = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const dp_memory_file own = {.data = off, .size = sizeof off - 1};
     assert_string_equal(trace_memory(&own, NULL), "(0 0 0)(1 0 0)(0 1 0)\n");
 }
 
