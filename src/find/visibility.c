@@ -264,7 +264,9 @@ static bool search_pixel(hider_search *h, uint32_t px, uint32_t py) {
  * further on. */
 static uint32_t find_hider(const dp_tile *t, const dp_candidate *c, float x, float y, float limit) {
     hider_search h = {t, c, x, y, limit, INFINITY, (uint32_t)DP_HIDER_UNKNOWN};
-    const uint32_t px = (uint32_t)x, py = (uint32_t)y;
+    /* a point at the far border may be rounded onto it */
+    const uint32_t px = (uint32_t)dp_minf(dp_maxf(x, 0), DP_TILE - 1),
+                   py = (uint32_t)dp_minf(dp_maxf(y, 0), DP_TILE - 1);
     if (search_pixel(&h, px, py) || h.least < INFINITY) return h.hider;
     for (uint32_t qy = py ? py - 1 : 0; qy <= py + 1 && qy < DP_TILE; qy++)
         for (uint32_t qx = px ? px - 1 : 0; qx <= px + 1 && qx < DP_TILE; qx++)

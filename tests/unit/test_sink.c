@@ -1,5 +1,6 @@
 /* Sinks and segments (drypoint/sink.h): the order of calls, what stops them, chains, and what
  * ends a segment, looked at with rays through random triangles. */
+#include "base/hostile.h"
 #include "scene.h"
 
 #include <math.h>
@@ -571,7 +572,8 @@ static void ends_are_what_they_say(void **state) {
         print_message("hidden %zu, known %zu, picture %zu, vertex %zu, crossing %zu\n", t.hidden,
                       t.known, t.picture, t.vertices, t.crossings);
         assert_true(t.hidden > 500 && t.picture > 50 && t.vertices > 500 && t.crossings > 100);
-        assert_true(t.known >= t.hidden - t.hidden / 50);
+        /* not where tiles meet, and hostile ones meet often */
+        assert_true(t.known >= t.hidden - t.hidden / DP_TUNED(50, 20));
     }
 }
 
