@@ -68,6 +68,47 @@ dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t 
     return fold_towards(frame, a, a_as_wound, b, b_as_wound, at, dp_sub(far, at));
 }
 
+/* ------- as the eye sees it ------- */
+
+bool dp_sight_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_sight *sight) {
+    const dp_vec3 along = dp_unit(dp_sub(b, a)), from = dp_view_vector(view, dp_mix(a, b, 0.5)),
+                  right = dp_cross(from, along);
+    sight->along = along, sight->right = dp_unit(right);
+    sight->away = dp_cross(along, sight->right);
+    return dp_length(right) > 1e-9;
+}
+
+dp_beside dp_beside_edge(const dp_frame *frame, const dp_sight *sight, uint32_t polygon,
+                         bool as_wound) {
+    dp_beside out = {.normal = dp_polygon_normal(frame, polygon)};
+    if (!as_wound) out.normal = dp_scale(out.normal, -1);
+    /* A plane through the edge leads to the right along (along × normal). */
+    const double facing = -dp_dot(out.normal, sight->away);
+    out.recedes = dp_dot(out.normal, sight->right) / dp_max(facing, 1e-12);
+    return out;
+}
+
+dp_fold dp_fold_of_sides(const dp_sight *sight, const dp_beside *left, const dp_beside *right) {
+    const dp_vec3 mean = dp_add(left->normal, right->normal);
+    return (dp_fold){left->normal, right->normal,
+                     dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(sight->away, -1),
+                     left->recedes > right->recedes};
+}
+
+/* The angle of two planes whose corners are rounded: that of which it is known that no crease is
+ * so flat. */
+static const double ONE_PLANE = 0.9999995; /* cosine of 0.06 degrees */
+
+bool dp_is_one_plane(const dp_beside *a, const dp_beside *b) {
+    return dp_dot(a->normal, b->normal) > ONE_PLANE;
+}
+
+dp_vec3 dp_outline_normal(const dp_sight *sight, const dp_beside *nearest, const dp_beside *behind,
+                          bool right) {
+    const dp_vec3 mean = dp_sub(nearest->normal, behind->normal);
+    return dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(sight->right, right ? -1 : 1);
+}
+
 double dp_fold_dihedral(const dp_fold *fold) {
     const double sine = dp_length(dp_cross(fold->normal_a, fold->normal_b));
     const double degrees =

@@ -24,6 +24,38 @@ dp_fold dp_fold_between(const dp_frame *frame, dp_vec3 normal_a, dp_vec3 normal_
 dp_fold dp_fold_at(const dp_frame *frame, uint32_t a, bool a_as_wound, uint32_t b, bool b_as_wound,
                    dp_vec3 at);
 
+/* An edge as the eye sees it. The plane through it and the eye parts what lies to its left, seen
+ * along the edge, from what lies to its right. */
+typedef struct dp_sight {
+    dp_vec3 along, right, away; /* unit, each perpendicular to the others; away from the eye */
+} dp_sight;
+
+/* The sight of the edge from a to b (world space). False: it is seen end on. */
+bool dp_sight_make(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_sight *sight);
+
+/* A surface beside an edge: its unit normal, turned to the eye, and how steeply it recedes from the
+ * eye to the right of the edge; to the left it recedes by as much less. */
+typedef struct dp_beside {
+    dp_vec3 normal;
+    double recedes; /* a length along the line of sight over one across it */
+} dp_beside;
+
+/* Of a polygon that does not face the eye `as_wound` the normal is reversed. */
+dp_beside dp_beside_edge(const dp_frame *frame, const dp_sight *sight, uint32_t polygon,
+                         bool as_wound);
+
+/* The fold of the surfaces to the left and to the right of an edge. */
+dp_fold dp_fold_of_sides(const dp_sight *sight, const dp_beside *left, const dp_beside *right);
+
+/* Are the two parts of one plane, as far as float32 coordinates tell? */
+bool dp_is_one_plane(const dp_beside *a, const dp_beside *b);
+
+/* Where an outline's surface ends: the mean of the normal of the nearest surface, which looks to
+ * the eye, and of that of the one furthest behind it on the same side, which looks away. `right`:
+ * they lie to the right. */
+dp_vec3 dp_outline_normal(const dp_sight *sight, const dp_beside *nearest, const dp_beside *behind,
+                          bool right);
+
 /* Degrees: 180 is flat, less is convex (Raskar 2001, 2.2). */
 double dp_fold_dihedral(const dp_fold *fold);
 

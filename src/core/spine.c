@@ -32,3 +32,15 @@ bool dp_spine_ends(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_spine *spine) {
     double t0, t1;
     return place_spine(view, a, b, spine, &t0, &t1);
 }
+
+bool dp_spine_range(const dp_spine *s, double x, double y, double beside, uint32_t *k0,
+                    uint32_t *k1) {
+    double t0 = 0, t1 = 1;
+    dp_cut_range(s->a.x, s->b.x, x - beside, x + DP_TILE + beside, &t0, &t1);
+    dp_cut_range(s->a.y, s->b.y, y - beside, y + DP_TILE + beside, &t0, &t1);
+    if (t0 > t1) return false;
+    const double from = ceil(t0 * s->n - 0.5), to = floor(t1 * s->n - 0.5) + 1;
+    *k0 = from > 0 ? (uint32_t)from : 0;
+    *k1 = to < s->n ? (uint32_t)dp_max(to, 0) : s->n;
+    return *k0 < *k1;
+}

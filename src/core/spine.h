@@ -37,6 +37,25 @@ static inline bool dp_spine_divide(dp_spine *spine) {
     return isfinite(length);
 }
 
+/* The sample points [*k0, *k1) of the spine itself, not lifted, that lie in the tile with corner
+ * (x, y) px, or within `beside` px of it. False: there are none. */
+bool dp_spine_range(const dp_spine *spine, double x, double y, double beside, uint32_t *k0,
+                    uint32_t *k1);
+
+/* Cuts [*t0, *t1] to the part where from + t * (to - from) lies in [lo, hi]; *t1 < *t0 if there is
+ * none. */
+static inline void dp_cut_range(double from, double to, double lo, double hi, double *t0,
+                                double *t1) {
+    const double step = to - from;
+    if (step == 0) {
+        if (from < lo || from > hi) *t1 = -1;
+        return;
+    }
+    const double a = (lo - from) / step, b = (hi - from) / step;
+    *t0 = dp_max(*t0, dp_min(a, b));
+    *t1 = dp_min(*t1, dp_max(a, b));
+}
+
 static inline dp_pointd dp_point_mix(dp_pointd a, dp_pointd b, double t) {
     return (dp_pointd){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.d + (b.d - a.d) * t};
 }

@@ -30,6 +30,6 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
 
 uint32_t dp_shade_valley(const dp_primitive *p, uint32_t edge, const dp_pen *pen,
                          dp_added out[DP_ADDED_MOST]) {
-    if (!p->front || (p->edge_flags && !p->edge_flags[edge])) return 0;
+    if (!p->front || !dp_may_crease(p, edge)) return 0;
     return pen->method == DP_METHOD_PAPER ? paper(p, edge, pen, out) : exact(p, edge, pen, out);
 }

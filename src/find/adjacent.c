@@ -91,13 +91,13 @@ static void add_polygon(dp_finder *w, const dp_tile_polygon *p, bool creases) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
     for (uint32_t i = 0; i < n && !w->tile.failed; i++) {
-        if (polygons->edge_flags && !polygons->edge_flags[first + i]) continue;
+        if (!dp_edge_may_be_line(polygons, first + i)) continue;
         if (!dp_tile_edge_is_near(&w->tile, p, i)) continue;
         const int line = dp_outline_of_edge(w->tile.frame, p->id, first + i);
         if (line >= 0) {
             const shared_edge e = owned(w->tile.frame, p->id, first + i);
             add_outline(w, &e, (dp_line)line);
-        } else if (creases) {
+        } else if (creases && dp_edge_is_flagged(polygons, first + i)) {
             add_crease(w, p->id, first + i);
         }
         w->tile.stats.edges_resolved++;

@@ -94,7 +94,7 @@ void dp_edge_list_polygon(dp_finder *w, uint32_t index) {
         list->polygon[at] = index, list->edge[at] = i;
         list->from[at] = ka, list->key[at] = ka ^ kb;
         list->count +=
-            real && dp_edge_is_flagged(polygons, first + i) && dp_tile_edge_is_near(&w->tile, p, i);
+            real && dp_edge_may_be_line(polygons, first + i) && dp_tile_edge_is_near(&w->tile, p, i);
         ka = kb;
     }
     w->tile.unsure[w->tile.unsure_count] = index;

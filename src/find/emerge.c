@@ -1,15 +1,15 @@
-/* Edges that the table cannot resolve: what lies across them is looked up on the screen.
+/* Edges of which the table does not know everything: what lies beside them is looked up on the
+ * screen.
  *
- *    for each unpaired edge, for each sample point of its spine in or beside the tile
- *        place three lookups: NEAR and FAR px across the edge, NEAR px on its own side
- *    for each polygon, for each lookup in its pixels
- *        if its plane passes through the edge there: keep the nearest that covers the lookup
- *    for each sample point
- *        own side covered by a nearer polygon   no line: that polygon's edge makes it
- *        something found across                 fold: ridge, valley or flat (core/fold.c)
- *        nothing across, something behind       silhouette, unless both face away
- *        nothing at all                         border
- *    runs of points with the same line and neighbour become candidates
+ *    for each such edge, for each sample point of its spine in or beside the tile
+ *        the polygons whose planes pass through it and that cover places NEAR and FAR px to the left
+ *        and to the right of the edge                                          look.inc
+ *        on either side the one that lies nearest to the eye a little way off hides the others
+ *            on both sides, of one plane    no line
+ *            on both sides                  fold: ridge, valley or flat (core/fold.c)
+ *            on one side                    silhouette if several planes meet there, else border
+ *        a polygon that comes earlier in the source has an edge here too       that makes the line
+ *    runs of points with the same line and polygons become candidates
  *
  * An edge with one polygon is a border, or its neighbours share no corner with it: T-junctions,
  * cracks, parts that touch. With (Raskar 2001, 2.2 and 2.3) the added quads tell these apart, as a
@@ -17,35 +17,29 @@
  * quads would lie, and then classified exactly, so folds appear by the same thresholds as
  * elsewhere.
  *
- * Data structure: lookups in linked lists by pixel. Invariant: an edge's lookups are consecutive,
- * LOOKUPS for each sample point. Not handled: cracks wider than FAR px on the screen (they become
- * two borders). */
+ * Data structure: sample points sorted by cell. Invariant: neither winding nor the order of polygons
+ * matters. Not handled: cracks wider than FAR px on the screen (they become two borders). */
 #include "core/fold.h"
 #include "find/finder.h"
+#include "find/kernels.h"
 
 #include <string.h>
 
-/* How far from the edge a neighbour is looked up, px: first close enough to hit the smallest
- * triangle, then far enough to reach across a crack. */
-static const float NEAR = 0.001f, FAR = 0.05f;
+/* px from the edge at which it is compared which polygon lies nearest to the eye. */
+static const float OFF = 0.25f;
 
-/* How far a plane may miss the edge and still pass through it: TOUCHING pixel sizes in depth, and
- * PLACED px on the screen. The latter is the error of float32 corners, which a plane seen nearly
- * edge-on multiplies. */
-static const double TOUCHING = 0.02;
-static const float PLACED = 0.002f;
+/* Pixel sizes there by which a polygon must lie nearer: less is rounding, and of such the first in
+ * the source counts. */
+static const float NEARER = 1e-3f;
 
-enum { LOOKUPS = 3 }; /* near across, far across, near on its own side */
+/* px: an edge of another polygon that runs so near by, … */
+static const double ALONG = 0.06;
+/* … and at an angle with a smaller sine is the same line. */
+static const double PARALLEL = 0.1;
 
-typedef struct dp_lookup {
-    float x, y;       /* where */
-    float ex, ey, ed; /* the point of the edge */
-    float tolerance;  /* of depth, at the point of the edge */
-    uint32_t own;     /* tile polygon to ignore: the edge's own */
-    uint32_t found;   /* nearest tile polygon at (x, y); UINT32_MAX: none */
-    float depth;      /* its depth at (x, y) */
-    uint32_t next;
-} dp_lookup;
+typedef struct dp_lookout {
+    float x, y, d, ox, oy;
+} dp_lookout;
 
 typedef struct emerging {
     dp_unpaired_edge unpaired;
@@ -53,9 +47,17 @@ typedef struct emerging {
     dp_vec3 a, b; /* ends, world space */
     dp_spine spine;
     uint32_t k0, k1; /* sample points [k0, k1) in the tile or right beside it */
-    uint32_t first;  /* index of the first lookup */
+    uint32_t first;  /* number of the first of them */
 } emerging;
 
+void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.unpaired, emergence.unpaired_cap,
+                         w->emergence.unpaired_count + 1u))
+        return;
+    w->emergence.unpaired[w->emergence.unpaired_count++] = (dp_unpaired_edge){polygon, edge};
+}
+
+/* Sample points in and beside the tile are consecutive, as the tile is convex. */
 static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     e->unpaired = unpaired;
@@ -65,135 +67,232 @@ static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
     const uint32_t vb = dp_corner_vertex(polygons, first + (unpaired.edge + 1) % n);
     e->a = dp_v3f(dp_vertex_position(polygons, va));
     e->b = dp_v3f(dp_vertex_position(polygons, vb));
-    return dp_spine_make(&w->tile.frame->view, e->a, e->b, dp_v3(0, 0, 0), &e->spine);
+    return dp_spine_make(&w->tile.frame->view, e->a, e->b, dp_v3(0, 0, 0), &e->spine) &&
+           dp_spine_range(&e->spine, w->tile.tile_x, w->tile.tile_y, (double)DP_BESIDE, &e->k0,
+                          &e->k1);
 }
 
-static dp_pointd edge_point(const dp_finder *w, const dp_spine *s, uint32_t k) {
-    dp_pointd p = dp_point_mix(s->a, s->b, (k + 0.5) / s->n);
-    p.x -= w->tile.tile_x, p.y -= w->tile.tile_y;
-    return p;
+/* ------- placing the sample points ------- */
+
+static uint32_t look_cell(float x, float y) {
+    const uint32_t last = DP_LOOK_CELLS - 1;
+    const uint32_t cx = x <= 0 ? 0 : dp_minf(x / DP_LOOK_CELL, (float)last),
+                   cy = y <= 0 ? 0 : dp_minf(y / DP_LOOK_CELL, (float)last);
+    return cy * DP_LOOK_CELLS + cx;
 }
 
-static bool near_tile(dp_pointd p) {
-    return p.x >= -DP_BESIDE && p.y >= -DP_BESIDE && p.x <= DP_TILE + DP_BESIDE &&
-           p.y <= DP_TILE + DP_BESIDE;
+/* The polygon's own side of its edge, 0 is the left: polygons are wound counter-clockwise as seen
+ * from their front. */
+static int own_side(const dp_finder *w, uint32_t polygon) {
+    return !(w->tile.polygons[polygon].flags & DP_POLYGON_FRONT);
 }
 
-/* Sample points in and beside the tile are consecutive, as the tile is convex. */
-static bool find_range(const dp_finder *w, emerging *e) {
-    e->k0 = 0, e->k1 = e->spine.n;
-    while (e->k0 < e->k1 && !near_tile(edge_point(w, &e->spine, e->k0))) e->k0++;
-    while (e->k0 < e->k1 && !near_tile(edge_point(w, &e->spine, e->k1 - 1))) e->k1--;
-    return e->k0 < e->k1;
-}
-
-/* Unit vector across the edge on the screen, pointing away from the polygon. Polygons are wound
- * counter-clockwise as seen from their front, and the screen's y points down. */
-static void outward(const dp_finder *w, const emerging *e, float out[2]) {
+static bool place_points(dp_finder *w, emerging *e, uint32_t *count) {
+    const size_t need = (size_t)*count + (e->k1 - e->k0);
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.placed, emergence.placed_cap, need) ||
+        !DP_TILE_RESERVE(&w->tile, w, emergence.beheld, emergence.beheld_cap, need))
+        return false;
     const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
                  length = dp_hypot(ex, ey);
-    const double sign = w->tile.polygons[e->unpaired.polygon].flags & DP_POLYGON_FRONT ? 1 : -1;
-    out[0] = length > 0 ? (float)(-ey / length * sign) : 1;
-    out[1] = length > 0 ? (float)(ex / length * sign) : 0;
-}
-
-static bool place_lookups(dp_finder *w, emerging *e, uint32_t *count) {
-    const size_t need = (size_t)*count + (size_t)LOOKUPS * (e->k1 - e->k0);
-    if (!DP_TILE_RESERVE(&w->tile, w, emergence.lookups, emergence.lookups_cap, need)) return false;
-    const float steps[LOOKUPS] = {NEAR, FAR, -NEAR};
-    float out[2];
-    outward(w, e, out);
-    e->first = *count;
+    const float ox = length > 0 ? (float)(-ey / length) : 1,
+                oy = length > 0 ? (float)(ex / length) : 0;
     for (uint32_t k = e->k0; k < e->k1; k++) {
-        const dp_pointd p = edge_point(w, &e->spine, k);
-        const float x = (float)p.x, y = (float)p.y;
-        for (int i = 0; i < LOOKUPS; i++) {
-            dp_lookup *const l = &w->emergence.lookups[*count];
-            *l = (dp_lookup){.x = x + steps[i] * out[0],
-                             .y = y + steps[i] * out[1],
-                             .ex = x,
-                             .ey = y,
-                             .ed = (float)p.d,
-                             .own = e->unpaired.polygon,
-                             .found = UINT32_MAX,
-                             .tolerance =
-                                 (float)fabs(dp_depth_step(&w->tile.frame->view, p.d, TOUCHING))};
-            l->next = dp_pixel_push(&w->emergence.pixels, l->x, l->y, (*count)++);
-        }
+        const dp_pointd p = dp_point_mix(e->spine.a, e->spine.b, (k + 0.5) / e->spine.n);
+        w->emergence.beheld[*count] = (dp_beheld){.own = e->unpaired.polygon,
+                                                  .nearest = {UINT32_MAX, UINT32_MAX},
+                                                  .furthest = {UINT32_MAX, UINT32_MAX},
+                                                  .far = {UINT32_MAX, UINT32_MAX}};
+        w->emergence.placed[(*count)++] =
+            (dp_lookout){(float)(p.x - w->tile.tile_x), (float)(p.y - w->tile.tile_y), (float)p.d,
+                         ox, oy};
     }
     return true;
 }
 
-static void do_lookups_in_pixel(dp_finder *w, uint32_t index, uint32_t head) {
+static bool reserve_lookouts(dp_finder *w, uint32_t count) {
+    const size_t room = (size_t)count + DP_LOOK_ROOM;
+    return DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.x, emergence.lookouts.x_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.y, emergence.lookouts.y_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.d, emergence.lookouts.d_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.ox, emergence.lookouts.ox_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.oy, emergence.lookouts.oy_cap, room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.step, emergence.lookouts.step_cap,
+                           room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.point, emergence.lookouts.point_cap,
+                           room);
+}
+
+/* Marks the cells of DP_CELL px in and around which points lie, then blocks of these. */
+static void mark_cells(dp_finder *w, uint32_t count) {
+    dp_lookouts *const out = &w->emergence.lookouts;
+    const uint32_t all = DP_CELLS * DP_CELLS;
+    memset(out->there, 0, sizeof out->there);
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++) {
+            const float reach = 2 * DP_LOOK_FAR,
+                        x = w->emergence.placed[i].x + (k & 1 ? reach : -reach),
+                        y = w->emergence.placed[i].y + (k & 2 ? reach : -reach);
+            const uint32_t cell = look_cell(x, y), times = DP_CELL / DP_LOOK_CELL;
+            out->there[0][0][cell / DP_LOOK_CELLS / times * DP_CELLS +
+                             cell % DP_LOOK_CELLS / times] = 1;
+        }
+    for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
+        for (uint32_t i = 0; i < all; i++)
+            out->there[0][s][i] = out->there[0][s - 1][i] | out->there[0][0][i + s];
+    for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
+        for (uint32_t k = 0; k < DP_CELL_SPANS; k++)
+            for (uint32_t i = 0; i < all; i++)
+                out->there[s][k][i] =
+                    out->there[s - 1][k][i] | out->there[0][k][i + s * DP_CELLS];
+}
+
+/* Sorts the points by cell (counting sort). */
+static bool sort_points(dp_finder *w, uint32_t count) {
+    dp_lookouts *const out = &w->emergence.lookouts;
+    const dp_lookout *const placed = w->emergence.placed;
+    uint32_t sum = 0;
+    if (!reserve_lookouts(w, count)) return false;
+    memset(out->first, 0, sizeof out->first);
+    for (uint32_t i = 0; i < count; i++) out->first[look_cell(placed[i].x, placed[i].y)]++;
+    for (uint32_t i = 0; i < DP_LOOK_CELLS * DP_LOOK_CELLS; i++)
+        out->first[i] = sum += out->first[i];
+    out->first[DP_LOOK_CELLS * DP_LOOK_CELLS] = sum;
+    for (uint32_t i = count; i-- > 0;) {
+        const dp_lookout *const p = &placed[i];
+        const uint32_t at = --out->first[look_cell(p->x, p->y)];
+        out->x[at] = p->x, out->y[at] = p->y, out->d[at] = p->d;
+        out->ox[at] = p->ox, out->oy[at] = p->oy;
+        out->step[at] = fabsf(dp_depth_steps(w->tile.frame, p->d, DP_TOUCHING));
+        out->point[at] = i;
+    }
+    mark_cells(w, count);
+    return true;
+}
+
+/* ------- what is found ------- */
+
+/* Does the polygon run an edge that bounds it along this point? */
+static bool has_edge_along(const dp_finder *w, const dp_tile_polygon *p, const dp_lookout *at) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    const dp_vertex *const v = w->tile.points + p->point;
+    if (p->flags & DP_POLYGON_CLIPPED) return false;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
+        const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
+        const double away = ex * ((double)at->y - a.y) - ey * ((double)at->x - a.x);
+        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= ALONG * length &&
+            dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
+            return true;
+    }
+    return false;
+}
+
+/* Keeps the polygon if it lies nearer at a side than what is there. */
+static void keep_nearest(const dp_finder *w, uint32_t *nearest, float *nearest_d, uint32_t index,
+                         float d, float rounding) {
+    const bool is_first = *nearest != UINT32_MAX &&
+                          w->tile.polygons[index].id < w->tile.polygons[*nearest].id;
+    if (*nearest != UINT32_MAX && !(d > *nearest_d + rounding) &&
+        !(is_first && d >= *nearest_d - rounding))
+        return;
+    *nearest = index, *nearest_d = d;
+}
+
+static void keep_furthest(dp_beheld *b, int side, uint32_t index, float d) {
+    if (b->furthest[side] != UINT32_MAX && !(d < b->furthest_d[side])) return;
+    b->furthest[side] = index, b->furthest_d[side] = d;
+}
+
+static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides) {
+    dp_beheld *const b = &w->emergence.beheld[point];
+    const dp_lookout *const at = &w->emergence.placed[point];
     const dp_tile_polygon *const p = &w->tile.polygons[index];
-    const float slope = PLACED * (fabsf(p->dx) + fabsf(p->dy));
-    for (uint32_t i = head; i != UINT32_MAX; i = w->emergence.lookups[i].next) {
-        dp_lookup *const l = &w->emergence.lookups[i];
-        if (l->own == index || fabsf(dp_plane_at(p, l->ex, l->ey) - l->ed) > l->tolerance + slope)
-            continue;
-        const float depth = dp_plane_at(p, l->x, l->y);
-        if (l->found != UINT32_MAX && l->depth >= depth) continue;
-        if (dp_tile_covers(&w->tile, p, l->x, l->y)) l->found = index, l->depth = depth;
+    const float gap = dp_plane_at(p, at->x, at->y) - at->d, slope = p->dx * at->ox + p->dy * at->oy,
+                rounding = fabsf(dp_depth_steps(w->tile.frame, at->d, NEARER));
+    for (int side = 0; side < 2; side++) {
+        const float d = gap + OFF * (side ? slope : -slope);
+        if (sides >> side & 1) {
+            keep_nearest(w, &b->nearest[side], &b->nearest_d[side], index, d, rounding);
+            keep_furthest(b, side, index, d);
+        } else if (sides >> (side + 2) & 1) {
+            keep_nearest(w, &b->far[side], &b->far_d[side], index, d, rounding);
+        }
+    }
+    if (b->outranked || p->id >= w->tile.polygons[b->own].id) return;
+    const uint32_t near = sides & 3, far = sides >> 2;
+    if (near == 3 || (!near && far == 3)) return;
+    b->outranked = has_edge_along(w, p, at);
+}
+
+void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
+    behold(w, w->emergence.lookouts.point[lookout], index, sides);
+}
+
+/* An edge's own polygon lies on its own side, even where it is too thin to cover a place there. */
+static void behold_own(dp_finder *w, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t own = w->emergence.beheld[i].own;
+        if (!(w->tile.polygons[own].flags & DP_POLYGON_EDGE_ON))
+            behold(w, i, own, own_side(w, own) ? DP_LOOK_RIGHT : DP_LOOK_LEFT);
     }
 }
 
-static void do_lookups(dp_finder *w) {
-    for (uint32_t i = 0; i < w->tile.polygon_count; i++) {
-        const dp_tile_polygon *const p = &w->tile.polygons[i];
-        if (p->flags & DP_POLYGON_EDGE_ON) continue;
-        const uint64_t span = dp_box_span(p);
-        for (uint32_t y = p->y0; y <= p->y1; y++)
-            for (uint64_t bits = w->emergence.pixels.row[y] & span; bits; bits &= bits - 1)
-                do_lookups_in_pixel(
-                    w, i, w->emergence.pixels.head[y * DP_TILE + (uint32_t)__builtin_ctzll(bits)]);
-    }
-}
+/* ------- what it means ------- */
 
 /* What a sample point turned out to be. */
 typedef struct finding {
     int line;           /* dp_line, or -1: no line */
-    uint32_t neighbour; /* tile polygon, or UINT32_MAX */
+    uint32_t neighbour; /* tile polygon that does not hide the line either, or UINT32_MAX */
     dp_vec3 normal;
 } finding;
 
-static finding outline_finding(const dp_finder *w, const emerging *e, uint32_t behind) {
-    const dp_vec3 n = dp_polygon_normal(w->tile.frame, e->id);
-    const bool front = w->tile.polygons[e->unpaired.polygon].flags & DP_POLYGON_FRONT;
-    return (finding){behind == UINT32_MAX ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, behind,
-                     front ? n : dp_scale(n, -1)};
+static const finding NOTHING = {-1, UINT32_MAX, {0, 0, 0}};
+
+static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t polygon) {
+    const dp_tile_polygon *const p = &w->tile.polygons[polygon];
+    return dp_beside_edge(w->tile.frame, sight, p->id, p->flags & DP_POLYGON_FRONT);
 }
 
-static finding fold_finding(const dp_finder *w, const emerging *e, uint32_t across) {
-    const dp_tile_polygon *const p = &w->tile.polygons[e->unpaired.polygon];
-    const dp_tile_polygon *const q = &w->tile.polygons[across];
-    finding f = {-1, across, {0, 0, 0}};
-    if (!((p->flags | q->flags) & DP_POLYGON_FRONT)) return f;
-    const dp_vec3 at = dp_mix(e->a, e->b, 0.5);
-    const dp_fold fold = dp_fold_at(w->tile.frame, p->id, p->flags & DP_POLYGON_FRONT, q->id,
-                                    q->flags & DP_POLYGON_FRONT, at);
-    f.line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, p->id));
-    f.normal = fold.normal;
-    return f;
+static finding outline_finding(const dp_finder *w, const dp_beheld *b, const dp_sight *sight,
+                               int side) {
+    const uint32_t nearest = b->nearest[side], furthest = b->furthest[side];
+    const dp_beside near = beside(w, sight, nearest), far = beside(w, sight, furthest);
+    if (dp_is_one_plane(&near, &far))
+        return (finding){DP_LINE_BORDER, nearest == b->own ? UINT32_MAX : nearest, near.normal};
+    return (finding){DP_LINE_SILHOUETTE, nearest == b->own ? furthest : nearest,
+                     dp_outline_normal(sight, &near, &far, side)};
+}
+
+static finding fold_finding(const dp_finder *w, const emerging *e, const dp_beheld *b,
+                            const dp_sight *sight, const uint32_t sides[2]) {
+    const dp_beside left = beside(w, sight, sides[0]), right = beside(w, sight, sides[1]);
+    const dp_fold fold = dp_fold_of_sides(sight, &left, &right);
+    return (finding){dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id)),
+                     sides[0] == b->own ? sides[1] : sides[0], fold.normal};
+}
+
+/* A polygon seen edge-on, and nothing else: a sheet of which both borders are one line. */
+static finding edge_on_finding(const dp_finder *w, const emerging *e) {
+    const dp_vec3 n = dp_polygon_normal(w->tile.frame, e->id);
+    return (finding){DP_LINE_BORDER, UINT32_MAX, n};
 }
 
 /* Near its ends, polygons that only share a corner with the edge come within FAR of it. */
 static bool is_near_end(const emerging *e, uint32_t k) { return k < 2 || k + 2 >= e->spine.n; }
 
-static finding judge(const dp_finder *w, const emerging *e, uint32_t k) {
-    const dp_lookup *const l = w->emergence.lookups + e->first + (size_t)LOOKUPS * (k - e->k0);
-    const uint32_t far = is_near_end(e, k) ? UINT32_MAX : l[1].found, behind = l[2].found;
-    const uint32_t across = l[0].found != UINT32_MAX ? l[0].found : far;
-    const dp_tile_polygon *const p = &w->tile.polygons[e->unpaired.polygon];
-    const dp_lookup *const own = &l[2];
-    const bool covered =
-        behind != UINT32_MAX && own->depth > dp_plane_at(p, own->x, own->y) + own->tolerance;
-    if (covered) return (finding){-1, behind, {0, 0, 0}}; /* a nearer polygon has this edge too */
-    if (across == UINT32_MAX) {
-        const bool both_back = behind != UINT32_MAX &&
-                               !((p->flags | w->tile.polygons[behind].flags) & DP_POLYGON_FRONT);
-        return both_back ? (finding){-1, behind, {0, 0, 0}} : outline_finding(w, e, behind);
+static finding judge(const dp_finder *w, const emerging *e, const dp_sight *sight, uint32_t k) {
+    const dp_beheld *const b = &w->emergence.beheld[e->first + (k - e->k0)];
+    uint32_t sides[2];
+    for (int i = 0; i < 2; i++) {
+        sides[i] = b->nearest[i];
+        if (sides[i] == UINT32_MAX && !is_near_end(e, k)) sides[i] = b->far[i];
     }
-    return fold_finding(w, e, across);
+    if (b->outranked || (sides[0] == sides[1] && sides[0] != UINT32_MAX)) return NOTHING;
+    if (sides[0] != UINT32_MAX && sides[1] != UINT32_MAX)
+        return fold_finding(w, e, b, sight, sides);
+    if (b->nearest[0] != UINT32_MAX) return outline_finding(w, b, sight, 0);
+    if (b->nearest[1] != UINT32_MAX) return outline_finding(w, b, sight, 1);
+    return sides[0] == sides[1] ? edge_on_finding(w, e) : NOTHING;
 }
 
 static void add_run(dp_finder *w, const emerging *e, finding f, uint32_t k0, uint32_t k1) {
@@ -213,7 +312,7 @@ static void add_run(dp_finder *w, const emerging *e, finding f, uint32_t k0, uin
 }
 
 static bool is_same(const finding *a, const finding *b) {
-    return a->line == b->line && a->neighbour == b->neighbour;
+    return a->line == b->line && (a->line < 0 || a->neighbour == b->neighbour);
 }
 
 /* A single sample point that differs from two neighbours that agree, or from its neighbour at the
@@ -229,12 +328,14 @@ static finding settle(const emerging *e, uint32_t k, const finding *before, cons
 
 /* Adds a candidate for each run of sample points with the same line and neighbour. */
 static void add_lines(dp_finder *w, const emerging *e) {
-    finding last = {-1, UINT32_MAX, {0, 0, 0}}, before, here = judge(w, e, e->k0), after = here;
+    dp_sight sight;
+    if (!dp_sight_make(&w->tile.frame->view, e->a, e->b, &sight)) return;
+    finding last = NOTHING, before, here = judge(w, e, &sight, e->k0), after = here;
     uint32_t start = e->k0;
     for (uint32_t k = e->k0; k < e->k1 && !w->tile.failed; k++) {
         before = k > e->k0 ? here : after;
         here = k > e->k0 ? after : here;
-        after = k + 1 < e->k1 ? judge(w, e, k + 1) : here;
+        after = k + 1 < e->k1 ? judge(w, e, &sight, k + 1) : here;
         const finding f = settle(e, k, &before, &here, &after);
         if (is_same(&f, &last)) continue;
         add_run(w, e, last, start, k);
@@ -248,18 +349,16 @@ void dp_find_emergent(dp_finder *w) {
     uint32_t count = 0;
     emerging e;
     if (!w->emergence.unpaired_count) return;
-    memset(w->emergence.pixels.row, 0, sizeof w->emergence.pixels.row);
     for (uint32_t i = 0; i < w->emergence.unpaired_count; i++)
-        if (begin_edge(w, w->emergence.unpaired[i], &e) && find_range(w, &e) &&
-            !place_lookups(w, &e, &count))
-            return;
-    if (!count) return;
-    do_lookups(w);
+        if (begin_edge(w, w->emergence.unpaired[i], &e) && !place_points(w, &e, &count)) return;
+    if (!count || !sort_points(w, count)) return;
+    behold_own(w, count);
+    dp_find_kernels_for(w->tile.frame->lanes)->look(w);
     count = 0;
     for (uint32_t i = 0; i < w->emergence.unpaired_count && !w->tile.failed; i++) {
-        if (!begin_edge(w, w->emergence.unpaired[i], &e) || !find_range(w, &e)) continue;
+        if (!begin_edge(w, w->emergence.unpaired[i], &e)) continue;
         e.first = count;
-        count += LOOKUPS * (e.k1 - e.k0);
+        count += e.k1 - e.k0;
         w->tile.stats.edges_emergent++;
         add_lines(w, &e);
     }
@@ -268,7 +367,15 @@ void dp_find_emergent(dp_finder *w) {
 /* ------- memory ------- */
 
 static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap),
-                                  DP_ARRAY(dp_emergence, lookups, lookups_cap)};
+                                  DP_ARRAY(dp_emergence, placed, placed_cap),
+                                  DP_ARRAY(dp_emergence, beheld, beheld_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.x, lookouts.x_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.y, lookouts.y_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.d, lookouts.d_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.ox, lookouts.ox_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.oy, lookouts.oy_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.step, lookouts.step_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.point, lookouts.point_cap)};
 
 void dp_emergence_free(dp_emergence *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));

@@ -1,41 +1,72 @@
-/* Edges that the table leaves over, and which lookups fall into which pixel (emerge.c). */
+/* Edges that the table leaves over, and what is looked for beside them (emerge.c, look.inc). */
 #ifndef DP_FIND_EMERGENCE_H
 #define DP_FIND_EMERGENCE_H
 
-#include "core/frame.h"
+#include "find/visibility.h"
+#include "raster/tile.h"
 
-/* Linked lists of points, one for each pixel of the tile. */
-typedef struct dp_pixel_lists {
-    uint64_t row[DP_TILE];            /* pixels with a list */
-    uint32_t head[DP_TILE * DP_TILE]; /* first of a pixel's list; valid where `row` has its bit */
-} dp_pixel_lists;
-
-/* An edge with one polygon, which the table leaves over. */
+/* An edge of which the table does not know everything. */
 typedef struct dp_unpaired_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
 } dp_unpaired_edge;
 
+/* How far from the edge a polygon is looked for, px: first close enough to hit the smallest
+ * triangle, then far enough to reach across a crack. */
+#define DP_LOOK_NEAR 0.002f
+#define DP_LOOK_FAR  0.05f
+
+/* Pixel sizes: a plane that misses a point of an edge by no more, measured across the plane, passes
+ * through it. Far less than is seen, more than the rounding of corners makes. */
+#define DP_TOUCHING 0.02f
+
+/* The depth by which polygon p's plane may miss a point at depth d. */
+static inline float dp_touching(const dp_tile *w, const dp_tile_polygon *p, float d) {
+    return DP_TOUCHING * (dp_depth_steps(w->frame, d, 1) + fabsf(p->dx) + fabsf(p->dy));
+}
+
+/* Sample points of edges beside which polygons are looked for, sorted by the cell that they lie in;
+ * arrays with room for one vector beyond the last. */
+enum { DP_LOOK_CELL = 2 /* px */, DP_LOOK_CELLS = DP_TILE / DP_LOOK_CELL };
+typedef struct dp_lookouts {
+    float *x, *y, *d; /* px, tile space; depth */
+    float *ox, *oy;   /* px: unit vector to the right of the edge on the screen */
+    float *step;      /* depth of DP_TOUCHING pixel sizes */
+    uint32_t *point;  /* its number, in the order of edges */
+    size_t x_cap, y_cap, d_cap, ox_cap, oy_cap, step_cap, point_cap;
+    uint32_t first[DP_LOOK_CELLS * DP_LOOK_CELLS + 1]; /* by cell: its first point */
+    /* By blocks of cells of DP_CELL px, as dp_cell_bits: do they hold points? */
+    uint32_t there[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM];
+} dp_lookouts;
+
+enum { DP_LOOK_ROOM = 16 };
+
+/* What has been found at one sample point. Tile polygons; UINT32_MAX: none. Index 0: to the left of
+ * the edge, 1: to the right. */
+typedef struct dp_beheld {
+    uint32_t own;                       /* the edge's polygon */
+    uint32_t nearest[2], furthest[2];   /* of those that reach the edge */
+    uint32_t far[2];                    /* the nearest of those only within DP_LOOK_FAR of it */
+    float nearest_d[2], furthest_d[2], far_d[2]; /* how near they lie a little way off */
+    bool outranked; /* a polygon that comes earlier in the source has an edge here too */
+} dp_beheld;
+
 typedef struct dp_emergence {
-    dp_pixel_lists pixels;
+    dp_lookouts lookouts;
     dp_unpaired_edge *unpaired;
-    struct dp_lookup *lookups; /* emerge.c */
-    size_t unpaired_cap, lookups_cap;
+    struct dp_lookout *placed; /* emerge.c */
+    dp_beheld *beheld;         /* by point */
+    size_t unpaired_cap, placed_cap, beheld_cap;
     uint32_t unpaired_count;
 } dp_emergence;
 
 void dp_emergence_free(dp_emergence *emergence, const dp_allocator *memory);
 uint64_t dp_emergence_bytes(const dp_emergence *emergence);
 
-/* Puts item `index` first into the list of the pixel that holds (x, y), clamped to the tile.
- * Returns the item that was first before, or UINT32_MAX. */
-static inline uint32_t dp_pixel_push(dp_pixel_lists *lists, float x, float y, uint32_t index) {
-    const uint32_t px = x <= 0 ? 0 : x >= DP_TILE ? DP_TILE - 1 : (uint32_t)x;
-    const uint32_t py = y <= 0 ? 0 : y >= DP_TILE ? DP_TILE - 1 : (uint32_t)y;
-    uint32_t *const head = &lists->head[py * DP_TILE + px];
-    const uint32_t next = lists->row[py] >> px & 1 ? *head : UINT32_MAX;
-    lists->row[py] |= (uint64_t)1 << px;
-    *head = index;
-    return next;
-}
+struct dp_finder;
+
+/* Tells point `point` that tile polygon `index`, whose plane passes through it with `gap` towards
+ * the eye, covers what lies to its left and right: bits DP_LOOK_… (emerge.c). */
+enum { DP_LOOK_LEFT = 1, DP_LOOK_RIGHT = 2, DP_LOOK_FAR_LEFT = 4, DP_LOOK_FAR_RIGHT = 8 };
+void dp_behold(struct dp_finder *finder, uint32_t lookout, uint32_t index, uint32_t sides);
 
 #endif

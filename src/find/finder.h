@@ -42,13 +42,10 @@ void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visib
 void dp_add_candidate(dp_finder *finder, dp_candidate candidate, const dp_spine *spine,
                       const dp_vec3 normals[2]);
 
+/* Leaves the edge of a tile polygon that starts at this corner to emerge. */
+void dp_leave_to_emerge(dp_finder *finder, uint32_t polygon, uint32_t edge);
+
 /* Appends a polygon's half-edges to the list, which has room for them (edge_table.c). */
 void dp_edge_list_polygon(dp_finder *finder, uint32_t polygon);
-
-/* Does the edge that starts at this corner bound the polygon? False: it only splits a larger
- * one. */
-static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t c) {
-    return !polygons->edge_flags || polygons->edge_flags[c];
-}
 
 #endif

@@ -13,6 +13,7 @@
 #include "find/folds.inc"
 #include "find/points.inc"
 #include "find/meet.inc"
+#include "find/look.inc"
 #include "find/hide.inc"
 
 const dp_find_kernels DP_KERNEL_TABLE(dp_find_kernels) = {
@@ -24,5 +25,6 @@ const dp_find_kernels DP_KERNEL_TABLE(dp_find_kernels) = {
     .show_backs = show_backs,
     .come_near = come_near,
     .meet = meet,
+    .look = look,
     .hide = hide,
 };

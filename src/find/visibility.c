@@ -29,18 +29,6 @@ static bool owned(const dp_finder *w, dp_pointd p) {
            p.y < w->tile.frame->view.height;
 }
 
-/* Cuts [*t0, *t1] to the part where from + t * (to - from) lies in [lo, hi]. */
-static void cut(double from, double to, double lo, double hi, double *t0, double *t1) {
-    const double step = to - from;
-    if (step == 0) {
-        if (from < lo || from > hi) *t1 = -1;
-        return;
-    }
-    const double a = (lo - from) / step, b = (hi - from) / step;
-    *t0 = dp_max(*t0, dp_min(a, b));
-    *t1 = dp_min(*t1, dp_max(a, b));
-}
-
 static dp_pointd probe_point(const dp_spine *s, uint32_t k) {
     return dp_point_mix(s->probe_a, s->probe_b, (k + 0.5) / s->n);
 }
@@ -59,8 +47,8 @@ static bool well_inside(const dp_finder *w, dp_pointd p) {
 static bool find_range(const dp_finder *w, const dp_spine *s, uint32_t *k0, uint32_t *k1) {
     if (well_inside(w, s->probe_a) && well_inside(w, s->probe_b)) return *k0 < *k1;
     double t0 = 0, t1 = 1;
-    cut(s->probe_a.x, s->probe_b.x, w->tile.tile_x, w->tile.tile_x + DP_TILE, &t0, &t1);
-    cut(s->probe_a.y, s->probe_b.y, w->tile.tile_y, w->tile.tile_y + DP_TILE, &t0, &t1);
+    dp_cut_range(s->probe_a.x, s->probe_b.x, w->tile.tile_x, w->tile.tile_x + DP_TILE, &t0, &t1);
+    dp_cut_range(s->probe_a.y, s->probe_b.y, w->tile.tile_y, w->tile.tile_y + DP_TILE, &t0, &t1);
     if (t0 > t1) return false;
     const double lo = t0 * s->n - 1.5, hi = t1 * s->n + 2.5;
     if (lo > *k0) *k0 = (uint32_t)lo;

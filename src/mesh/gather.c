@@ -127,18 +127,18 @@ static void begin_polygon(gatherer *g, const dp_batch *batch, size_t i) {
 }
 
 static void add_corner(gatherer *g, uint32_t base, const dp_batch *batch, size_t corner,
-                       bool flag) {
+                       uint8_t flag) {
     dp_polygon_store *const s = g->store;
     const uint32_t vertex = batch_vertex(batch, corner);
     s->corners[s->corner_count] = vertex < batch->vertex_count ? base + vertex : UINT32_MAX;
     s->edge_flags[s->corner_count] = flag;
-    if (!flag) g->has_flags = true;
+    if (flag != 1) g->has_flags = true;
     dp_attribute_add_corner(&s->normals, &batch->normals, corner, vertex, s->corner_count);
     dp_attribute_add_corner(&s->texcoords, &batch->texcoords, corner, vertex, s->corner_count);
     s->corner_count++;
 }
 
-static bool flag_of(const dp_batch *batch, size_t corner) {
+static uint8_t flag_of(const dp_batch *batch, size_t corner) {
     return !batch->edge_flags || batch->edge_flags[corner];
 }
 
@@ -163,7 +163,8 @@ static dp_result append_split(gatherer *g, const dp_batch *batch, size_t i, size
             const uint32_t from = g->store->scratch.triangles[t][k],
                            to = g->store->scratch.triangles[t][(k + 1) % 3];
             const bool outline = to == (from + 1) % n;
-            add_corner(g, base, batch, first + from, outline && flag_of(batch, first + from));
+            add_corner(g, base, batch, first + from,
+                       outline ? flag_of(batch, first + from) : DP_EDGE_DIAGONAL);
         }
     }
     return DP_OK;
@@ -229,6 +230,7 @@ static void use_store(const gatherer *g, dp_polygons *out) {
                          .corners = s->corners,
                          .firsts = g->has_firsts ? s->firsts : NULL,
                          .edge_flags = g->has_flags ? s->edge_flags : NULL,
+                         .has_diagonals = g->has_flags,
                          .source_polygon = g->has_source ? s->source_polygon : NULL,
                          .groups = g->has_groups ? s->groups : NULL,
                          .normals = dp_attribute_of_store(&s->normals, 3),

@@ -16,11 +16,16 @@ typedef struct dp_polygons {
     const uint32_t *corners;        /* [corners] vertex; NULL: corner c is vertex c */
     const uint32_t *firsts;         /* [count + 1] corner; NULL: triangles */
     const uint8_t *edge_flags;      /* [corners] as in dp_batch; or NULL */
+    bool has_diagonals;             /* an edge flag may be DP_EDGE_DIAGONAL */
     const uint32_t *source_polygon; /* [count] its number in the source; NULL: the same */
     const uint16_t *groups;         /* [count]; NULL: all group 0 */
     dp_attribute normals, texcoords;
     uint32_t count;
 } dp_polygons;
+
+/* Flag of an edge that splits a polygon. Where that is not plane it may be an outline; it is no
+ * crease. */
+enum { DP_EDGE_DIAGONAL = 2 };
 
 /* Scratch for splitting one polygon; as large as the largest so far. */
 typedef struct dp_split_scratch {
@@ -71,6 +76,16 @@ static inline uint32_t dp_corner_count(const dp_polygons *polygons, uint32_t pol
 }
 static inline uint32_t dp_corner_vertex(const dp_polygons *polygons, uint32_t corner) {
     return polygons->corners ? polygons->corners[corner] : corner;
+}
+
+/* May the edge that starts at this corner be a line? Does it bound the polygon? If not, it may
+ * still be an outline. */
+static inline bool dp_edge_may_be_line(const dp_polygons *polygons, uint32_t corner) {
+    return !polygons->edge_flags || polygons->edge_flags[corner];
+}
+static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t corner) {
+    return dp_edge_may_be_line(polygons, corner) &&
+           !(polygons->has_diagonals && polygons->edge_flags[corner] == DP_EDGE_DIAGONAL);
 }
 
 /* Polygons are not visited in memory order: these prefetch the vertex numbers of a polygon's first

@@ -179,6 +179,7 @@ static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
                           .world = w->world,
                           .clip = w->clip,
                           .edge_flags = polygons->edge_flags ? polygons->edge_flags + first : NULL,
+                          .has_diagonals = polygons->has_diagonals,
                           .normal = dp_polygon_normal(w->tile->frame, p->id),
                           .front = p->flags & DP_POLYGON_FRONT};
     dp_screen_edges_make(out, w->screen_edges);

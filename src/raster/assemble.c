@@ -158,6 +158,7 @@ void dp_tile_assemble(dp_tile *w) {
     if (w->frame->polygons.firsts) {
         for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);
         w->undrawn = w->polygon_count;
+        w->won = 0;
         dp_tile_find_farthest(w);
         return;
     }
@@ -165,6 +166,7 @@ void dp_tile_assemble(dp_tile *w) {
     if (!DP_TILE_RESERVE(w, w, keys, keys_cap, 3 * (size_t)w->keys_stride)) return;
     kernels->assemble(w, w->ids, count, false);
     w->undrawn = w->polygon_count;
+    w->won = 0;
     dp_tile_find_farthest(w);
     if (w->frame->culls_backs) back_count = kernels->cull(w, w->backs, back_count);
     kernels->assemble(w, w->backs, back_count, draws_backs(w->frame));

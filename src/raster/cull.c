@@ -111,12 +111,22 @@ bool dp_tile_see(dp_tile *w, bool culling) {
     return true;
 }
 
+/* Does the polygon reach the tile's border? The strip around the tile knows triangles only. */
+static bool may_lie_beside(const dp_tile *w, const dp_tile_polygon *p) {
+    const uint32_t last = DP_TILE - 1;
+    return w->frame->polygons.firsts && (!p->x0 || !p->y0 || p->x1 == last || p->y1 == last);
+}
+
 void dp_tile_faces(dp_tile *w) {
+    bool beside = false;
     if (!dp_tile_see(w, true)) return;
     for (uint32_t i = 0; i < w->seen_count && w->seen[i] < w->undrawn; i++) {
         const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
-        if (!(p->flags & DP_POLYGON_FRONT) && dp_is_surface(w, p))
+        if (p->flags & (DP_POLYGON_FRONT | DP_POLYGON_EDGE_ON)) continue;
+        beside |= may_lie_beside(w, p);
+        if (dp_is_surface(w, p))
             dp_raster_kernels_for(w->frame->lanes)->raster(w, p, w->seen[i]);
     }
+    w->sees_backs = w->won || beside;
     dp_tile_test_near_depth(w);
 }

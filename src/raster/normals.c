@@ -22,3 +22,13 @@ bool dp_tile_exact_normals(dp_tile *w) {
     }
     return true;
 }
+
+void dp_tile_turn_normals(dp_tile *w) {
+    for (uint32_t i = 0; i < w->seen_count; i++) {
+        const uint32_t index = w->seen[i];
+        if (w->polygons[index].flags & (DP_POLYGON_FRONT | DP_POLYGON_EDGE_ON)) continue;
+        dp_tile_exact_normal(w, index);
+        float *const n = w->normals[index];
+        n[0] = -n[0], n[1] = -n[1], n[2] = -n[2], n[3] = DP_TURNED;
+    }
+}

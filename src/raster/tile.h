@@ -42,9 +42,12 @@ typedef struct dp_tile_polygon {
 
 _Static_assert(sizeof(dp_tile_polygon) == 32, "raster/assemble.inc writes it as two vectors");
 
-/* normals[i][3] of a back face, and its whole normal. */
+/* normals[i][3] of a back face, and its whole normal, where no back face is seen. */
 #define DP_AWAY 2
 static const float dp_away[4] = {0, 0, 0, DP_AWAY};
+
+/* normals[i][3] of a back face in a tile where some are seen: its normal is turned to the eye. */
+#define DP_TURNED 1
 
 /* normals[i][3] of a front face whose normal is unsure. Rough: right to DP_ROUGH_ANGLE, enough to
  * tell that a vertex is flat; to be made again if one of its edges is listed. Unknown: not made
@@ -112,7 +115,8 @@ typedef struct dp_tile {
     dp_tile_polygon *polygons;
     bool finds_edges;         /* by the edge table: normals are wanted */
     float plane_normal[3][3]; /* turns a plane's d0 (orthographic: -1), dx, dy into its normal */
-    float (*normals)[4];      /* by polygon: x, y, z; and 0, DP_AWAY, DP_ROUGH or DP_UNKNOWN */
+    float (*normals)[4];      /* by polygon: x, y, z; and 0, DP_TURNED, DP_AWAY, DP_ROUGH or
+                                 DP_UNKNOWN */
     uint32_t *unsure;         /* front faces whose normals are to be made */
     dp_vertex *points;        /* tile space; key: of the corner's position, unless the polygon is
                             clipped */
@@ -121,6 +125,8 @@ typedef struct dp_tile {
     uint32_t *seen_words;     /* see dp_seen_words */
     size_t winner_cap, ids_cap, backs_cap, polygons_cap, normals_cap, unsure_cap, points_cap,
         keys_cap, seen_cap, seen_words_cap;
+    uint32_t won;     /* not 0: a sample was won since it was last set to 0 */
+    bool sees_backs;  /* some back face is seen, in the tile or in the strip around it */
     uint32_t undrawn; /* back faces among this many first polygons are not drawn yet */
     uint32_t keys_stride, seen_stride;
     uint32_t polygon_count, point_count, seen_count, unsure_count;
@@ -190,6 +196,9 @@ static inline bool dp_tile_edge_is_near(const dp_tile *w, const dp_tile_polygon 
  * (normals.c). */
 void dp_tile_exact_normal(dp_tile *tile, uint32_t polygon);
 bool dp_tile_exact_normals(dp_tile *tile);
+
+/* Make the normals of seen back faces, turned to the eye (normals.c). */
+void dp_tile_turn_normals(dp_tile *tile);
 
 /* Makes triangle `index` again in the general way. Draws it if it is a front face or, when `backs`,
  * a back face that is not hidden (assemble.c). */

@@ -1,0 +1,150 @@
+/* Edges as the eye sees them, where winding cannot tell: more than two polygons meet, they are wound
+ * differently, or their back faces are seen.
+ *
+ *    for each polygon at the edge
+ *        to the left or to the right of the edge on the screen, by facing and direction
+ *        its normal turned to the eye; how steeply it recedes from the edge     core/fold.c
+ *    on either side the polygon that recedes least hides the others
+ *    one on each side   the line that two polygons would make: ridge, valley or none
+ *    all on one side    an outline: silhouette if they lie in several planes, else border
+ *
+ * Invariant: neither winding nor doubled faces matter. Not handled: polygons that touch the edge
+ * but do not have it (emerge.c). */
+#include "find/fan.h"
+
+#include "core/fold.h"
+
+bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    if (!polygons->has_diagonals) return false;
+    const uint32_t a = dp_first_corner(polygons, w->tile.polygons[e->a].id) + e->edge_a;
+    if (dp_edge_is_flagged(polygons, a)) return false;
+    return e->b == UINT32_MAX ||
+           !dp_edge_is_flagged(polygons,
+                               dp_first_corner(polygons, w->tile.polygons[e->b].id) + e->edge_b);
+}
+
+void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
+                 const dp_vec3 normals[2], const uint32_t sides[2]) {
+    const uint32_t id = w->tile.polygons[e->a].id;
+    if (dp_is_disputed(w, spine, sides)) {
+        dp_leave_to_emerge(w, e->a, e->edge_a);
+    } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line)) {
+        dp_add_candidate(
+            w,
+            (dp_candidate){.a = id,
+                           .b = e->b == UINT32_MAX ? UINT32_MAX : w->tile.polygons[e->b].id,
+                           .edge = e->edge_a,
+                           .k1 = UINT32_MAX,
+                           .line = (uint8_t)line},
+            spine, normals);
+    }
+}
+
+/* What lies on one side of the edge: the nearest polygon, and the one furthest behind it. */
+typedef struct side {
+    uint32_t nearest, furthest; /* tile polygons; UINT32_MAX: none */
+    dp_beside near, far;
+} side;
+
+typedef struct fan {
+    uint32_t owner, edge; /* the polygon that comes first in the source, and its edge */
+    uint32_t va, vb;      /* the edge, in its direction */
+    dp_sight sight;
+    side sides[2]; /* left, right */
+} fan;
+
+static void find_owner(const dp_finder *w, fan *f, dp_half_edge at) {
+    if (f->owner == UINT32_MAX || w->tile.polygons[at.polygon].id < w->tile.polygons[f->owner].id)
+        f->owner = at.polygon, f->edge = at.edge;
+}
+
+/* Does the polygon run the edge from va to vb? */
+static bool runs_forward(const dp_finder *w, const fan *f, dp_half_edge at) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    uint32_t from, to;
+    dp_edge_ends(w, at, &from, &to);
+    const float *const p = dp_vertex_position(polygons, from), *const q =
+                                                                   dp_vertex_position(polygons,
+                                                                                      f->va);
+    return from == f->va || (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]);
+}
+
+/* Of polygons in one plane the first in the source counts as the nearest. */
+static void offer(const dp_finder *w, fan *f, dp_half_edge at) {
+    const dp_tile_polygon *const p = &w->tile.polygons[at.polygon];
+    if (p->flags & DP_POLYGON_EDGE_ON) return;
+    const bool front = p->flags & DP_POLYGON_FRONT, right = front != runs_forward(w, f, at);
+    side *const s = &f->sides[right];
+    const dp_beside beside = dp_beside_edge(w->tile.frame, &f->sight, p->id, front);
+    const double sign = right ? 1 : -1, recedes = sign * beside.recedes;
+    const bool same = s->nearest != UINT32_MAX && dp_is_one_plane(&beside, &s->near);
+    if (s->nearest == UINT32_MAX ||
+        (same ? p->id < w->tile.polygons[s->nearest].id : recedes < sign * s->near.recedes))
+        s->nearest = at.polygon, s->near = beside;
+    if (s->furthest == UINT32_MAX || recedes > sign * s->far.recedes)
+        s->furthest = at.polygon, s->far = beside;
+}
+
+static void for_each(dp_finder *w, const dp_edge_entry *e, fan *f,
+                     void (*visit)(const dp_finder *, fan *, dp_half_edge)) {
+    visit(w, f, (dp_half_edge){e->a, e->edge_a});
+    visit(w, f, (dp_half_edge){e->b, e->edge_b});
+    for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next)
+        visit(w, f, dp_half_edge_of(w, w->table.meetings[i - 1].number));
+}
+
+static void find_sides(dp_finder *w, const dp_edge_entry *e, fan *f) {
+    const side none = {.nearest = UINT32_MAX, .furthest = UINT32_MAX};
+    f->sides[0] = f->sides[1] = none;
+    for_each(w, e, f, offer);
+}
+
+/* Adds a line along the fan's edge; `across`: a second polygon that does not hide it. */
+static void add(dp_finder *w, const fan *f, dp_line line, uint32_t across, dp_vec3 normal) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    dp_spine spine;
+    if (!dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, f->va)),
+                       dp_v3f(dp_vertex_position(polygons, f->vb)), normal, &spine))
+        return;
+    const dp_edge_entry e = {
+        .va = f->va, .vb = f->vb, .a = f->owner, .b = across, .edge_a = f->edge};
+    const uint32_t sides[2] = {f->sides[0].nearest, f->sides[1].nearest};
+    dp_add_line(w, &e, line, &spine, NULL, sides);
+}
+
+static void add_outline(dp_finder *w, const fan *f, bool right) {
+    const side *const s = &f->sides[right];
+    if (dp_is_one_plane(&s->near, &s->far)) {
+        const uint32_t across = s->nearest == f->owner ? UINT32_MAX : s->nearest;
+        add(w, f, DP_LINE_BORDER, across, s->near.normal);
+        return;
+    }
+    add(w, f, DP_LINE_SILHOUETTE, s->nearest == f->owner ? s->furthest : s->nearest,
+        dp_outline_normal(&f->sight, &s->near, &s->far, right));
+}
+
+static void add_fold(dp_finder *w, const fan *f) {
+    const uint32_t left = f->sides[0].nearest, right = f->sides[1].nearest;
+    const dp_fold fold = dp_fold_of_sides(&f->sight, &f->sides[0].near, &f->sides[1].near);
+    const int line =
+        dp_fold_line(&fold, dp_polygon_style(w->tile.frame, w->tile.polygons[f->owner].id));
+    if (line >= 0) add(w, f, (dp_line)line, left == f->owner ? right : left, fold.normal);
+}
+
+void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    fan f = {.owner = UINT32_MAX};
+    for_each(w, e, &f, find_owner);
+    dp_edge_ends(w, (dp_half_edge){f.owner, f.edge}, &f.va, &f.vb);
+    if (!dp_sight_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, f.va)),
+                       dp_v3f(dp_vertex_position(polygons, f.vb)), &f.sight))
+        return;
+    find_sides(w, e, &f);
+    const bool left = f.sides[0].nearest != UINT32_MAX, right = f.sides[1].nearest != UINT32_MAX;
+    if (left && right) {
+        if (!dp_edge_is_diagonal(w, e)) add_fold(w, &f);
+    } else if (left || right) {
+        add_outline(w, &f, right);
+    }
+}
