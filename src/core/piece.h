@@ -14,6 +14,7 @@ typedef struct dp_piece {
     uint32_t geometry;  /* as in its candidate: dp_segment_geometry … */
     uint32_t worker;    /* … of this worker; set when pieces are joined */
     uint8_t line;       /* dp_line */
+    uint8_t seen;       /* bit 0: polygon a is seen beside the line, bit 1: b is */
     bool open;          /* touches the tile's border: it may continue in a neighbour */
 } dp_piece;
 

@@ -37,7 +37,8 @@ static shared_edge owned(const dp_frame *frame, uint32_t polygon, uint32_t corne
     return e;
 }
 
-static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 normal) {
+static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 normal,
+                     uint32_t seen) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     if (!(dp_polygon_style(w->tile.frame, e->a)->lines & (1u << line))) return;
     if (1u << line & DP_OUTLINES && dp_draws_fins(w->tile.frame)) return; /* fins.c draws them */
@@ -51,7 +52,7 @@ static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 n
     dp_add_candidate(
         w,
         (dp_candidate){
-            .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = (uint8_t)line},
+            .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = line & 63, .seen = seen},
         &spine, NULL);
 }
 
@@ -68,7 +69,7 @@ static void add_outline(dp_finder *w, const shared_edge *e, dp_line line) {
     } else {
         normal = fold_of(w->tile.frame, e, false).normal;
     }
-    add_line(w, e, line, normal);
+    add_line(w, e, line, normal, dp_faces_front(w->tile.frame, e->a) ? 1 : 2);
 }
 
 /* A crease lies between two front faces, or between two polygons of different winding that show the
@@ -83,7 +84,7 @@ static void add_crease(dp_finder *w, uint32_t polygon, uint32_t corner) {
     const dp_fold fold = fold_of(f, &e, !front_a);
     if (dp_dot(fold.normal_a, fold.normal_b) > (double)f->flat_cosine) return;
     const int line = dp_fold_line(&fold, dp_polygon_style(f, e.a));
-    if (line >= 0) add_line(w, &e, (dp_line)line, fold.normal);
+    if (line >= 0) add_line(w, &e, (dp_line)line, fold.normal, 3);
 }
 
 /* Only for polygons that are not hidden: a hidden one has all its edges well behind the surface. */

@@ -243,10 +243,11 @@ static void behold_own(dp_finder *w, uint32_t count) {
 typedef struct finding {
     int line;           /* dp_line, or -1: no line */
     uint32_t neighbour; /* tile polygon that does not hide the line either, or UINT32_MAX */
+    uint32_t sides[2];  /* tile polygons seen on either side */
     dp_vec3 normal;
 } finding;
 
-static const finding NOTHING = {-1, UINT32_MAX, {0, 0, 0}};
+static const finding NOTHING = {-1, UINT32_MAX, {UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
 
 static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t polygon) {
     const dp_tile_polygon *const p = &w->tile.polygons[polygon];
@@ -258,8 +259,13 @@ static finding outline_finding(const dp_finder *w, const dp_beheld *b, const dp_
     const uint32_t nearest = b->nearest[side], furthest = b->furthest[side];
     const dp_beside near = beside(w, sight, nearest), far = beside(w, sight, furthest);
     if (dp_is_one_plane(&near, &far))
-        return (finding){DP_LINE_BORDER, nearest == b->own ? UINT32_MAX : nearest, near.normal};
-    return (finding){DP_LINE_SILHOUETTE, nearest == b->own ? furthest : nearest,
+        return (finding){DP_LINE_BORDER,
+                         nearest == b->own ? UINT32_MAX : nearest,
+                         {nearest, UINT32_MAX},
+                         near.normal};
+    return (finding){DP_LINE_SILHOUETTE,
+                     nearest == b->own ? furthest : nearest,
+                     {nearest, UINT32_MAX},
                      dp_outline_normal(sight, &near, &far, side)};
 }
 
@@ -268,13 +274,15 @@ static finding fold_finding(const dp_finder *w, const emerging *e, const dp_behe
     const dp_beside left = beside(w, sight, sides[0]), right = beside(w, sight, sides[1]);
     const dp_fold fold = dp_fold_of_sides(sight, &left, &right);
     return (finding){dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id)),
-                     sides[0] == b->own ? sides[1] : sides[0], fold.normal};
+                     sides[0] == b->own ? sides[1] : sides[0],
+                     {sides[0], sides[1]},
+                     fold.normal};
 }
 
 /* A polygon seen edge-on, and nothing else: a sheet of which both borders are one line. */
 static finding edge_on_finding(const dp_finder *w, const emerging *e) {
     const dp_vec3 n = dp_polygon_normal(w->tile.frame, e->id);
-    return (finding){DP_LINE_BORDER, UINT32_MAX, n};
+    return (finding){DP_LINE_BORDER, UINT32_MAX, {e->unpaired.polygon, UINT32_MAX}, n};
 }
 
 /* Near its ends, polygons that only share a corner with the edge come within FAR of it. */
@@ -307,7 +315,9 @@ static void add_run(dp_finder *w, const emerging *e, finding f, uint32_t k0, uin
                                     .edge = e->unpaired.edge,
                                     .k0 = k0,
                                     .k1 = k1,
-                                    .line = (uint8_t)f.line},
+                                    .line = f.line & 63,
+                                    .seen = dp_seen_beside(f.sides, e->unpaired.polygon) |
+                                            dp_seen_beside(f.sides, f.neighbour) << 1},
                      &spine, NULL);
 }
 

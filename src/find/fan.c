@@ -36,7 +36,8 @@ void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_sp
                            .b = e->b == UINT32_MAX ? UINT32_MAX : w->tile.polygons[e->b].id,
                            .edge = e->edge_a,
                            .k1 = UINT32_MAX,
-                           .line = (uint8_t)line},
+                           .line = line & 63,
+                           .seen = dp_seen_beside(sides, e->a) | dp_seen_beside(sides, e->b) << 1},
             spine, normals);
     }
 }

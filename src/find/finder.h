@@ -42,6 +42,11 @@ void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visib
 void dp_add_candidate(dp_finder *finder, dp_candidate candidate, const dp_spine *spine,
                       const dp_vec3 normals[2]);
 
+/* 1 if the tile polygon is one of those that are seen on either side of a line, else 0. */
+static inline uint32_t dp_seen_beside(const uint32_t sides[2], uint32_t polygon) {
+    return polygon != UINT32_MAX && (sides[0] == polygon || sides[1] == polygon);
+}
+
 /* Leaves the edge of a tile polygon that starts at this corner to emerge. */
 void dp_leave_to_emerge(dp_finder *finder, uint32_t polygon, uint32_t edge);
 

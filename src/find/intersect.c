@@ -84,7 +84,8 @@ static void test_pair(dp_finder *w, uint32_t a, uint32_t b) {
                                     .b = q->id,
                                     .edge = DP_CROSSING,
                                     .k1 = UINT32_MAX,
-                                    .line = DP_LINE_INTERSECTION},
+                                    .line = DP_LINE_INTERSECTION,
+                                    .seen = 3},
                      &spine, NULL);
 }
 

@@ -294,6 +294,7 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                              k1 < c->n ? hider_at(w, c, &end) : (uint32_t)DP_HIDER_NONE},
                    .geometry = c->geometry,
                    .line = c->line,
+                   .seen = c->seen,
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
 }
 

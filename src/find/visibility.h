@@ -12,7 +12,8 @@ typedef struct dp_candidate {
     uint32_t n;      /* number of sample points on the whole spine */
     uint32_t k0, k1; /* those in this tile: [k0, k1) */
     uint32_t probe;  /* first of its probes */
-    uint32_t line : 8;
+    uint32_t line : 6;
+    uint32_t seen : 2; /* bit 0: a is seen beside the line, bit 1: b is; else hidden behind it */
     uint32_t geometry : 24; /* 1 + index in the worker's `found`; 0: to be computed again */
 } dp_candidate;
 

@@ -40,8 +40,8 @@ typedef struct dp_raster_kernels {
     void (*raster)(struct dp_tile *worker, const struct dp_tile_polygon *polygon, uint32_t index);
     /* Makes the unit normals of the tile's unsure triangles (normals.inc). */
     void (*normals)(struct dp_tile *worker);
-    /* Keeps the close samples at which both polygons' planes cross, at least one is a front face
-     * and, if they are triangles, they share no corner (cross.inc). */
+    /* Keeps the close samples at which both polygons' planes cross, at least one is a front face or
+     * back faces are seen, and, if they are triangles, they share no corner (cross.inc). */
     void (*cross)(struct dp_tile *worker);
 } dp_raster_kernels;
 

@@ -41,7 +41,7 @@ static void test_unknown(dp_tile *w, uint32_t i) {
     const uint32_t lane = close->lane[i];
     const bool away = w->away[lane / 64] >> lane % 64 & 1,
                front = w->polygons[close->polygon[i]].flags & DP_POLYGON_FRONT;
-    if (away && !front) return;
+    if (away && !front && !w->won) return;
     if (close->gap[i] > fabsf(dp_depth_steps(w->frame, close->depth[i], DP_NEAR_DEPTH_GAP))) return;
     note_candidate_pixel(w, lane, front && !away);
 }

@@ -14,7 +14,6 @@ typedef struct dp_segment_batch {
     float distance[2][DP_SEGMENTS];  /* along the line of sight */
     float world[2][3][DP_SEGMENTS];
     float plane[2][3][DP_SEGMENTS]; /* d0, dx, dy of the polygons, as dp_stroke has them */
-    float away[2][DP_SEGMENTS];     /* not negative: the polygon faces away from the eye */
 } dp_segment_batch;
 
 #endif

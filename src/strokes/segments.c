@@ -142,14 +142,11 @@ static void put_geometry(const job *j, const dp_piece *piece, dp_segment_batch *
         out->normal[k][2][i] = geometry.normal[k].z;
 }
 
-/* What a stroke may not lie in front of: not a polygon that leads towards the eye outside an
- * outline. */
+/* What a stroke may not lie in front of: not a polygon that is hidden behind an outline. */
 static void take_plane(const dp_segment_batch *made, uint32_t i, int k, const dp_piece *piece,
                        float plane[3]) {
-    const bool away = made->away[k][i] >= 0;
     plane[0] = NAN, plane[1] = plane[2] = 0;
-    if ((k ? piece->b : piece->a) == UINT32_MAX || (away && piece->line == DP_LINE_SILHOUETTE))
-        return;
+    if ((k ? piece->b : piece->a) == UINT32_MAX || !(piece->seen >> k & 1)) return;
     for (int c = 0; c < 3; c++) plane[c] = made->plane[k][c][i];
 }
 
