@@ -122,19 +122,24 @@ static bool reserve_lookouts(dp_finder *w, uint32_t count) {
                            room);
 }
 
-/* Marks the cells of DP_CELL px in and around which points lie, then blocks of these. */
+static uint32_t pixel_of(float px) {
+    return px <= 0 ? 0 : px >= DP_TILE ? DP_TILE - 1 : (uint32_t)px;
+}
+
+/* Marks the pixels in and around which points lie, cells of DP_CELL px, and blocks of these. */
 static void mark_cells(dp_finder *w, uint32_t count) {
     dp_lookouts *const out = &w->emergence.lookouts;
     const uint32_t all = DP_CELLS * DP_CELLS;
     memset(out->there, 0, sizeof out->there);
+    memset(out->row, 0, sizeof out->row);
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 4; k++) {
-            const float reach = 2 * DP_LOOK_FAR,
-                        x = w->emergence.placed[i].x + (k & 1 ? reach : -reach),
-                        y = w->emergence.placed[i].y + (k & 2 ? reach : -reach);
-            const uint32_t cell = look_cell(x, y), times = DP_CELL / DP_LOOK_CELL;
-            out->there[0][0][cell / DP_LOOK_CELLS / times * DP_CELLS +
-                             cell % DP_LOOK_CELLS / times] = 1;
+            const uint32_t x = pixel_of(w->emergence.placed[i].x +
+                                        (k & 1 ? DP_LOOK_FAR : -DP_LOOK_FAR)),
+                           y = pixel_of(w->emergence.placed[i].y +
+                                        (k & 2 ? DP_LOOK_FAR : -DP_LOOK_FAR));
+            out->row[y] |= (uint64_t)1 << x;
+            out->there[0][0][y / DP_CELL * DP_CELLS + x / DP_CELL] = 1;
         }
     for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
         for (uint32_t i = 0; i < all; i++)

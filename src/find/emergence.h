@@ -34,7 +34,8 @@ typedef struct dp_lookouts {
     uint32_t *point;  /* its number, in the order of edges */
     size_t x_cap, y_cap, d_cap, ox_cap, oy_cap, step_cap, point_cap;
     uint32_t first[DP_LOOK_CELLS * DP_LOOK_CELLS + 1]; /* by cell: its first point */
-    /* By blocks of cells of DP_CELL px, as dp_cell_bits: do they hold points? */
+    uint64_t row[DP_TILE]; /* pixels within DP_LOOK_FAR of which there are points */
+    /* By blocks of cells of DP_CELL px, as dp_cell_bits: do they hold such pixels? */
     uint32_t there[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM];
 } dp_lookouts;
 
