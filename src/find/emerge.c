@@ -8,7 +8,7 @@
  *            on both sides, of one plane    no line
  *            on both sides                  fold: ridge, valley or flat (core/fold.c)
  *            on one side                    silhouette if several planes meet there, else border
- *        a polygon that comes earlier in the source has an edge here too       that makes the line
+ *        of several polygons with an edge here only one makes the line         find_owner
  *    runs of points with the same line and polygons become candidates
  *
  * An edge with one polygon is a border, or its neighbours share no corner with it: T-junctions,
@@ -99,6 +99,7 @@ static bool place_points(dp_finder *w, emerging *e, uint32_t *count) {
     for (uint32_t k = e->k0; k < e->k1; k++) {
         const dp_pointd p = dp_point_mix(e->spine.a, e->spine.b, (k + 0.5) / e->spine.n);
         w->emergence.beheld[*count] = (dp_beheld){.own = e->unpaired.polygon,
+                                                  .first = e->unpaired.polygon,
                                                   .nearest = {UINT32_MAX, UINT32_MAX},
                                                   .furthest = {UINT32_MAX, UINT32_MAX},
                                                   .far = {UINT32_MAX, UINT32_MAX}};
@@ -176,20 +177,20 @@ static bool sort_points(dp_finder *w, uint32_t count) {
 
 /* ------- what is found ------- */
 
-/* Does the polygon run an edge that bounds it along this point? */
-static bool has_edge_along(const dp_finder *w, const dp_tile_polygon *p, const dp_lookout *at) {
+/* The number of an edge that bounds the polygon and runs along this point; UINT32_MAX: none does. */
+static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const dp_lookout *at) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     const dp_vertex *const v = w->tile.points + p->point;
-    if (p->flags & DP_POLYGON_CLIPPED) return false;
+    if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
     for (uint32_t i = 0; i < p->points; i++) {
         const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
         const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
         const double away = ex * ((double)at->y - a.y) - ey * ((double)at->x - a.x);
         if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= ALONG * length &&
             dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
-            return true;
+            return i;
     }
-    return false;
+    return UINT32_MAX;
 }
 
 /* Keeps the polygon if it lies nearer at a side than what is there. */
@@ -223,10 +224,9 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
             keep_nearest(w, &b->far[side], &b->far_d[side], index, d, rounding);
         }
     }
-    if (b->outranked || p->id >= w->tile.polygons[b->own].id) return;
     const uint32_t near = sides & 3, far = sides >> 2;
-    if (near == 3 || (!near && far == 3)) return;
-    b->outranked = has_edge_along(w, p, at);
+    if (p->id >= w->tile.polygons[b->first].id || near == 3 || (!near && far == 3)) return;
+    if (edge_along(w, p, at) != UINT32_MAX) b->first = index;
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
@@ -246,88 +246,134 @@ static void behold_own(dp_finder *w, uint32_t count) {
 
 /* What a sample point turned out to be. */
 typedef struct finding {
-    int line;           /* dp_line, or -1: no line */
-    uint32_t neighbour; /* tile polygon that does not hide the line either, or UINT32_MAX */
-    uint32_t sides[2];  /* tile polygons seen on either side */
+    int line;          /* dp_line, or -1: no line */
+    uint32_t sides[2]; /* tile polygons that are seen to the left and right, or UINT32_MAX */
+    uint32_t behind;   /* of an outline: the one furthest behind it, or UINT32_MAX */
+    dp_unpaired_edge owner; /* whose edge it is */
     dp_vec3 normal;
 } finding;
 
-static const finding NOTHING = {-1, UINT32_MAX, {UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
+static const finding NOTHING = {.line = -1};
 
 static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t polygon) {
     const dp_tile_polygon *const p = &w->tile.polygons[polygon];
     return dp_beside_edge(w->tile.frame, sight, p->id, p->flags & DP_POLYGON_FRONT);
 }
 
-static finding outline_finding(const dp_finder *w, const dp_beheld *b, const dp_sight *sight,
-                               int side) {
-    const uint32_t nearest = b->nearest[side], furthest = b->furthest[side];
-    const dp_beside near = beside(w, sight, nearest), far = beside(w, sight, furthest);
-    if (dp_is_one_plane(&near, &far))
-        return (finding){DP_LINE_BORDER,
-                         nearest == b->own ? UINT32_MAX : nearest,
-                         {nearest, UINT32_MAX},
-                         near.normal};
-    return (finding){DP_LINE_SILHOUETTE,
-                     nearest == b->own ? furthest : nearest,
-                     {nearest, UINT32_MAX},
-                     dp_outline_normal(sight, &near, &far, side)};
+static void judge_outline(const dp_finder *w, const dp_beheld *b, const dp_sight *sight, int side,
+                          finding *f) {
+    const dp_beside near = beside(w, sight, b->nearest[side]),
+                    far = beside(w, sight, b->furthest[side]);
+    const bool is_border = dp_is_one_plane(&near, &far);
+    f->line = is_border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE;
+    f->behind = is_border ? UINT32_MAX : b->furthest[side];
+    f->normal = is_border ? near.normal : dp_outline_normal(sight, &near, &far, side);
 }
 
-static finding fold_finding(const dp_finder *w, const emerging *e, const dp_beheld *b,
-                            const dp_sight *sight, const uint32_t sides[2]) {
-    const dp_beside left = beside(w, sight, sides[0]), right = beside(w, sight, sides[1]);
+static void judge_fold(const dp_finder *w, const emerging *e, const dp_sight *sight, finding *f) {
+    const dp_beside left = beside(w, sight, f->sides[0]), right = beside(w, sight, f->sides[1]);
     const dp_fold fold = dp_fold_of_sides(sight, &left, &right);
-    return (finding){dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id)),
-                     sides[0] == b->own ? sides[1] : sides[0],
-                     {sides[0], sides[1]},
-                     fold.normal};
-}
-
-/* A polygon seen edge-on, and nothing else: a sheet of which both borders are one line. */
-static finding edge_on_finding(const dp_finder *w, const emerging *e) {
-    const dp_vec3 n = dp_polygon_normal(w->tile.frame, e->id);
-    return (finding){DP_LINE_BORDER, UINT32_MAX, {e->unpaired.polygon, UINT32_MAX}, n};
+    f->line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id));
+    f->normal = fold.normal;
 }
 
 /* Near its ends, polygons that only share a corner with the edge come within FAR of it. */
 static bool is_near_end(const emerging *e, uint32_t k) { return k < 2 || k + 2 >= e->spine.n; }
 
-static finding judge(const dp_finder *w, const emerging *e, const dp_sight *sight, uint32_t k) {
-    const dp_beheld *const b = &w->emergence.beheld[e->first + (k - e->k0)];
-    uint32_t sides[2];
+/* Which of the polygons that have an edge here makes the line: of those that are seen, else of all,
+ * the one that comes first in the source. */
+static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b, const dp_lookout *at,
+                                   const uint32_t sides[2]) {
+    dp_unpaired_edge owner = {UINT32_MAX, 0};
     for (int i = 0; i < 2; i++) {
-        sides[i] = b->nearest[i];
-        if (sides[i] == UINT32_MAX && !is_near_end(e, k)) sides[i] = b->far[i];
+        if (sides[i] == UINT32_MAX ||
+            (owner.polygon != UINT32_MAX &&
+             w->tile.polygons[owner.polygon].id < w->tile.polygons[sides[i]].id))
+            continue;
+        const uint32_t edge = edge_along(w, &w->tile.polygons[sides[i]], at);
+        if (edge != UINT32_MAX) owner = (dp_unpaired_edge){sides[i], edge};
     }
-    if (b->outranked || (sides[0] == sides[1] && sides[0] != UINT32_MAX)) return NOTHING;
-    if (sides[0] != UINT32_MAX && sides[1] != UINT32_MAX)
-        return fold_finding(w, e, b, sight, sides);
-    if (b->nearest[0] != UINT32_MAX) return outline_finding(w, b, sight, 0);
-    if (b->nearest[1] != UINT32_MAX) return outline_finding(w, b, sight, 1);
-    return sides[0] == sides[1] ? edge_on_finding(w, e) : NOTHING;
+    if (owner.polygon == UINT32_MAX)
+        owner = (dp_unpaired_edge){b->first, edge_along(w, &w->tile.polygons[b->first], at)};
+    return owner;
 }
 
-static void add_run(dp_finder *w, const emerging *e, finding f, uint32_t k0, uint32_t k1) {
-    if (f.line < 0 || k0 >= k1) return;
-    if (!(dp_polygon_style(w->tile.frame, e->id)->lines & (1u << f.line))) return;
+/* Is that the edge that is looked at, or another polygon's between the same ends? The table leaves
+ * only one of these over; without it each is looked at. */
+static bool is_own_edge(const dp_finder *w, const emerging *e, dp_unpaired_edge owner) {
+    if (owner.polygon == e->unpaired.polygon) return owner.edge == e->unpaired.edge;
+    if (w->tile.frame->styles[0].edge_table_off || owner.edge == UINT32_MAX) return false;
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    const uint32_t id = w->tile.polygons[owner.polygon].id, n = dp_corner_count(polygons, id);
+    dp_vec3 end[2];
+    for (uint32_t i = 0; i < 2; i++)
+        end[i] = dp_v3f(dp_vertex_position(
+            polygons, dp_corner_vertex(polygons, dp_first_corner(polygons, id) +
+                                                     (owner.edge + i) % n)));
+    const dp_vec3 a = e->a, b = e->b;
+    const bool same = !dp_length(dp_sub(end[0], a)) && !dp_length(dp_sub(end[1], b)),
+               turned = !dp_length(dp_sub(end[1], a)) && !dp_length(dp_sub(end[0], b));
+    return same || turned;
+}
+
+static finding judge(const dp_finder *w, const emerging *e, const dp_sight *sight, uint32_t k) {
+    const uint32_t at = e->first + (k - e->k0);
+    const dp_beheld *const b = &w->emergence.beheld[at];
+    finding f = {.line = -1, .behind = UINT32_MAX, .owner = e->unpaired};
+    for (int i = 0; i < 2; i++) {
+        f.sides[i] = b->nearest[i];
+        if (f.sides[i] == UINT32_MAX && !is_near_end(e, k)) f.sides[i] = b->far[i];
+    }
+    const bool left = f.sides[0] != UINT32_MAX, right = f.sides[1] != UINT32_MAX;
+    if (!left && !right) { /* a sheet seen edge-on: both its borders are one line */
+        f.line = DP_LINE_BORDER;
+        f.sides[0] = e->unpaired.polygon;
+        f.normal = dp_polygon_normal(w->tile.frame, e->id);
+        return f;
+    }
+    if (f.sides[0] == f.sides[1]) return NOTHING;
+    f.owner = find_owner(w, b, &w->emergence.placed[at], f.sides);
+    if (!is_own_edge(w, e, f.owner)) return NOTHING;
+    if (left && right)
+        judge_fold(w, e, sight, &f);
+    else if (b->nearest[right] != UINT32_MAX)
+        judge_outline(w, b, sight, right, &f);
+    return f;
+}
+
+/* Adds the candidate of a run of sample points, along the owner's edge. */
+static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t k0, uint32_t k1) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    if (f->line < 0 || k0 >= k1) return;
+    const uint32_t owner = f->owner.polygon, id = w->tile.polygons[owner].id;
+    if (!(dp_polygon_style(w->tile.frame, id)->lines & (1u << f->line))) return;
+    const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);
+    const dp_vec3 a = dp_v3f(dp_vertex_position(
+                      polygons, dp_corner_vertex(polygons, first + f->owner.edge))),
+                  b = dp_v3f(dp_vertex_position(
+                      polygons, dp_corner_vertex(polygons, first + (f->owner.edge + 1) % n)));
+    const bool turned = dp_length(dp_sub(a, e->a)) > 0;
     dp_spine spine;
-    if (!dp_spine_make(&w->tile.frame->view, e->a, e->b, f.normal, &spine)) return;
-    const uint32_t b = f.neighbour == UINT32_MAX ? UINT32_MAX : w->tile.polygons[f.neighbour].id;
-    dp_add_candidate(w,
-                     (dp_candidate){.a = e->id,
-                                    .b = b,
-                                    .edge = e->unpaired.edge,
-                                    .k0 = k0,
-                                    .k1 = k1,
-                                    .line = f.line & 63,
-                                    .seen = dp_seen_beside(f.sides, e->unpaired.polygon) |
-                                            dp_seen_beside(f.sides, f.neighbour) << 1},
-                     &spine, NULL);
+    if (!dp_spine_make(&w->tile.frame->view, a, b, f->normal, &spine)) return;
+    const uint32_t other = f->sides[0] == owner || f->sides[0] == UINT32_MAX ? f->sides[1]
+                                                                             : f->sides[0];
+    const uint32_t across = other == UINT32_MAX || other == owner ? f->behind : other;
+    dp_add_candidate(
+        w,
+        (dp_candidate){.a = id,
+                       .b = across == UINT32_MAX ? UINT32_MAX : w->tile.polygons[across].id,
+                       .edge = f->owner.edge,
+                       .k0 = turned ? spine.n - k1 : k0,
+                       .k1 = turned ? spine.n - k0 : k1,
+                       .line = f->line & 63,
+                       .seen = dp_seen_beside(f->sides, owner) |
+                               dp_seen_beside(f->sides, across) << 1},
+        &spine, NULL);
 }
 
 static bool is_same(const finding *a, const finding *b) {
-    return a->line == b->line && (a->line < 0 || a->neighbour == b->neighbour);
+    if (a->line != b->line || a->line < 0) return a->line == b->line;
+    return a->sides[0] == b->sides[0] && a->sides[1] == b->sides[1] && a->behind == b->behind;
 }
 
 /* A single sample point that differs from two neighbours that agree, or from its neighbour at the
@@ -353,10 +399,10 @@ static void add_lines(dp_finder *w, const emerging *e) {
         after = k + 1 < e->k1 ? judge(w, e, &sight, k + 1) : here;
         const finding f = settle(e, k, &before, &here, &after);
         if (is_same(&f, &last)) continue;
-        add_run(w, e, last, start, k);
+        add_run(w, e, &last, start, k);
         last = f, start = k;
     }
-    add_run(w, e, last, start, e->k1);
+    add_run(w, e, &last, start, e->k1);
     if (last.line == DP_LINE_BORDER) w->tile.stats.open_edges++;
 }
 

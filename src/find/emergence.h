@@ -48,7 +48,7 @@ typedef struct dp_beheld {
     uint32_t nearest[2], furthest[2];   /* of those that reach the edge */
     uint32_t far[2];                    /* the nearest of those only within DP_LOOK_FAR of it */
     float nearest_d[2], furthest_d[2], far_d[2]; /* how near they lie a little way off */
-    bool outranked; /* a polygon that comes earlier in the source has an edge here too */
+    uint32_t first; /* of those with an edge along here, the one that comes first in the source */
 } dp_beheld;
 
 typedef struct dp_emergence {
