@@ -32,8 +32,8 @@ static const float OFF = 0.25f;
  * the source counts. */
 static const float NEARER = 1e-3f;
 
-/* px: an edge of another polygon that runs so near by, … */
-static const double ALONG = 0.06;
+/* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, … */
+static const double ALONG_NEAR = 2 * (double)DP_LOOK_NEAR, ALONG_FAR = 1.2 * (double)DP_LOOK_FAR;
 /* … and at an angle with a smaller sine is the same line. */
 static const double PARALLEL = 0.1;
 
@@ -177,8 +177,10 @@ static bool sort_points(dp_finder *w, uint32_t count) {
 
 /* ------- what is found ------- */
 
-/* The number of an edge that bounds the polygon and runs along this point; UINT32_MAX: none does. */
-static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const dp_lookout *at) {
+/* The number of an edge that bounds the polygon and runs along this point, within `reach` px;
+ * UINT32_MAX: none does. */
+static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const dp_lookout *at,
+                           double reach) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     const dp_vertex *const v = w->tile.points + p->point;
     if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
@@ -186,7 +188,7 @@ static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const d
         const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
         const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
         const double away = ex * ((double)at->y - a.y) - ey * ((double)at->x - a.x);
-        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= ALONG * length &&
+        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= reach * length &&
             dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
             return i;
     }
@@ -226,7 +228,7 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     }
     const uint32_t near = sides & 3, far = sides >> 2;
     if (p->id >= w->tile.polygons[b->first].id || near == 3 || (!near && far == 3)) return;
-    if (edge_along(w, p, at) != UINT32_MAX) b->first = index;
+    if (edge_along(w, p, at, near ? ALONG_NEAR : ALONG_FAR) != UINT32_MAX) b->first = index;
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
@@ -290,11 +292,12 @@ static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b, const
             (owner.polygon != UINT32_MAX &&
              w->tile.polygons[owner.polygon].id < w->tile.polygons[sides[i]].id))
             continue;
-        const uint32_t edge = edge_along(w, &w->tile.polygons[sides[i]], at);
+        const uint32_t edge = edge_along(w, &w->tile.polygons[sides[i]], at,
+                                         sides[i] == b->nearest[i] ? ALONG_NEAR : ALONG_FAR);
         if (edge != UINT32_MAX) owner = (dp_unpaired_edge){sides[i], edge};
     }
     if (owner.polygon == UINT32_MAX)
-        owner = (dp_unpaired_edge){b->first, edge_along(w, &w->tile.polygons[b->first], at)};
+        owner = (dp_unpaired_edge){b->first, edge_along(w, &w->tile.polygons[b->first], at, ALONG_FAR)};
     return owner;
 }
 
