@@ -24,6 +24,7 @@ help:
 	@echo 'make fuzz       run every fuzzer for long: MINUTES=10 each'
 	@echo 'make mutants    plant faults, list those no quick test notices: SEED=1 FAULTS=100 ONLY=N'
 	@echo 'make accuracy   score pictures against exact lines'
+	@echo 'make twins      compare random scenes with their twins: SEEDS=10000 FROM=0 KIND=fan,star'
 	@echo 'make bench      time frames, ten minutes long, beside Mesa; BENCH_QUICK=1: two'
 	@echo 'make bench-big  draw a 5 GB file; TRIANGLES=2000000 makes it smaller'
 	@echo 'make gallery    draw the pictures of docs/gallery again'
@@ -60,6 +61,9 @@ mutants: setup-check
 accuracy: setup-check
 	@scripts/accuracy.sh
 
+twins: setup-check
+	@scripts/twins.sh $(SEEDS:%=--seeds %) $(FROM:%=--from %) $(KIND:%=--kind %)
+
 bench: setup
 	@$(MAKE) --no-print-directory all
 	@scripts/bench.sh $(BUILD)/drypoint
@@ -84,5 +88,5 @@ format-check:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all help setup setup-check demo check check-all test sanitize fuzz mutants accuracy bench bench-big gallery \
+.PHONY: all help setup setup-check demo check check-all test sanitize fuzz mutants accuracy twins bench bench-big gallery \
         install format format-check clean
