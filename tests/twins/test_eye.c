@@ -3,13 +3,14 @@
  *
  *   test_eye                            SEEDS seeds, against the table below
  *   test_eye --seeds 1000 --from 0      so many
+ *   test_eye --twins 100                the eye on this many scenes and their twins
  *   test_eye --seed 17 --write FOLDER   one; writes the model, its picture, and the picture marked:
  *                                       missing lines red, stray ink blue, undecided grey
  *
  * Each check has a line of output that begins with `ok` or `not ok`. */
 #include "eye.h"
 #include "look.h"
-#include "scene.h"
+#include "twin.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -20,7 +21,7 @@
 #include <drypoint/io.h>
 
 enum { WIDTH = 300, HEIGHT = 225, THREADS = 2 };
-enum { SEEDS = DP_TEST_PATIENCE > 1 ? 8 : 200 };
+enum { SEEDS = DP_TEST_PATIENCE > 1 ? 8 : 200, TWINS = DP_TEST_PATIENCE > 1 ? 2 : 8 /* scenes */ };
 static const double good = 0.995; /* recall and precision of a good picture */
 
 /* What the first 200 scenes must reach. These are what the finder of lines does today, not what is
@@ -123,10 +124,53 @@ static void known_models(void) {
     soup_free(&s);
 }
 
+/* ------- the eye on twins ------- */
+
+/* A scene's lines are those of its twins: so the eye is sure, and twins are made right. */
+static void expect_same_truth(const scene *s, uint64_t seed, const twin_kind *kind,
+                              const eye_truth *truth) {
+    static uint8_t rgba[4 * WIDTH * HEIGHT];
+    const double enough = 0.998;
+    const dp_camera camera = scene_camera(s, &kind->place, (double)WIDTH / HEIGHT);
+    soup polygons = {0};
+    soup_arrays arrays;
+    char text[200];
+    twin_make(s, seed, kind, &polygons);
+    soup_arrays_make(&polygons, &kind->place, &arrays);
+    eye_truth *const other = eye_see(&arrays.batch, &camera, WIDTH, HEIGHT, 150, 210);
+    eye_draw(truth, 2, 0, rgba);
+    const eye_score score = eye_judge(other, rgba, 2);
+    snprintf(text, sizeof text, "recall %.4f, precision %.4f of %s of seed %llu", score.recall,
+             score.precision, kind->name, (unsigned long long)seed);
+    if (score.recall < enough || score.precision < enough) check(false, "twins to the eye", text);
+    eye_free(other);
+    soup_arrays_free(&arrays);
+    soup_free(&polygons);
+}
+
+static void known_twins(uint64_t scenes) {
+    static const soup_place here = {.scale = 1};
+    const unsigned before = failures;
+    for (uint64_t seed = 0; seed < scenes; seed++) {
+        scene s;
+        soup_arrays arrays;
+        scene_make(seed, &s);
+        const dp_camera camera = scene_camera(&s, &here, (double)WIDTH / HEIGHT);
+        soup_arrays_make(&s.soup, &here, &arrays);
+        eye_truth *const truth = eye_see(&arrays.batch, &camera, WIDTH, HEIGHT, 150, 210);
+        for (size_t k = 0; k < twin_kind_count; k++)
+            if (!twin_kinds[k].exact_only) expect_same_truth(&s, seed, &twin_kinds[k], truth);
+        eye_free(truth);
+        soup_arrays_free(&arrays);
+        scene_free(&s);
+    }
+    check(failures == before, "scenes and their twins are the same to the eye", "");
+}
+
 /* ------- random scenes ------- */
 
 typedef struct options {
-    uint64_t from, seeds;
+    uint64_t from, seeds, twins;
     const char *folder;
 } options;
 
@@ -238,11 +282,12 @@ static void report(const score_sheet *all, int which, double least_share, unsign
 }
 
 static options parse(int count, char **words) {
-    options o = {.seeds = SEEDS};
+    options o = {.seeds = SEEDS, .twins = TWINS};
     for (int i = 1; i + 1 < count; i += 2) {
         if (!strcmp(words[i], "--seeds")) o.seeds = strtoull(words[i + 1], NULL, 10);
         if (!strcmp(words[i], "--from")) o.from = strtoull(words[i + 1], NULL, 10);
         if (!strcmp(words[i], "--seed")) o.from = strtoull(words[i + 1], NULL, 10), o.seeds = 1;
+        if (!strcmp(words[i], "--twins")) o.twins = strtoull(words[i + 1], NULL, 10);
         if (!strcmp(words[i], "--write")) o.folder = words[i + 1];
     }
     return o;
@@ -253,6 +298,7 @@ int main(int argc, char **argv) {
     score_sheet all = {.options = &o, .scores = calloc(o.seeds + 1, sizeof(eye_score))};
     if (all.scores == NULL || o.seeds == 0) abort();
     known_models();
+    known_twins(o.twins);
     run_all(&all);
     report(&all, 0, least.recall, least.recalls_below);
     report(&all, 1, least.precision, least.precisions_below);

@@ -4,14 +4,16 @@
  *   test_twins --seeds 10000          so many (--from N: the first)
  *   test_twins --kind fan,star        only these kinds
  *   test_twins --seed 17 --kind fan --write FOLDER
- *                                     one seed; writes base and twin as OBJ, both pictures, and
- *                                     their difference (red: only the base has a line there)
+ *                                     one seed; writes base and twin as OBJ, both pictures, their
+ *                                     difference (red: only the base has a line there), and what
+ *                                     an eye says of each (red: a line is missing, blue: stray ink)
  *   test_twins --known FILE           more known failures: lines "SEED KIND reason"
  *   test_twins --threads N, --samples 1 or 4
  *
  * A twin fails by its picture, when more than 30 of 600 x 450 pixels differ by more than 30 %, or by
  * its lines, when some kind of line is longer or shorter by more than 0.5 % and 4 px. Each kind has
  * a line of output that begins with `ok` or `not ok`. */
+#include "eye.h"
 #include "look.h"
 #include "twin.h"
 
@@ -309,11 +311,36 @@ static void write_picture(const char *folder, const char *name, const uint8_t *r
         fprintf(stderr, "test_twins: %s\n", diag.message);
 }
 
+/* What an eye says of a picture. */
+static void judge(const char *folder, const char *name, const dp_batch *arrays,
+                  const dp_camera *camera, const look *l) {
+    static uint8_t marked[4 * WIDTH * HEIGHT];
+    char text[200];
+    eye_truth *const truth = eye_see(arrays, camera, WIDTH, HEIGHT, 150, 210);
+    const eye_score score = eye_judge(truth, l->rgba, 2);
+    printf("#   %s: recall %.4f, precision %.4f\n", name, score.recall, score.precision);
+    eye_mark(truth, l->rgba, 2, marked);
+    snprintf(text, sizeof text, "%s-eye", name);
+    write_picture(folder, text, marked);
+    eye_free(truth);
+}
+
+static void print_command(const scene *s, const soup_place *place, const char *path) {
+    const v3 eye = v3_add(v3_mul(s->eye, place->scale), place->offset);
+    const v3 target = v3_add(v3_mul(s->target, place->scale), place->offset);
+    printf("#   drypoint %s -o out.png --size %dx%d --up 0,0,1 --eye %.17g,%.17g,%.17g "
+           "--target %.17g,%.17g,%.17g ",
+           path, WIDTH, HEIGHT, eye.x, eye.y, eye.z, target.x, target.y, target.z);
+    if (s->height > 0)
+        printf("--ortho %.17g\n", s->height * place->scale);
+    else
+        printf("--fov %g\n", s->fov_y);
+}
+
 static void write_model(const char *folder, const char *name, const scene *s, uint64_t seed,
-                        const twin_kind *kind) {
+                        const twin_kind *kind, const look *l) {
     const soup_place place = place_of(kind);
-    const v3 eye = v3_add(v3_mul(s->eye, place.scale), place.offset);
-    const v3 target = v3_add(v3_mul(s->target, place.scale), place.offset);
+    const dp_camera camera = scene_camera(s, &place, (double)WIDTH / HEIGHT);
     char path[4096];
     soup polygons = {0};
     soup_arrays arrays;
@@ -322,13 +349,8 @@ static void write_model(const char *folder, const char *name, const scene *s, ui
     snprintf(path, sizeof path, "%s/%s.obj", folder, name);
     if (!soup_arrays_write(&arrays, &place, path))
         fprintf(stderr, "test_twins: %s cannot be written\n", path);
-    printf("#   drypoint %s -o out.png --size %dx%d --up 0,0,1 --eye %.17g,%.17g,%.17g "
-           "--target %.17g,%.17g,%.17g ",
-           path, WIDTH, HEIGHT, eye.x, eye.y, eye.z, target.x, target.y, target.z);
-    if (s->height > 0)
-        printf("--ortho %.17g\n", s->height * place.scale);
-    else
-        printf("--fov %g\n", s->fov_y);
+    print_command(s, &place, path);
+    if (!place.origin) judge(folder, name, &arrays.batch, &camera, l);
     soup_arrays_free(&arrays);
     soup_free(&polygons);
 }
@@ -356,10 +378,10 @@ static void write_one(const options *o, uint64_t seed, const twin_kind *kind) {
     look_difference(&at.base, &at.twin, difference);
     snprintf(name, sizeof name, "%llu-base", (unsigned long long)seed);
     write_picture(o->folder, name, at.base.rgba);
-    write_model(o->folder, name, &s, seed, &base_kind);
+    write_model(o->folder, name, &s, seed, &base_kind, &at.base);
     snprintf(name, sizeof name, "%llu-%s", (unsigned long long)seed, kind->name);
     write_picture(o->folder, name, at.twin.rgba);
-    write_model(o->folder, name, &s, seed, kind);
+    write_model(o->folder, name, &s, seed, kind, &at.twin);
     snprintf(name, sizeof name, "%llu-%s-difference", (unsigned long long)seed, kind->name);
     write_picture(o->folder, name, difference);
     desk_free(&at);
