@@ -44,8 +44,6 @@ const twin_kind *twin_kind_named(const char *name) {
     return NULL;
 }
 
-enum { CORNERS = 32 }; /* of the largest polygon that a step makes, and to spare */
-
 typedef void step(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *out);
 
 static bool some(dice *d) { return dice_chance(d, 0.4); }
@@ -56,7 +54,7 @@ static void keep(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *out) {
 }
 
 static void reverse(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *out) {
-    v3 q[CORNERS];
+    v3 q[TWIN_CORNERS];
     (void)d;
     for (uint32_t i = 0; i < n; i++) q[i] = p[n - 1 - i];
     soup_add(out, q, n, part);
@@ -77,7 +75,7 @@ static void twice_some(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *ou
 
 /* From a point of one edge to a point of another; neighbours get no corner there. */
 static void cut(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *out) {
-    v3 side[2][CORNERS];
+    v3 side[2][TWIN_CORNERS];
     uint32_t count[2] = {0};
     if (!some(d)) {
         keep(d, p, n, part, out);
@@ -99,7 +97,7 @@ static void cut(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *out) {
 }
 
 static void add_collinear(dice *d, const v3 *p, uint32_t n, uint32_t part, soup *out) {
-    v3 q[CORNERS];
+    v3 q[TWIN_CORNERS];
     uint32_t count = 0;
     for (uint32_t i = 0; i < n; i++) {
         q[count++] = p[i];
@@ -154,7 +152,7 @@ static void shuffle(dice *d, soup *s) {
         const uint32_t k = dice_below(d, (uint32_t)i);
         const soup_polygon polygon = s->polygons[k];
         const uint32_t first = dice_below(d, polygon.count);
-        v3 p[CORNERS];
+        v3 p[TWIN_CORNERS];
         for (uint32_t c = 0; c < polygon.count; c++)
             p[c] = s->points[polygon.first + (first + c) % polygon.count];
         soup_add(&out, p, polygon.count, polygon.part);
@@ -181,6 +179,7 @@ void twin_make(const scene *s, uint64_t seed, const twin_kind *kind, soup *out) 
     dice d = {seed * UINT64_C(0x2545F4914F6CDD1D) + kind->steps};
     for (size_t i = 0; i < s->soup.polygon_count; i++) {
         const soup_polygon *const polygon = &s->soup.polygons[i];
+        if (2 * polygon->count > TWIN_CORNERS) abort();
         soup_add(out, s->soup.points + polygon->first, polygon->count, polygon->part);
     }
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)

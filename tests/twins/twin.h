@@ -17,6 +17,8 @@ enum {
     TWIN_SHUFFLE = 256 /* another order of parts and polygons, another first corner */
 };
 
+enum { TWIN_CORNERS = 256 }; /* a polygon has fewer than half of it before, fewer afterwards */
+
 typedef struct twin_kind {
     const char *name;
     unsigned steps;
