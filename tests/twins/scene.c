@@ -47,7 +47,7 @@ static v3 on_axes(double u, double v, double w, int axis) {
 /* A prism over a ring, from `low` to `high` along an axis; open at its high end without a lid. */
 static void extrude(builder *b, double (*ring)[2], uint32_t n, double low, double high, int axis,
                     bool lid) {
-    v3 bottom[RING], top[RING];
+    v3 bottom[RING] = {{0}}, top[RING] = {{0}};
     for (uint32_t i = 0; i < n; i++) {
         bottom[n - 1 - i] = on_axes(ring[i][0], ring[i][1], low, axis);
         top[i] = on_axes(ring[i][0], ring[i][1], high, axis);
