@@ -68,7 +68,7 @@ typedef struct outcome {
     uint32_t pixels;
     float length; /* px */
     uint8_t line; /* of look_kind_names */
-    bool drawn, skipped, known;
+    bool noted, drawn, skipped, known;
 } outcome;
 
 typedef struct options {
@@ -129,7 +129,9 @@ static void note(outcome *o, const desk *at) {
     int line;
     const uint32_t pixels = look_pixels(&at->base, &at->twin);
     const double length = look_lengths(&at->base, &at->twin, &line);
-    o->drawn = at->twin.diag.result == DP_OK;
+    const bool drawn = at->base.diag.result == DP_OK && at->twin.diag.result == DP_OK;
+    o->drawn = drawn && (!o->noted || o->drawn);
+    o->noted = true;
     if (pixels > o->pixels) o->pixels = pixels;
     if (length > (double)o->length) o->length = (float)length, o->line = (uint8_t)line;
 }
@@ -234,7 +236,7 @@ static uint64_t allowed(unsigned of_200, uint64_t seeds) {
 }
 
 typedef struct tally {
-    uint64_t tried, pictures, lines, known, worst_seed, longest_seed;
+    uint64_t tried, pictures, lines, failed, known, worst_seed, longest_seed;
     uint32_t worst;
     double longest;
     uint8_t line;
@@ -243,10 +245,11 @@ typedef struct tally {
 static void count_one(tally *t, outcome *o, uint64_t seed) {
     if (o->skipped) return;
     t->tried++;
-    if ((o->known)) {
+    if (o->known) {
         t->known += by_picture(o) || by_lines(o);
         return;
     }
+    t->failed += !o->drawn;
     t->pictures += by_picture(o);
     t->lines += by_lines(o);
     if (o->pixels > t->worst) t->worst = o->pixels, t->worst_seed = seed;
@@ -290,6 +293,7 @@ static bool report(const suite *all, size_t k) {
     if (t.longest > 0)
         printf(", %.0f px of %s at %llu", t.longest, look_kind_names[t.line],
                (unsigned long long)t.longest_seed);
+    if (t.failed > 0) printf("; %llu could not be drawn", (unsigned long long)t.failed);
     if (t.known > 0) printf("; %llu known", (unsigned long long)t.known);
     printf("\n");
     if (!good || o->seeds != SEEDS) {
