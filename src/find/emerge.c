@@ -187,8 +187,10 @@ static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const d
     for (uint32_t i = 0; i < p->points; i++) {
         const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
         const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
-        const double away = ex * ((double)at->y - a.y) - ey * ((double)at->x - a.x);
+        const double x = (double)at->x - a.x, y = (double)at->y - a.y, away = ex * y - ey * x,
+                     on = ex * x + ey * y;
         if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= reach * length &&
+            on >= -reach * length && on <= (length + reach) * length &&
             dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
             return i;
     }
