@@ -51,6 +51,21 @@ static double reach(const dp_polygons *polygons, uint32_t p) {
     return most;
 }
 
+/* Pixel sizes: what is sunk by less touches (find/emergence.h: DP_TOUCHING is twice as much). */
+static const double SUNK = 0.01;
+
+/* A corner nearer than this to a plane lies in it: rounding, or what cannot be seen at the distance
+ * of the smaller polygon. */
+static double flatness(const dp_frame *frame, uint32_t a, uint32_t b) {
+    const dp_view *const view = &frame->view;
+    const double ra = reach(&frame->polygons, a), rb = reach(&frame->polygons, b);
+    const dp_vec3 at = corner(&frame->polygons, ra < rb ? a : b, 0);
+    const double *const s = view->sight,
+                        distance = s[0] * at.x + s[1] * at.y + s[2] * at.z + s[3];
+    const double pixel = view->perspective ? dp_max(distance, 0) / view->focal : 1 / view->focal;
+    return dp_max(1e-6 * dp_min(ra, rb), SUNK * pixel);
+}
+
 static dp_vec3 towards_eye(const dp_view *view, dp_vec3 normal, dp_vec3 at) {
     return dp_dot(normal, dp_view_vector(view, at)) > 0 ? dp_scale(normal, -1) : normal;
 }
@@ -61,7 +76,7 @@ bool dp_crossing_find(const dp_frame *frame, uint32_t a, uint32_t b, dp_vec3 *fr
     const dp_vec3 na = dp_polygon_normal(frame, a), nb = dp_polygon_normal(frame, b);
     const dp_vec3 line = dp_cross(na, nb);
     if (dp_length(line) < 1e-6) return false; /* the same plane, within rounding */
-    const double flat = 1e-6 * dp_min(reach(polygons, a), reach(polygons, b));
+    const double flat = flatness(frame, a, b);
     const cut ca = cut_polygon(polygons, a, corner(polygons, b, 0), nb, flat);
     if (!ca.found) return false;
     const cut cb = cut_polygon(polygons, b, corner(polygons, a, 0), na, flat);

@@ -8,6 +8,7 @@
  *        for those that may cross it, up to its last row (meet.inc)
  *            both boxes hold one of these pixels, and each polygon has corners on both
  *            sides of the other's plane: cross them exactly (features/crossing.c)
+ *    in the order of the source, what no earlier crossing has covered becomes candidates
  *
  * Raskar's between-test finds intersections sample by sample; here it only says where to look. Each
  * crossing segment becomes a candidate with sample points, like an edge.
@@ -16,6 +17,8 @@
  * handled: crossings that no sample's depth comes near, and polygons that share two corners (an
  * edge). */
 #include "find/kernels.h"
+#include "base/sort.h"
+#include "core/spine.h"
 #include "features/crossing.h"
 #include "find/finder.h"
 
@@ -71,22 +74,113 @@ static bool are_beside(const dp_finder *w, const dp_tile_polygon *p, const dp_ti
     return is_beside(w, p, q, of_p) || is_beside(w, q, p, of_q);
 }
 
+/* Two polygons of the frame that cross, a < b. */
+typedef struct dp_crossed {
+    uint32_t a, b;
+    uint32_t spine; /* where: number of the crossing */
+    uint32_t next;  /* 1 + an earlier pair whose crossing runs at about the same angle; 0: none */
+} crossed;
+
 static void test_pair(dp_finder *w, uint32_t a, uint32_t b) {
     const dp_tile_polygon *const p = &w->tile.polygons[a], *const q = &w->tile.polygons[b];
     if (are_beside(w, p, q) || dp_shared_corners(w->tile.frame, p->id, q->id) > 1) return;
+    dp_intersecting *const list = &w->intersecting;
+    const crossed out = {.a = p->id < q->id ? p->id : q->id,
+                         .b = p->id < q->id ? q->id : p->id,
+                         .spine = list->crossing_count};
     dp_vec3 from, to, normal;
     dp_spine spine;
-    if (!(dp_polygon_style(w->tile.frame, p->id)->lines & DP_INTERSECTION)) return;
-    if (!dp_crossing_find(w->tile.frame, p->id, q->id, &from, &to, &normal)) return;
+    if (!(dp_polygon_style(w->tile.frame, out.a)->lines & DP_INTERSECTION)) return;
+    if (!dp_crossing_find(w->tile.frame, out.a, out.b, &from, &to, &normal)) return;
     if (!dp_spine_make(&w->tile.frame->view, from, to, normal, &spine)) return;
-    dp_add_candidate(w,
-                     (dp_candidate){.a = p->id,
-                                    .b = q->id,
-                                    .edge = DP_CROSSING,
-                                    .k1 = UINT32_MAX,
-                                    .line = DP_LINE_INTERSECTION,
-                                    .seen = 3},
-                     &spine, NULL);
+    if (!DP_TILE_RESERVE(&w->tile, list, crossed, crossed_cap, (size_t)list->crossing_count + 1) ||
+        !DP_TILE_RESERVE(&w->tile, list, crossings, crossings_cap,
+                         (size_t)list->crossing_count + 1))
+        return;
+    list->crossed[list->crossing_count] = out;
+    list->crossings[list->crossing_count++] = spine;
+}
+
+/* ------- crossings that are there twice ------- */
+
+static int by_polygons(const void *left, const void *right) {
+    const crossed *const l = left, *const r = right;
+    if (l->a != r->a) return l->a < r->a ? -1 : 1;
+    return (l->b > r->b) - (l->b < r->b);
+}
+
+/* px on the screen, pixel sizes in depth: crossings no farther apart are one. */
+static const double SAME = 0.02, SAME_DEPTH = 0.2;
+
+/* Crossings by the angle at which they run on the screen: only those of one bucket, or of the next,
+ * may be one. */
+enum { ANGLES = 32 };
+static uint32_t angle_of(const dp_spine *s) {
+    const double x = fabs(s->b.x - s->a.x), y = s->b.y - s->a.y,
+                 up = s->b.x < s->a.x ? -y : y; /* both directions are one angle */
+    const double turned = x + fabs(up) > 0 ? up / (x + fabs(up)) : 0; /* -1 to 1 */
+    return (uint32_t)((turned + 1) * (ANGLES / 2 - 1e-9));
+}
+
+/* A range of a spine's sample points in the tile, and which of them are covered. */
+enum { POINTS = 512 }; /* more than fit the tile's diagonal */
+typedef struct cover {
+    uint32_t k0, k1;
+    bool there[POINTS];
+} cover;
+
+/* Covers the sample points of `s` beside which `other` runs. */
+static void cover_by(const dp_finder *w, const dp_spine *s, const dp_spine *other, cover *c) {
+    const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
+    double t[2];
+    if (!(length > 0)) return;
+    for (int i = 0; i < 2; i++) {
+        const dp_pointd p = i ? other->b : other->a;
+        const double x = p.x - s->a.x, y = p.y - s->a.y;
+        if (fabs(ex * y - ey * x) > SAME * length) return;
+        t[i] = (ex * x + ey * y) / (length * length);
+        const double d = s->a.d + t[i] * (s->b.d - s->a.d);
+        if (fabs(p.d - d) > fabs(dp_depth_step(&w->tile.frame->view, d, SAME_DEPTH))) return;
+    }
+    const double from = dp_min(t[0], t[1]) * s->n, to = dp_max(t[0], t[1]) * s->n;
+    for (uint32_t k = c->k0; k < c->k1; k++) c->there[k - c->k0] |= k + 0.5 > from && k + 0.5 < to;
+}
+
+static void add_uncovered(dp_finder *w, const crossed *x, const cover *c) {
+    for (uint32_t k = c->k0, start = k; k <= c->k1; k++) {
+        if (k < c->k1 && !c->there[k - c->k0]) continue;
+        /* a range that reaches the end of the part looked at goes on as far as the tile does */
+        const dp_candidate candidate = {.a = x->a,
+                                        .b = x->b,
+                                        .edge = DP_CROSSING,
+                                        .k0 = start == c->k0 ? 0 : start,
+                                        .k1 = k == c->k1 ? UINT32_MAX : k,
+                                        .line = DP_LINE_INTERSECTION,
+                                        .seen = 3};
+        if (k > start) dp_add_candidate(w, candidate, &w->intersecting.crossings[x->spine], NULL);
+        start = k + 1;
+    }
+}
+
+/* Doubled faces cross as often as they are there: what an earlier crossing covers is left out. */
+static void add_crossings(dp_finder *w) {
+    dp_intersecting *const list = &w->intersecting;
+    uint32_t first[ANGLES + 2] = {0}; /* by 1 + angle: 1 + the last one so far */
+    dp_sort(list->crossed, list->crossing_count, sizeof *list->crossed, by_polygons);
+    for (uint32_t i = 0; i < list->crossing_count && !w->tile.failed; i++) {
+        crossed *const x = &list->crossed[i];
+        const dp_spine *const s = &list->crossings[x->spine];
+        const uint32_t angle = 1 + angle_of(s);
+        cover c = {.k0 = 0};
+        if (!dp_spine_range(s, w->tile.tile_x, w->tile.tile_y, 1, &c.k0, &c.k1)) continue;
+        if (c.k1 - c.k0 > POINTS) c.k1 = c.k0 + POINTS; /* rounding: the tile's diagonal is less */
+        for (uint32_t k = 0; k < 3; k++)
+            for (uint32_t at = first[angle - 1 + k]; at; at = list->crossed[at - 1].next)
+                cover_by(w, s, &list->crossings[list->crossed[at - 1].spine], &c);
+        x->next = first[angle];
+        first[angle] = i + 1;
+        add_uncovered(w, x, &c);
+    }
 }
 
 /* ------- the intersection candidates ------- */
@@ -246,6 +340,7 @@ void dp_find_intersections(dp_finder *w) {
         !list_intersecting(w, &near, w->intersecting.listed, rows))
         return;
     sort_intersecting(w, w->intersecting.listed, rows);
+    w->intersecting.crossing_count = 0;
     for (uint32_t i = 0; i < w->intersecting.count && !w->tile.failed; i++) {
         const uint32_t a = w->intersecting.polygon[i];
         const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)
@@ -253,9 +348,10 @@ void dp_find_intersections(dp_finder *w) {
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t b = w->intersecting.polygon[w->intersecting.met[k]];
             if (meet_near(&near, &w->tile.polygons[a], &w->tile.polygons[b]))
-                test_pair(w, a < b ? a : b, a < b ? b : a);
+                test_pair(w, a, b);
         }
     }
+    add_crossings(w);
 }
 
 /* ------- memory ------- */
@@ -263,7 +359,9 @@ void dp_find_intersections(dp_finder *w) {
 static const dp_array arrays[] = {
     DP_ARRAY(dp_intersecting, polygon, polygon_cap),
     DP_ARRAY(dp_intersecting, members, members_cap), DP_ARRAY(dp_intersecting, keys, keys_cap),
-    DP_ARRAY(dp_intersecting, met, met_cap), DP_ARRAY(dp_intersecting, listed, listed_cap)};
+    DP_ARRAY(dp_intersecting, met, met_cap), DP_ARRAY(dp_intersecting, listed, listed_cap),
+    DP_ARRAY(dp_intersecting, crossed, crossed_cap),
+    DP_ARRAY(dp_intersecting, crossings, crossings_cap)};
 
 void dp_intersecting_free(dp_intersecting *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));

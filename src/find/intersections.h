@@ -2,6 +2,7 @@
 #ifndef DP_FIND_INTERSECTIONS_H
 #define DP_FIND_INTERSECTIONS_H
 
+#include "core/spine.h"
 #include "find/visibility.h"
 
 /* Polygons around candidate pixels, sorted by the first row of their boxes. */
@@ -11,8 +12,10 @@ typedef struct dp_intersecting {
     uint32_t *keys;   /* key of corner k of triangle i at k * stride + i; of others: matches none */
     uint32_t *met;    /* output of `meet`: those that one polygon may cross */
     uint32_t *listed; /* before sorting */
-    size_t polygon_cap, members_cap, keys_cap, met_cap, listed_cap;
-    uint32_t count, stride;
+    struct dp_crossed *crossed; /* pairs that cross, and where (intersect.c) */
+    dp_spine *crossings;
+    size_t polygon_cap, members_cap, keys_cap, met_cap, listed_cap, crossed_cap, crossings_cap;
+    uint32_t count, stride, crossing_count;
 } dp_intersecting;
 
 enum {
