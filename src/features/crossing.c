@@ -60,8 +60,7 @@ static double flatness(const dp_frame *frame, uint32_t a, uint32_t b) {
     const dp_view *const view = &frame->view;
     const double ra = reach(&frame->polygons, a), rb = reach(&frame->polygons, b);
     const dp_vec3 at = corner(&frame->polygons, ra < rb ? a : b, 0);
-    const double *const s = view->sight,
-                        distance = s[0] * at.x + s[1] * at.y + s[2] * at.z + s[3];
+    const double *const s = view->sight, distance = s[0] * at.x + s[1] * at.y + s[2] * at.z + s[3];
     const double pixel = view->perspective ? dp_max(distance, 0) / view->focal : 1 / view->focal;
     return dp_max(1e-6 * dp_min(ra, rb), SUNK * pixel);
 }

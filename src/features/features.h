@@ -170,8 +170,8 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen
 
 /* May the edge be a crease? One that only splits a polygon is none. */
 static inline bool dp_may_crease(const dp_primitive *p, uint32_t edge) {
-    return !p->edge_flags || (p->edge_flags[edge] && !(p->has_diagonals &&
-                                                       p->edge_flags[edge] == DP_EDGE_DIAGONAL));
+    return !p->edge_flags ||
+           (p->edge_flags[edge] && !(p->has_diagonals && p->edge_flags[edge] == DP_EDGE_DIAGONAL));
 }
 
 #endif

@@ -49,11 +49,14 @@ static void add_line(dp_finder *w, const shared_edge *e, dp_line line, dp_vec3 n
     if (!dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, va)),
                        dp_v3f(dp_vertex_position(polygons, vb)), normal, &spine))
         return;
-    dp_add_candidate(
-        w,
-        (dp_candidate){
-            .a = e->a, .b = e->b, .edge = e->edge_a, .k1 = UINT32_MAX, .line = line & 63, .seen = seen},
-        &spine, NULL);
+    dp_add_candidate(w,
+                     (dp_candidate){.a = e->a,
+                                    .b = e->b,
+                                    .edge = e->edge_a,
+                                    .k1 = UINT32_MAX,
+                                    .line = line & 63,
+                                    .seen = seen},
+                     &spine, NULL);
 }
 
 /* The fold as the eye sees it: if the polygons are wound differently, one normal is reversed. */

@@ -22,57 +22,58 @@ static const float BESIDE = 0.5f, LEAST = 0.02f;
 static const float REACHES[2] = {DP_LOOK_NEAR, DP_LOOK_FAR};
 
 typedef struct place {
-    float x, y, d;     /* a point of the edge, tile space */
-    float ox, oy;      /* px: unit vector to the side */
+    dp_lookout at;     /* a point of the edge, and the side */
     uint32_t expected; /* polygon; UINT32_MAX: none */
 } place;
 
 /* A polygon beside the one that is expected must lie over that right at the edge. */
-static bool reaches(const dp_tile *t, const dp_tile_polygon *p, const place *at) {
-    const int count = at->expected == UINT32_MAX ? 2 : 1;
+static bool reaches(const dp_tile *t, const dp_tile_polygon *p, const place *here) {
+    const int count = here->expected == UINT32_MAX ? 2 : 1;
     for (int i = 0; i < count; i++)
-        if (dp_tile_covers(t, p, at->x + REACHES[i] * at->ox, at->y + REACHES[i] * at->oy))
+        if (dp_tile_covers(t, p, here->at.x + REACHES[i] * here->at.ox,
+                           here->at.y + REACHES[i] * here->at.oy))
             return true;
     return false;
 }
 
 /* Does the surface that is expected there go on at the sample (x, y), whose depth is d? */
-static bool goes_on(const dp_tile *t, float x, float y, float d, const place *at) {
-    if (at->expected == UINT32_MAX) return false;
-    const dp_tile_polygon *const p = &t->polygons[at->expected];
-    return fabsf(dp_plane_at(p, x, y) - d) <= dp_touching(t, p, at->d);
+static bool goes_on(const dp_tile *t, float x, float y, float d, const place *here) {
+    if (here->expected == UINT32_MAX) return false;
+    const dp_tile_polygon *const p = &t->polygons[here->expected];
+    return fabsf(dp_plane_at(p, x, y) - d) <= dp_touching(t, p, here->at.d);
 }
 
 /* Does polygon `index` lie in the edge there, and reach it? */
-static bool disputes(const dp_tile *t, uint32_t index, const place *at) {
+static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
     const dp_tile_polygon *const p = &t->polygons[index];
-    return fabsf(dp_plane_at(p, at->x, at->y) - at->d) <= dp_touching(t, p, at->d) &&
-           reaches(t, p, at);
+    return fabsf(dp_plane_at(p, here->at.x, here->at.y) - here->at.d) <=
+               dp_touching(t, p, here->at.d) &&
+           reaches(t, p, here);
 }
 
 /* Depths of a point and of a sample beside it differ by no more pixel sizes, where a plane passes
  * through both; a steeper one is seen edge-on. */
 static const float STEEPEST = 64;
 
-static bool is_disputed_at(const dp_tile *t, const place *at, const uint32_t sides[2]) {
-    const float last = DP_TILE - 1, x = floorf(at->x + BESIDE * at->ox),
-                y = floorf(at->y + BESIDE * at->oy);
+static bool is_disputed_at(const dp_tile *t, const place *here, const uint32_t sides[2]) {
+    const float last = DP_TILE - 1, x = floorf(here->at.x + BESIDE * here->at.ox),
+                y = floorf(here->at.y + BESIDE * here->at.oy);
     const float px = dp_minf(dp_maxf(x, 0), last), py = dp_minf(dp_maxf(y, 0), last);
     const uint32_t samples = t->sampling.samples;
     const size_t lane = dp_pixel_lane(&t->sampling, (uint32_t)px, (uint32_t)py);
-    const float most = fabsf(dp_depth_steps(t->frame, at->d, STEEPEST));
+    const float most = fabsf(dp_depth_steps(t->frame, here->at.d, STEEPEST));
     bool looked = px == x && py == y; /* else the pixel is another tile's */
     for (uint32_t i = 0; i < samples; i++) {
         const float sx = px + (samples == 1 ? 0.5f : t->sampling.x[i / 4][i % 4]),
                     sy = py + (samples == 1 ? 0.5f : t->sampling.y[i / 4][i % 4]);
-        if ((sx - at->x) * at->ox + (sy - at->y) * at->oy < LEAST) continue;
+        if ((sx - here->at.x) * here->at.ox + (sy - here->at.y) * here->at.oy < LEAST) continue;
         looked = true;
         const uint32_t won = t->winner[lane + i];
         const float d = t->depth[lane + i];
-        if (won == UINT32_MAX || won == sides[0] || won == sides[1] || fabsf(d - at->d) > most ||
-            goes_on(t, sx, sy, d, at))
+        if (won == UINT32_MAX || won == sides[0] || won == sides[1] ||
+            fabsf(d - here->at.d) > most || goes_on(t, sx, sy, d, here))
             continue;
-        if (disputes(t, won, at)) return true;
+        if (disputes(t, won, here)) return true;
     }
     return !looked;
 }
@@ -88,9 +89,10 @@ bool dp_is_disputed(const dp_finder *w, const dp_spine *s, const uint32_t sides[
         const dp_pointd p = dp_point_mix(s->a, s->b, (k + 0.5) / s->n);
         for (int side = 0; side < 2; side++) {
             const float sign = side ? 1 : -1;
-            const place at = {(float)(p.x - t->tile_x), (float)(p.y - t->tile_y), (float)p.d,
-                              sign * right[0], sign * right[1], sides[side]};
-            if (is_disputed_at(t, &at, sides)) return true;
+            const place here = {{(float)(p.x - t->tile_x), (float)(p.y - t->tile_y), (float)p.d,
+                                 sign * right[0], sign * right[1]},
+                                sides[side]};
+            if (is_disputed_at(t, &here, sides)) return true;
         }
     }
     return false;

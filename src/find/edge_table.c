@@ -93,8 +93,8 @@ void dp_edge_list_polygon(dp_finder *w, uint32_t index) {
                                        dp_corner_vertex(polygons, first + next));
         list->polygon[at] = index, list->edge[at] = i;
         list->from[at] = ka, list->key[at] = ka ^ kb;
-        list->count +=
-            real && dp_edge_may_be_line(polygons, first + i) && dp_tile_edge_is_near(&w->tile, p, i);
+        list->count += real && dp_edge_may_be_line(polygons, first + i) &&
+                       dp_tile_edge_is_near(&w->tile, p, i);
         ka = kb;
     }
     w->tile.unsure[w->tile.unsure_count] = index;

@@ -71,9 +71,9 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
     uint32_t sides[2];
     sides_of_pair(w, e, sides);
     const bool is_fold = sides[0] != UINT32_MAX && sides[1] != UINT32_MAX;
-    const int line =
-        is_fold ? dp_fold_line(&fold, dp_polygon_style(frame, w->tile.polygons[e->a].id))
-                : DP_LINE_SILHOUETTE;
+    const int line = is_fold
+                         ? dp_fold_line(&fold, dp_polygon_style(frame, w->tile.polygons[e->a].id))
+                         : DP_LINE_SILHOUETTE;
     if (line >= 0 && !(is_fold && dp_edge_is_diagonal(w, e)))
         add_line(w, e, (dp_line)line, fold.normal, sides);
 }

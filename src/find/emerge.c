@@ -9,6 +9,7 @@
  *            on both sides                  fold: ridge, valley or flat (core/fold.c)
  *            on one side                    silhouette if several planes meet there, else border
  *        of several polygons with an edge here only one makes the line         find_owner
+ *        and none if the table has made it
  *    runs of points with the same line and polygons become candidates
  *
  * An edge with one polygon is a border, or its neighbours share no corner with it: T-junctions,
@@ -33,13 +34,9 @@ static const float OFF = 0.25f;
 static const float NEARER = 1e-3f;
 
 /* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, … */
-static const double ALONG_NEAR = 2 * (double)DP_LOOK_NEAR, ALONG_FAR = 1.2 * (double)DP_LOOK_FAR;
+static const double ALONG_NEAR = (double)DP_ALONG_NEAR, ALONG_FAR = 1.2 * (double)DP_LOOK_FAR;
 /* … and at an angle with a smaller sine is the same line. */
 static const double PARALLEL = 0.1;
-
-typedef struct dp_lookout {
-    float x, y, d, ox, oy;
-} dp_lookout;
 
 typedef struct emerging {
     dp_unpaired_edge unpaired;
@@ -103,9 +100,8 @@ static bool place_points(dp_finder *w, emerging *e, uint32_t *count) {
                                                   .nearest = {UINT32_MAX, UINT32_MAX},
                                                   .furthest = {UINT32_MAX, UINT32_MAX},
                                                   .far = {UINT32_MAX, UINT32_MAX}};
-        w->emergence.placed[(*count)++] =
-            (dp_lookout){(float)(p.x - w->tile.tile_x), (float)(p.y - w->tile.tile_y), (float)p.d,
-                         ox, oy};
+        w->emergence.placed[(*count)++] = (dp_lookout){
+            (float)(p.x - w->tile.tile_x), (float)(p.y - w->tile.tile_y), (float)p.d, ox, oy};
     }
     return true;
 }
@@ -148,8 +144,7 @@ static void mark_cells(dp_finder *w, uint32_t count) {
     for (uint32_t s = 1; s < DP_CELL_SPANS; s++)
         for (uint32_t k = 0; k < DP_CELL_SPANS; k++)
             for (uint32_t i = 0; i < all; i++)
-                out->there[s][k][i] =
-                    out->there[s - 1][k][i] | out->there[0][k][i + s * DP_CELLS];
+                out->there[s][k][i] = out->there[s - 1][k][i] | out->there[0][k][i + s * DP_CELLS];
 }
 
 /* Sorts the points by cell (counting sort). */
@@ -177,12 +172,10 @@ static bool sort_points(dp_finder *w, uint32_t count) {
 
 /* ------- what is found ------- */
 
-/* The number of an edge that bounds the polygon and runs along this point, within `reach` px;
- * UINT32_MAX: none does. */
-static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const dp_lookout *at,
-                           double reach) {
-    const dp_polygons *const polygons = &w->tile.frame->polygons;
-    const dp_vertex *const v = w->tile.points + p->point;
+uint32_t dp_edge_along(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at,
+                       double reach) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const dp_vertex *const v = w->points + p->point;
     if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
     for (uint32_t i = 0; i < p->points; i++) {
         const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
@@ -200,8 +193,8 @@ static uint32_t edge_along(const dp_finder *w, const dp_tile_polygon *p, const d
 /* Keeps the polygon if it lies nearer at a side than what is there. */
 static void keep_nearest(const dp_finder *w, uint32_t *nearest, float *nearest_d, uint32_t index,
                          float d, float rounding) {
-    const bool is_first = *nearest != UINT32_MAX &&
-                          w->tile.polygons[index].id < w->tile.polygons[*nearest].id;
+    const bool is_first =
+        *nearest != UINT32_MAX && w->tile.polygons[index].id < w->tile.polygons[*nearest].id;
     if (*nearest != UINT32_MAX && !(d > *nearest_d + rounding) &&
         !(is_first && d >= *nearest_d - rounding))
         return;
@@ -229,12 +222,35 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
         }
     }
     const uint32_t near = sides & 3, far = sides >> 2;
-    if (p->id >= w->tile.polygons[b->first].id || near == 3 || (!near && far == 3)) return;
-    if (edge_along(w, p, at, near ? ALONG_NEAR : ALONG_FAR) != UINT32_MAX) b->first = index;
+    if (near == 3 || (!near && far == 3)) return; /* no edge is here */
+    const uint32_t edge = dp_edge_along(&w->tile, p, at, near ? ALONG_NEAR : ALONG_FAR);
+    if (edge == UINT32_MAX) return;
+    if (p->id < w->tile.polygons[b->first].id) b->first = index;
+    b->is_drawn |= edge < 32 && w->emergence.drawn_of[index] >> edge & 1;
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
     behold(w, w->emergence.lookouts.point[lookout], index, sides);
+}
+
+bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn, emergence.drawn_cap,
+                         w->emergence.drawn_count + 1u))
+        return false;
+    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge};
+    return true;
+}
+
+static bool find_drawn(dp_finder *w) {
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn_of, emergence.drawn_of_cap,
+                         w->tile.polygon_count))
+        return false;
+    memset(w->emergence.drawn_of, 0, w->tile.polygon_count * sizeof *w->emergence.drawn_of);
+    for (uint32_t i = 0; i < w->emergence.drawn_count; i++) {
+        const dp_unpaired_edge e = w->emergence.drawn[i];
+        if (e.edge < 32) w->emergence.drawn_of[e.polygon] |= (uint32_t)1 << e.edge;
+    }
+    return true;
 }
 
 /* An edge's own polygon lies on its own side, even where it is too thin to cover a place there. */
@@ -250,9 +266,9 @@ static void behold_own(dp_finder *w, uint32_t count) {
 
 /* What a sample point turned out to be. */
 typedef struct finding {
-    int line;          /* dp_line, or -1: no line */
-    uint32_t sides[2]; /* tile polygons that are seen to the left and right, or UINT32_MAX */
-    uint32_t behind;   /* of an outline: the one furthest behind it, or UINT32_MAX */
+    int line;               /* dp_line, or -1: no line */
+    uint32_t sides[2];      /* tile polygons that are seen to the left and right, or UINT32_MAX */
+    uint32_t behind;        /* of an outline: the one furthest behind it, or UINT32_MAX */
     dp_unpaired_edge owner; /* whose edge it is */
     dp_vec3 normal;
 } finding;
@@ -294,12 +310,13 @@ static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b, const
             (owner.polygon != UINT32_MAX &&
              w->tile.polygons[owner.polygon].id < w->tile.polygons[sides[i]].id))
             continue;
-        const uint32_t edge = edge_along(w, &w->tile.polygons[sides[i]], at,
-                                         sides[i] == b->nearest[i] ? ALONG_NEAR : ALONG_FAR);
+        const uint32_t edge = dp_edge_along(&w->tile, &w->tile.polygons[sides[i]], at,
+                                            sides[i] == b->nearest[i] ? ALONG_NEAR : ALONG_FAR);
         if (edge != UINT32_MAX) owner = (dp_unpaired_edge){sides[i], edge};
     }
     if (owner.polygon == UINT32_MAX)
-        owner = (dp_unpaired_edge){b->first, edge_along(w, &w->tile.polygons[b->first], at, ALONG_FAR)};
+        owner = (dp_unpaired_edge){
+            b->first, dp_edge_along(&w->tile, &w->tile.polygons[b->first], at, ALONG_FAR)};
     return owner;
 }
 
@@ -313,8 +330,8 @@ static bool is_own_edge(const dp_finder *w, const emerging *e, dp_unpaired_edge 
     dp_vec3 end[2];
     for (uint32_t i = 0; i < 2; i++)
         end[i] = dp_v3f(dp_vertex_position(
-            polygons, dp_corner_vertex(polygons, dp_first_corner(polygons, id) +
-                                                     (owner.edge + i) % n)));
+            polygons,
+            dp_corner_vertex(polygons, dp_first_corner(polygons, id) + (owner.edge + i) % n)));
     const dp_vec3 a = e->a, b = e->b;
     const bool same = !dp_length(dp_sub(end[0], a)) && !dp_length(dp_sub(end[1], b)),
                turned = !dp_length(dp_sub(end[1], a)) && !dp_length(dp_sub(end[0], b));
@@ -336,7 +353,7 @@ static finding judge(const dp_finder *w, const emerging *e, const dp_sight *sigh
         f.normal = dp_polygon_normal(w->tile.frame, e->id);
         return f;
     }
-    if (f.sides[0] == f.sides[1]) return NOTHING;
+    if (f.sides[0] == f.sides[1] || b->is_drawn) return NOTHING;
     f.owner = find_owner(w, b, &w->emergence.placed[at], f.sides);
     if (!is_own_edge(w, e, f.owner)) return NOTHING;
     if (left && right)
@@ -353,15 +370,15 @@ static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t 
     const uint32_t owner = f->owner.polygon, id = w->tile.polygons[owner].id;
     if (!(dp_polygon_style(w->tile.frame, id)->lines & (1u << f->line))) return;
     const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);
-    const dp_vec3 a = dp_v3f(dp_vertex_position(
-                      polygons, dp_corner_vertex(polygons, first + f->owner.edge))),
+    const dp_vec3 a = dp_v3f(dp_vertex_position(polygons,
+                                                dp_corner_vertex(polygons, first + f->owner.edge))),
                   b = dp_v3f(dp_vertex_position(
                       polygons, dp_corner_vertex(polygons, first + (f->owner.edge + 1) % n)));
     const bool turned = dp_length(dp_sub(a, e->a)) > 0;
     dp_spine spine;
     if (!dp_spine_make(&w->tile.frame->view, a, b, f->normal, &spine)) return;
-    const uint32_t other = f->sides[0] == owner || f->sides[0] == UINT32_MAX ? f->sides[1]
-                                                                             : f->sides[0];
+    const uint32_t other =
+        f->sides[0] == owner || f->sides[0] == UINT32_MAX ? f->sides[1] : f->sides[0];
     const uint32_t across = other == UINT32_MAX || other == owner ? f->behind : other;
     dp_add_candidate(
         w,
@@ -371,8 +388,8 @@ static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t 
                        .k0 = turned ? spine.n - k1 : k0,
                        .k1 = turned ? spine.n - k0 : k1,
                        .line = f->line & 63,
-                       .seen = dp_seen_beside(f->sides, owner) |
-                               dp_seen_beside(f->sides, across) << 1},
+                       .seen = dp_seen_beside(f->sides, owner) | dp_seen_beside(f->sides, across)
+                                                                     << 1},
         &spine, NULL);
 }
 
@@ -417,7 +434,7 @@ void dp_find_emergent(dp_finder *w) {
     if (!w->emergence.unpaired_count) return;
     for (uint32_t i = 0; i < w->emergence.unpaired_count; i++)
         if (begin_edge(w, w->emergence.unpaired[i], &e) && !place_points(w, &e, &count)) return;
-    if (!count || !sort_points(w, count)) return;
+    if (!count || !sort_points(w, count) || !find_drawn(w)) return;
     behold_own(w, count);
     dp_find_kernels_for(w->tile.frame->lanes)->look(w);
     count = 0;
@@ -435,6 +452,8 @@ void dp_find_emergent(dp_finder *w) {
 static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap),
                                   DP_ARRAY(dp_emergence, placed, placed_cap),
                                   DP_ARRAY(dp_emergence, beheld, beheld_cap),
+                                  DP_ARRAY(dp_emergence, drawn, drawn_cap),
+                                  DP_ARRAY(dp_emergence, drawn_of, drawn_of_cap),
                                   DP_ARRAY(dp_emergence, lookouts.x, lookouts.x_cap),
                                   DP_ARRAY(dp_emergence, lookouts.y, lookouts.y_cap),
                                   DP_ARRAY(dp_emergence, lookouts.d, lookouts.d_cap),

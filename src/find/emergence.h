@@ -24,6 +24,20 @@ static inline float dp_touching(const dp_tile *w, const dp_tile_polygon *p, floa
     return DP_TOUCHING * (dp_depth_steps(w->frame, d, 1) + fabsf(p->dx) + fabsf(p->dy));
 }
 
+/* A sample point of an edge. */
+typedef struct dp_lookout {
+    float x, y, d; /* px, tile space; depth */
+    float ox, oy;  /* px: unit vector to one side of the edge on the screen */
+} dp_lookout;
+
+/* px: so near by another polygon's edge is the same line. */
+#define DP_ALONG_NEAR (2 * DP_LOOK_NEAR)
+
+/* The number of an edge that bounds the polygon and runs along this point, within `reach` px;
+ * UINT32_MAX: none does (emerge.c). */
+uint32_t dp_edge_along(const dp_tile *tile, const dp_tile_polygon *polygon, const dp_lookout *at,
+                       double reach);
+
 /* Sample points of edges beside which polygons are looked for, sorted by the cell that they lie in;
  * arrays with room for one vector beyond the last. */
 enum { DP_LOOK_CELL = 2 /* px */, DP_LOOK_CELLS = DP_TILE / DP_LOOK_CELL };
@@ -44,20 +58,23 @@ enum { DP_LOOK_ROOM = 16 };
 /* What has been found at one sample point. Tile polygons; UINT32_MAX: none. Index 0: to the left of
  * the edge, 1: to the right. */
 typedef struct dp_beheld {
-    uint32_t own;                       /* the edge's polygon */
-    uint32_t nearest[2], furthest[2];   /* of those that reach the edge */
-    uint32_t far[2];                    /* the nearest of those only within DP_LOOK_FAR of it */
+    uint32_t own;                     /* the edge's polygon */
+    uint32_t nearest[2], furthest[2]; /* of those that reach the edge */
+    uint32_t far[2];                  /* the nearest of those only within DP_LOOK_FAR of it */
     float nearest_d[2], furthest_d[2], far_d[2]; /* how near they lie a little way off */
     uint32_t first; /* of those with an edge along here, the one that comes first in the source */
+    bool is_drawn;  /* one of them has made a line of it already */
 } dp_beheld;
 
 typedef struct dp_emergence {
     dp_lookouts lookouts;
     dp_unpaired_edge *unpaired;
-    struct dp_lookout *placed; /* emerge.c */
-    dp_beheld *beheld;         /* by point */
-    size_t unpaired_cap, placed_cap, beheld_cap;
-    uint32_t unpaired_count;
+    dp_lookout *placed;      /* by point, like `beheld` */
+    dp_beheld *beheld;       /* by point */
+    dp_unpaired_edge *drawn; /* edges that the table has made lines of */
+    uint32_t *drawn_of;      /* by tile polygon: a bit for each of its first 32 edges among these */
+    size_t unpaired_cap, placed_cap, beheld_cap, drawn_cap, drawn_of_cap;
+    uint32_t unpaired_count, drawn_count;
 } dp_emergence;
 
 void dp_emergence_free(dp_emergence *emergence, const dp_allocator *memory);

@@ -29,7 +29,9 @@ void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_sp
     const uint32_t id = w->tile.polygons[e->a].id;
     if (dp_is_disputed(w, spine, sides)) {
         dp_leave_to_emerge(w, e->a, e->edge_a);
-    } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line)) {
+    } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line) &&
+               dp_note_drawn(w, e->a, e->edge_a) &&
+               (e->b == UINT32_MAX || dp_note_drawn(w, e->b, e->edge_b))) {
         dp_add_candidate(
             w,
             (dp_candidate){.a = id,
@@ -44,7 +46,7 @@ void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_sp
 
 /* What lies on one side of the edge: the nearest polygon, and the one furthest behind it. */
 typedef struct side {
-    uint32_t nearest, furthest; /* tile polygons; UINT32_MAX: none */
+    dp_half_edge nearest, furthest; /* of tile polygons; polygon UINT32_MAX: none */
     dp_beside near, far;
 } side;
 
@@ -65,9 +67,8 @@ static bool runs_forward(const dp_finder *w, const fan *f, dp_half_edge at) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     uint32_t from, to;
     dp_edge_ends(w, at, &from, &to);
-    const float *const p = dp_vertex_position(polygons, from), *const q =
-                                                                   dp_vertex_position(polygons,
-                                                                                      f->va);
+    const float *const p = dp_vertex_position(polygons, from), *const q = dp_vertex_position(
+                                                                   polygons, f->va);
     return from == f->va || (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]);
 }
 
@@ -79,12 +80,12 @@ static void offer(const dp_finder *w, fan *f, dp_half_edge at) {
     side *const s = &f->sides[right];
     const dp_beside beside = dp_beside_edge(w->tile.frame, &f->sight, p->id, front);
     const double sign = right ? 1 : -1, recedes = sign * beside.recedes;
-    const bool same = s->nearest != UINT32_MAX && dp_is_one_plane(&beside, &s->near);
-    if (s->nearest == UINT32_MAX ||
-        (same ? p->id < w->tile.polygons[s->nearest].id : recedes < sign * s->near.recedes))
-        s->nearest = at.polygon, s->near = beside;
-    if (s->furthest == UINT32_MAX || recedes > sign * s->far.recedes)
-        s->furthest = at.polygon, s->far = beside;
+    const bool same = s->nearest.polygon != UINT32_MAX && dp_is_one_plane(&beside, &s->near);
+    if (s->nearest.polygon == UINT32_MAX ||
+        (same ? p->id < w->tile.polygons[s->nearest.polygon].id : recedes < sign * s->near.recedes))
+        s->nearest = at, s->near = beside;
+    if (s->furthest.polygon == UINT32_MAX || recedes > sign * s->far.recedes)
+        s->furthest = at, s->far = beside;
 }
 
 static void for_each(dp_finder *w, const dp_edge_entry *e, fan *f,
@@ -96,41 +97,44 @@ static void for_each(dp_finder *w, const dp_edge_entry *e, fan *f,
 }
 
 static void find_sides(dp_finder *w, const dp_edge_entry *e, fan *f) {
-    const side none = {.nearest = UINT32_MAX, .furthest = UINT32_MAX};
+    const side none = {.nearest = {UINT32_MAX, 0}, .furthest = {UINT32_MAX, 0}};
     f->sides[0] = f->sides[1] = none;
     for_each(w, e, f, offer);
 }
 
 /* Adds a line along the fan's edge; `across`: a second polygon that does not hide it. */
-static void add(dp_finder *w, const fan *f, dp_line line, uint32_t across, dp_vec3 normal) {
+static void add(dp_finder *w, const fan *f, dp_line line, dp_half_edge across, dp_vec3 normal) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     dp_spine spine;
     if (!dp_spine_make(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, f->va)),
                        dp_v3f(dp_vertex_position(polygons, f->vb)), normal, &spine))
         return;
-    const dp_edge_entry e = {
-        .va = f->va, .vb = f->vb, .a = f->owner, .b = across, .edge_a = f->edge};
-    const uint32_t sides[2] = {f->sides[0].nearest, f->sides[1].nearest};
+    const dp_edge_entry e = {.va = f->va,
+                             .vb = f->vb,
+                             .a = f->owner,
+                             .b = across.polygon,
+                             .edge_a = f->edge,
+                             .edge_b = across.edge};
+    const uint32_t sides[2] = {f->sides[0].nearest.polygon, f->sides[1].nearest.polygon};
     dp_add_line(w, &e, line, &spine, NULL, sides);
 }
 
 static void add_outline(dp_finder *w, const fan *f, bool right) {
     const side *const s = &f->sides[right];
-    if (dp_is_one_plane(&s->near, &s->far)) {
-        const uint32_t across = s->nearest == f->owner ? UINT32_MAX : s->nearest;
-        add(w, f, DP_LINE_BORDER, across, s->near.normal);
-        return;
-    }
-    add(w, f, DP_LINE_SILHOUETTE, s->nearest == f->owner ? s->furthest : s->nearest,
-        dp_outline_normal(&f->sight, &s->near, &s->far, right));
+    const bool own = s->nearest.polygon == f->owner, border = dp_is_one_plane(&s->near, &s->far);
+    const dp_half_edge none = {UINT32_MAX, 0}, behind = border ? none : s->furthest;
+    add(w, f, border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, own ? behind : s->nearest,
+        border ? s->near.normal : dp_outline_normal(&f->sight, &s->near, &s->far, right));
 }
 
 static void add_fold(dp_finder *w, const fan *f) {
-    const uint32_t left = f->sides[0].nearest, right = f->sides[1].nearest;
-    const dp_fold fold = dp_fold_of_sides(&f->sight, &f->sides[0].near, &f->sides[1].near);
+    const side *const left = &f->sides[0], *const right = &f->sides[1];
+    const dp_fold fold = dp_fold_of_sides(&f->sight, &left->near, &right->near);
     const int line =
         dp_fold_line(&fold, dp_polygon_style(w->tile.frame, w->tile.polygons[f->owner].id));
-    if (line >= 0) add(w, f, (dp_line)line, left == f->owner ? right : left, fold.normal);
+    if (line >= 0)
+        add(w, f, (dp_line)line, left->nearest.polygon == f->owner ? right->nearest : left->nearest,
+            fold.normal);
 }
 
 void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
@@ -142,7 +146,8 @@ void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
                        dp_v3f(dp_vertex_position(polygons, f.vb)), &f.sight))
         return;
     find_sides(w, e, &f);
-    const bool left = f.sides[0].nearest != UINT32_MAX, right = f.sides[1].nearest != UINT32_MAX;
+    const bool left = f.sides[0].nearest.polygon != UINT32_MAX,
+               right = f.sides[1].nearest.polygon != UINT32_MAX;
     if (left && right) {
         if (!dp_edge_is_diagonal(w, e)) add_fold(w, &f);
     } else if (left || right) {

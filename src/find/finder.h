@@ -47,6 +47,9 @@ static inline uint32_t dp_seen_beside(const uint32_t sides[2], uint32_t polygon)
     return polygon != UINT32_MAX && (sides[0] == polygon || sides[1] == polygon);
 }
 
+/* Notes that a line is made along this edge of a tile polygon; false: out of memory (emerge.c). */
+bool dp_note_drawn(dp_finder *finder, uint32_t polygon, uint32_t edge);
+
 /* Leaves the edge of a tile polygon that starts at this corner to emerge. */
 void dp_leave_to_emerge(dp_finder *finder, uint32_t polygon, uint32_t edge);
 

@@ -114,7 +114,7 @@ static const double SAME = 0.02, SAME_DEPTH = 0.2;
 
 /* Crossings by the angle at which they run on the screen: only those of one bucket, or of the next,
  * may be one. */
-enum { ANGLES = 32 };
+enum { ANGLES = 32 /* half a turn, and over again */ };
 static uint32_t angle_of(const dp_spine *s) {
     const double x = fabs(s->b.x - s->a.x), y = s->b.y - s->a.y,
                  up = s->b.x < s->a.x ? -y : y; /* both directions are one angle */
@@ -165,17 +165,18 @@ static void add_uncovered(dp_finder *w, const crossed *x, const cover *c) {
 /* Doubled faces cross as often as they are there: what an earlier crossing covers is left out. */
 static void add_crossings(dp_finder *w) {
     dp_intersecting *const list = &w->intersecting;
-    uint32_t first[ANGLES + 2] = {0}; /* by 1 + angle: 1 + the last one so far */
+    uint32_t first[ANGLES] = {0}; /* by angle: 1 + the last one so far */
     dp_sort(list->crossed, list->crossing_count, sizeof *list->crossed, by_polygons);
     for (uint32_t i = 0; i < list->crossing_count && !w->tile.failed; i++) {
         crossed *const x = &list->crossed[i];
         const dp_spine *const s = &list->crossings[x->spine];
-        const uint32_t angle = 1 + angle_of(s);
+        const uint32_t angle = angle_of(s);
         cover c = {.k0 = 0};
         if (!dp_spine_range(s, w->tile.tile_x, w->tile.tile_y, 1, &c.k0, &c.k1)) continue;
         if (c.k1 - c.k0 > POINTS) c.k1 = c.k0 + POINTS; /* rounding: the tile's diagonal is less */
         for (uint32_t k = 0; k < 3; k++)
-            for (uint32_t at = first[angle - 1 + k]; at; at = list->crossed[at - 1].next)
+            for (uint32_t at = first[(angle + ANGLES - 1 + k) % ANGLES]; at;
+                 at = list->crossed[at - 1].next)
                 cover_by(w, s, &list->crossings[list->crossed[at - 1].spine], &c);
         x->next = first[angle];
         first[angle] = i + 1;
@@ -347,8 +348,7 @@ void dp_find_intersections(dp_finder *w) {
                                  ->meet(&w->intersecting, i, rows[w->tile.polygons[a].y1 + 1]);
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t b = w->intersecting.polygon[w->intersecting.met[k]];
-            if (meet_near(&near, &w->tile.polygons[a], &w->tile.polygons[b]))
-                test_pair(w, a, b);
+            if (meet_near(&near, &w->tile.polygons[a], &w->tile.polygons[b])) test_pair(w, a, b);
         }
     }
     add_crossings(w);
@@ -356,12 +356,13 @@ void dp_find_intersections(dp_finder *w) {
 
 /* ------- memory ------- */
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_intersecting, polygon, polygon_cap),
-    DP_ARRAY(dp_intersecting, members, members_cap), DP_ARRAY(dp_intersecting, keys, keys_cap),
-    DP_ARRAY(dp_intersecting, met, met_cap), DP_ARRAY(dp_intersecting, listed, listed_cap),
-    DP_ARRAY(dp_intersecting, crossed, crossed_cap),
-    DP_ARRAY(dp_intersecting, crossings, crossings_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_intersecting, polygon, polygon_cap),
+                                  DP_ARRAY(dp_intersecting, members, members_cap),
+                                  DP_ARRAY(dp_intersecting, keys, keys_cap),
+                                  DP_ARRAY(dp_intersecting, met, met_cap),
+                                  DP_ARRAY(dp_intersecting, listed, listed_cap),
+                                  DP_ARRAY(dp_intersecting, crossed, crossed_cap),
+                                  DP_ARRAY(dp_intersecting, crossings, crossings_cap)};
 
 void dp_intersecting_free(dp_intersecting *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));

@@ -124,8 +124,7 @@ void dp_tile_faces(dp_tile *w) {
         const dp_tile_polygon *const p = &w->polygons[w->seen[i]];
         if (p->flags & (DP_POLYGON_FRONT | DP_POLYGON_EDGE_ON)) continue;
         beside |= may_lie_beside(w, p);
-        if (dp_is_surface(w, p))
-            dp_raster_kernels_for(w->frame->lanes)->raster(w, p, w->seen[i]);
+        if (dp_is_surface(w, p)) dp_raster_kernels_for(w->frame->lanes)->raster(w, p, w->seen[i]);
     }
     w->sees_backs = w->won || beside;
     dp_tile_test_near_depth(w);
