@@ -12,14 +12,15 @@
 
 #include "base/diag.h"
 #include "io/assimp_files.h"
-#include "io/builder.h"
+#include "io/readers.h"
 
 #include <assimp/cimport.h>
+#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/matrix4x4.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -176,19 +177,36 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
     return DP_OK;
 }
 
-/* Positions, normals, texture coordinates and faces only; FBX without the helper nodes that its
- * pivots would become. `files` NULL: the system's. */
-static const struct aiScene *import(const char *path, struct aiFileIO *files) {
+/* Did that reader make the scene? */
+static bool is_from(const struct aiScene *scene, const char *reader) {
+    const struct aiMetadata *const data = scene->mMetaData;
+    for (unsigned i = 0; data && i < data->mNumProperties; i++) {
+        if (strcmp(data->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) != 0) continue;
+        const struct aiString *const name = data->mValues[i].mData;
+        return data->mValues[i].mType == AI_AISTRING && !strcmp(name->data, reader);
+    }
+    return false;
+}
+
+/* Before 5.4, the reader of 3MF frees the textures that it hands out (pictures in the archive, among
+ * them thumbnails), and they would be freed again with the scene. */
+static void forget_freed_textures(struct aiScene *scene) {
+    const unsigned version = 100 * aiGetVersionMajor() + aiGetVersionMinor();
+    if (version < 504 && is_from(scene, "3mf Importer")) scene->mNumTextures = 0;
+}
+
+/* Without post-processing: its step that leaves out what is not needed would touch these textures.
+ * FBX without animations and the helper nodes that its pivots would become. `files` NULL: the
+ * system's. */
+static struct aiScene *import(const char *path, struct aiFileIO *files) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     if (!properties) return NULL;
-    const int dropped = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                        aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES |
-                        aiComponent_LIGHTS | aiComponent_CAMERAS;
-    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, dropped);
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
-    const struct aiScene *const scene =
-        aiImportFileExWithProperties(path, aiProcess_RemoveComponent, files, properties);
+    struct aiScene *const scene =
+        (struct aiScene *)aiImportFileExWithProperties(path, 0, files, properties);
     aiReleasePropertyStore(properties);
+    if (scene) forget_freed_textures(scene);
     return scene;
 }
 

@@ -65,6 +65,18 @@ static void materials_are_colours(void **state) {
     dp_source_destroy(source);
 }
 
+/* A tetrahedron with a picture of itself, as every slicer writes it. */
+static void thumbnails_are_left_alone(void **state) {
+    (void)state;
+    dp_source *source = NULL;
+    dp_diag diag;
+    const dp_result result =
+        dp_io_open(DP_TESTS_DIR "/unit/files/thumbnail.3mf", NULL, &source, &diag);
+    assert_string_equal(trace_opened(result, source, &diag),
+                        "(0 0 0)(0 1 0)(1 0 0)@Object_2/2\n(0 0 0)(1 0 0)(0 0 1)@Object_2/2\n"
+                        "(0 0 0)(0 0 1)(0 1 0)@Object_2/2\n(1 0 0)(0 1 0)(0 0 1)@Object_2/2\n");
+}
+
 static void what_assimp_refuses_is_said_in_one_line(void **state) {
     (void)state;
     const char *const text = trace_file(".ac", "AC3Db rubbish \x01\n", NULL);
@@ -212,6 +224,7 @@ int main(void) {
         cmocka_unit_test(own_formats_come_through_own_readers),
         cmocka_unit_test(scenes_are_transformed_and_named),
         cmocka_unit_test(materials_are_colours),
+        cmocka_unit_test(thumbnails_are_left_alone),
         cmocka_unit_test(what_assimp_refuses_is_said_in_one_line),
         cmocka_unit_test(scenes_in_memory_are_those_in_files),
         cmocka_unit_test(what_a_scene_names_is_the_application_s),
