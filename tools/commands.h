@@ -29,7 +29,7 @@ dp_target make_target(const tool_settings *s);
 /* Prints the statistics of a frame. */
 void print_stats_table(FILE *out, const dp_stats *stats);
 void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target);
-/* Warns of dropped polygons, counted by cause, if there are any. */
+/* Warns of dropped polygons, counted by cause, if it matters: of bad ones, or of many without area. */
 void warn_dropped(const dp_stats *stats);
 /* Warns that lines may be missing, if not all edges were followed. */
 void warn_lost(const dp_stats *stats);

@@ -69,6 +69,13 @@ void warn_lost(const dp_stats *stats) {
              (unsigned long long)stats->edges_lost);
 }
 
+/* Does it matter that polygons are dropped? Those without area leave no hole: most programs export
+ * some, and only many of them hint at a file that is broken, or flat. */
+static bool is_worth_telling(const dp_stats *s) {
+    return s->dropped_index || s->dropped_finite ||
+           (s->dropped_area + s->dropped_corners) * 10 > s->polygons;
+}
+
 void warn_dropped(const dp_stats *stats) {
     static const struct {
         const char *text;
@@ -79,6 +86,7 @@ void warn_dropped(const dp_stats *stats) {
                   {"with fewer than three corners", AT(dropped_corners)}};
     char text[240] = "";
     size_t length = 0;
+    if (!is_worth_telling(stats)) return;
     for (size_t k = 0; k < sizeof causes / sizeof *causes; k++) {
         uint64_t n;
         memcpy(&n, (const char *)stats + causes[k].at, sizeof n);
@@ -86,7 +94,6 @@ void warn_dropped(const dp_stats *stats) {
             length += (size_t)snprintf(text + length, sizeof text - length, "%s%llu %s",
                                        length ? ", " : "", (unsigned long long)n, causes[k].text);
     }
-    if (length)
-        warn("%llu of %llu polygons dropped: %s", (unsigned long long)stats->dropped,
-             (unsigned long long)stats->polygons, text);
+    warn("%llu of %llu polygons dropped: %s", (unsigned long long)stats->dropped,
+         (unsigned long long)stats->polygons, text);
 }

@@ -194,10 +194,10 @@ static void add_counts(dp_stats *sum, const dp_stats *s) {
     sum->added_polygons += s->added_polygons;
 }
 
-/* An error when nothing is left of `pieces` polygons, after splitting. */
-static dp_result check_dropped(dp_stats *s, uint64_t pieces, dp_diag *diag) {
+/* An error when nothing is left. */
+static dp_result check_dropped(dp_stats *s, dp_diag *diag) {
     s->dropped = s->dropped_index + s->dropped_finite + s->dropped_area + s->dropped_corners;
-    if (!s->dropped || s->dropped < pieces + s->dropped_corners) return DP_OK;
+    if (!s->dropped || s->dropped < s->polygons) return DP_OK;
     return dp_fail(
         diag, DP_ERR_FORMAT,
         "none of the %llu polygons can be drawn: %llu with indices out of range, %llu with "
@@ -294,7 +294,7 @@ static dp_result stream_lines(dp_context *c, dp_source *source, double *since, d
     if ((result = dp_stream_find(c->stream, diag))) return result;
     lap(&c->stats, DP_STAGE_TILES, since);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->finders[i].tile.stats);
-    return check_dropped(&c->stats, c->stats.polygons, diag);
+    return check_dropped(&c->stats, diag);
 }
 
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
@@ -326,7 +326,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
-    if ((result = check_dropped(&c->stats, f->polygons.count, diag))) return result;
+    if ((result = check_dropped(&c->stats, diag))) return result;
     if (!begin_paint(c)) return out_of_memory(diag);
     if ((result = for_tiles(c, find_tile, c, BINNED, FOUND, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {

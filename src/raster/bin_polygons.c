@@ -57,6 +57,20 @@ static dp_tile_rect rect_of(float margin, const dp_outline *outline) {
     return rect_around(margin, x0, y0, x1, y1);
 }
 
+static bool are_of_one(const dp_polygons *polygons, uint32_t a, uint32_t b) {
+    return polygons->source_polygon && polygons->source_polygon[a] == polygons->source_polygon[b];
+}
+
+/* Is a polygon without area one that the source's user counts? Of a polygon that was split only the
+ * last piece is, and only if no other piece has an area. */
+static bool counts_as_dropped(const dp_frame *frame, uint32_t polygon) {
+    const dp_polygons *const polygons = &frame->polygons;
+    if (polygon + 1 < polygons->count && are_of_one(polygons, polygon, polygon + 1)) return false;
+    for (uint32_t i = polygon; i-- > 0 && are_of_one(polygons, i, polygon);)
+        if (!dp_polygon_has_no_area(frame, i)) return false;
+    return true;
+}
+
 static dp_tile_rect place_polygon(const job *j, uint32_t polygon, dp_bin_worker *self) {
     dp_outline outline;
     switch (dp_outline_make(j->frame, polygon, &self->scratch, &outline)) {
@@ -75,7 +89,7 @@ static dp_tile_rect place_polygon(const job *j, uint32_t polygon, dp_bin_worker 
         break;
     }
     if (dp_outline_is_edge_on(&outline) && dp_polygon_has_no_area(j->frame, polygon)) {
-        self->stats.dropped_area++;
+        self->stats.dropped_area += counts_as_dropped(j->frame, polygon);
         return NOWHERE;
     }
     if (outline.clipped) self->stats.clipped++;

@@ -142,6 +142,26 @@ static void drops_and_counts_degenerate_polygons(void **state) {
     free(mixed);
 }
 
+/* Splitting them leaves pieces without area, which nobody has handed in. */
+static void counts_polygons_not_their_pieces(void **state) {
+    static const float corner[4][3] = {{-50, -40, 0}, {50, -40, 0}, {50, 40, 0}, {-50, 40, 0}};
+    float repeated[12][3], flat[7][3];
+    dp_stats stats = {0};
+    scene *mixed = new_scene();
+    (void)state;
+    for (int i = 0; i < 12; i++) memcpy(repeated[i], corner[i % 4], sizeof repeated[i]);
+    for (int i = 0; i < 7; i++) memcpy(flat[i], corner[2 * (i % 2)], sizeof flat[i]);
+    scene_polygon(mixed, 12, repeated);
+    scene_polygon(mixed, 7, flat);
+    scene_polygon(mixed, 7, flat);
+    draw_flat(mixed, &(dp_style){0});
+    dp_stats_of(context, &stats);
+    assert_int_equal(stats.polygons, 3);
+    assert_int_equal(stats.dropped, 2);
+    assert_int_equal(stats.dropped_area, 2);
+    free(mixed);
+}
+
 static void a_source_without_one_good_polygon_is_an_error(void **state) {
     const float wrong[3][3] = {{-20, 0, 0}, {NAN, 10, 0}, {10, 0, 0}};
     const dp_camera camera = scene_flat_camera();
@@ -217,6 +237,7 @@ int main(void) {
         cmocka_unit_test(survives_duplicate_faces),
         cmocka_unit_test(survives_a_box_inside_out),
         cmocka_unit_test(drops_and_counts_degenerate_polygons),
+        cmocka_unit_test(counts_polygons_not_their_pieces),
         cmocka_unit_test(a_source_without_one_good_polygon_is_an_error),
         cmocka_unit_test(draws_a_room_from_inside),
         cmocka_unit_test(survives_extreme_coordinates),
