@@ -220,14 +220,14 @@ static void copy_error(const char *text, const char *path, char *line, size_t si
     line[length] = 0;
 }
 
-/* If no reader claims a file's ending, Assimp tries all, and the last one's message tells nothing:
- * then `first`, from dp_source_open, is reported. */
-static dp_result import_failed(const char *path, const dp_diag *first, dp_diag *diag) {
+/* Does a reader of Assimp's claim the file's ending? If none does, Assimp tries all, and what the
+ * last one says tells nothing. */
+static bool is_claimed(const char *path) {
     const char *const dot = strrchr(path, '.');
-    if (!dot || !aiIsExtensionSupported(dot)) {
-        if (diag) *diag = *first;
-        return first->result;
-    }
+    return dot && aiIsExtensionSupported(dot);
+}
+
+static dp_result import_failed(const char *path, dp_diag *diag) {
     char line[160];
     copy_error(aiGetErrorString(), path, line, sizeof line);
     return dp_fail(diag, DP_ERR_FORMAT, "Assimp cannot read it: %s", line);
@@ -256,32 +256,35 @@ static dp_result open_by_assimp(const char *path, struct aiFileIO *files, const 
                                 const dp_file_options *options, dp_source **out, dp_diag *diag) {
     if (stopped(options, -1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
     const struct aiScene *const scene = import(path, files);
-    if (!scene) return import_failed(path, first, diag);
-    const dp_result built = build(scene, options, out, diag);
+    const dp_result result = scene ? build(scene, options, out, diag) : import_failed(path, diag);
     aiReleaseImport(scene);
-    return built;
+    if (result != DP_ERR_FORMAT || is_claimed(path)) return result;
+    if (diag) *diag = *first;
+    return first->result;
 }
 
-/* Is Assimp to try? Not if the caller has named a format. */
-static bool is_for_assimp(dp_result result, const dp_file_options *options) {
-    return result == DP_ERR_UNSUPPORTED && (!options || options->format == DP_FORMAT_AUTO);
+/* Is Assimp to try? Not if the caller has named a format, or the file's name has: Assimp goes by
+ * its ending, too. */
+static bool is_for_assimp(dp_result result, const char *name, const dp_file_options *options) {
+    return result == DP_ERR_UNSUPPORTED && (!options || options->format == DP_FORMAT_AUTO) &&
+           !dp_has_own_ending(name);
 }
 
 dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                      dp_diag *diag) {
     dp_diag first = {0};
-    const dp_result result = dp_source_open(path, options, out, &first);
+    const dp_result result = dp_open_path(path, options, true, out, &first);
     if (diag && result) *diag = first;
-    if (!is_for_assimp(result, options) || strcmp(path, "-") == 0) return result;
+    if (!is_for_assimp(result, path, options) || strcmp(path, "-") == 0) return result;
     return open_by_assimp(path, NULL, &first, options, out, diag);
 }
 
 dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_options *options,
                             dp_source **out, dp_diag *diag) {
     dp_diag first = {0};
-    const dp_result result = dp_source_open_memory(file, options, out, &first);
+    const dp_result result = dp_open_memory(file, options, true, out, &first);
     if (diag && result) *diag = first;
-    if (!is_for_assimp(result, options)) return result;
+    if (!is_for_assimp(result, file ? file->name : NULL, options)) return result;
     const dp_allocator memory = dp_allocator_resolve(options ? options->allocator : NULL);
     dp_assimp_files files;
     dp_assimp_files_init(&files, file, &memory);

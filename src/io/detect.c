@@ -3,7 +3,8 @@
  * Looks at the window and consumes nothing. A binary STL has no mark (and may begin with "solid"):
  * its size tells, or, in a pipe, where the size is unknown, plausible triangles.
  *
- * Not handled: UTF-16; compressed files (the message names them). */
+ * Not handled: UTF-16; compressed files (the message names them). Other formats are named too, with
+ * what to do about them. */
 #include "io/readers.h"
 
 #include "base/diag.h"
@@ -172,30 +173,56 @@ static bool by_name(const char *name, dp_file_format *format) {
 }
 
 /* Other well-known formats, by their marks; for the message. */
-static const char *foreign(const dp_stream *stream) {
-    static const struct {
-        const char *magic;
-        size_t size;
-        const char *advice;
-    } table[] = {
-        {"\x1f\x8b", 2, "compressed with gzip: unpack it first"},
-        {"BZh", 3, "compressed with bzip2: unpack it first"},
+typedef struct foreign {
+    const char *magic;
+    size_t size;
+    const char *what;
+    const char *ending; /* of a format that Assimp reads, by the name's ending; or NULL */
+    const char *advice; /* where there is no such ending */
+} foreign;
+
+static const foreign *find_foreign(const dp_stream *stream) {
+    static const foreign table[] = {
+        {"\x1f\x8b", 2, "compressed with gzip", NULL, ": unpack it first"},
+        {"BZh", 3, "compressed with bzip2", NULL, ": unpack it first"},
         {"\xfd"
          "7zXZ",
-         5, "compressed with xz: unpack it first"},
-        {"\x28\xb5\x2f\xfd", 4, "compressed with zstd: unpack it first"},
-        {"PK\x03\x04", 4, "a zip archive (3MF, say): convert it to STL, PLY, OBJ or OFF"},
-        {"glTF", 4, "a binary glTF file: convert it to STL, PLY, OBJ or OFF"},
-        {"Kaydara FBX", 11, "an FBX file: convert it to STL, PLY, OBJ or OFF"},
-        {"BLENDER", 7, "a Blender file: export it as STL, PLY, OBJ or OFF"},
-        {"\x89PNG", 4, "a picture (PNG), not a model"},
-        {"\xff\xd8\xff", 3, "a picture (JPEG), not a model"},
-        {"\xff\xfe", 2, "text in UTF-16: save it as UTF-8"},
-        {"\xfe\xff", 2, "text in UTF-16: save it as UTF-8"},
+         5, "compressed with xz", NULL, ": unpack it first"},
+        {"\x28\xb5\x2f\xfd", 4, "compressed with zstd", NULL, ": unpack it first"},
+        {"PK\x03\x04", 4, "a zip archive (3MF, say)", ".3mf", NULL},
+        {"glTF", 4, "a binary glTF file", ".glb", NULL},
+        {"Kaydara FBX", 11, "an FBX file", ".fbx", NULL},
+        {"BLENDER", 7, "a Blender file", ".blend", NULL},
+        {"\x89PNG", 4, "a picture (PNG), not a model", NULL, ""},
+        {"\xff\xd8\xff", 3, "a picture (JPEG), not a model", NULL, ""},
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        if (begins(stream, table[i].magic, table[i].size)) return table[i].advice;
+        if (begins(stream, table[i].magic, table[i].size)) return &table[i];
     return NULL;
+}
+
+static dp_result refuse_foreign(const dp_stream *stream, const foreign *f, dp_diag *diag) {
+    if (!f->ending) return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s%s", f->what, f->advice);
+    if (stream->more_readers)
+        return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s: give its path, ending in %s", f->what,
+                       f->ending);
+    return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s: convert it to STL, PLY, OBJ or OFF",
+                   f->what);
+}
+
+/* The name of the encoding if the text is UTF-16: by its mark, or because every other byte of its
+ * first line is 0. */
+static const char *find_utf16(const dp_stream *stream) {
+    const uint8_t *const p = stream->cursor;
+    size_t zeros[2] = {0, 0}, pairs = here(stream) / 2;
+    if (begins(stream, "\xff\xfe", 2) || begins(stream, "\xfe\xff", 2)) return "UTF-16";
+    if (pairs > 32) pairs = 32;
+    for (size_t i = 0; i < 2 * pairs; i++) {
+        if (p[i] ? p[i] < '\t' || p[i] >= 0x7f : zeros[1 - i % 2] > 0) return NULL;
+        zeros[i % 2] += p[i] == 0;
+    }
+    if (pairs < 4 || zeros[0] + zeros[1] != pairs) return NULL;
+    return zeros[1] ? "UTF-16LE" : "UTF-16BE";
 }
 
 static dp_file_format text_format(const dp_stream *stream) {
@@ -217,12 +244,22 @@ static bool by_content(dp_stream *stream, dp_file_format *format) {
     return *format != DP_FORMAT_AUTO;
 }
 
+bool dp_has_own_ending(const char *name) {
+    dp_file_format format;
+    return by_name(name, &format);
+}
+
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag) {
+    const char *const encoding = is_binary_stl(stream) ? NULL : find_utf16(stream);
+    if (encoding)
+        return dp_fail(diag, DP_ERR_UNSUPPORTED,
+                       "this is UTF-16 text: convert it to UTF-8, e.g. iconv -f %s -t UTF-8",
+                       encoding);
     if (by_content(stream, format)) return DP_OK;
-    const char *const advice = foreign(stream);
-    if (advice) return dp_fail(diag, DP_ERR_UNSUPPORTED, "this is %s", advice);
+    const foreign *const other = find_foreign(stream);
+    if (other) return refuse_foreign(stream, other, diag);
     if (by_name(name, format)) return DP_OK;
     return dp_fail(diag, DP_ERR_UNSUPPORTED,
-                   "not in a known format: STL, PLY, OBJ and OFF are read; convert it to one of "
-                   "them, or name the format if it is one");
+                   "not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is one, "
+                   "give a file whose name ends in .stl, .ply, .obj or .off");
 }

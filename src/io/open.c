@@ -50,8 +50,8 @@ dp_result dp_read_stream(dp_stream *stream, const char *name, dp_file_format for
     return result;
 }
 
-dp_result dp_source_open(const char *path, const dp_file_options *options, dp_source **out,
-                         dp_diag *diag) {
+dp_result dp_open_path(const char *path, const dp_file_options *options, bool more_readers,
+                       dp_source **out, dp_diag *diag) {
     if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_open: out is NULL");
     *out = NULL;
     if (!path) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_open: path is NULL");
@@ -59,11 +59,12 @@ dp_result dp_source_open(const char *path, const dp_file_options *options, dp_so
     const dp_result result = dp_stream_open(path, options, &stream, diag);
     if (result) return result;
     stream->path = stream->owns_descriptor ? path : NULL;
+    stream->more_readers = more_readers;
     return dp_read_stream(stream, path, options ? options->format : DP_FORMAT_AUTO, out, diag);
 }
 
-dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_options *options,
-                                dp_source **out, dp_diag *diag) {
+dp_result dp_open_memory(const dp_memory_file *file, const dp_file_options *options,
+                         bool more_readers, dp_source **out, dp_diag *diag) {
     if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_open_memory: out is NULL");
     *out = NULL;
     if (!file || (file->size && !file->data))
@@ -73,6 +74,17 @@ dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_option
         dp_stream_open_memory(file->data, file->size, DP_STREAM_WINDOW, options, &stream, diag);
     if (result) return result;
     stream->file = file;
+    stream->more_readers = more_readers;
     return dp_read_stream(stream, file->name, options ? options->format : DP_FORMAT_AUTO, out,
                           diag);
+}
+
+dp_result dp_source_open(const char *path, const dp_file_options *options, dp_source **out,
+                         dp_diag *diag) {
+    return dp_open_path(path, options, false, out, diag);
+}
+
+dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_options *options,
+                                dp_source **out, dp_diag *diag) {
+    return dp_open_memory(file, options, false, out, diag);
 }

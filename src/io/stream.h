@@ -30,6 +30,7 @@ typedef struct dp_stream {
     /* Where the model's other files are (beside.h); borrowed while it is being opened. */
     const char *path;           /* of a file; or NULL */
     const dp_memory_file *file; /* of a model in memory; or NULL */
+    bool more_readers;          /* dp_open_path */
     /* Called with the memory when the stream is closed; NULL: nothing to call. */
     void (*closed)(void *closed_user, const void *data, size_t size);
     void *closed_user;

@@ -59,13 +59,34 @@ static void the_name_decides_where_content_does_not(void **state) {
 static void unknown_content_is_refused(void **state) {
     (void)state;
     assert_contains(trace_file(".txt", "hello\n", DP_FORMAT_AUTO),
-                    "STL, PLY, OBJ and OFF are read");
+                    "convert it to STL, PLY, OBJ or OFF, or, if it is one, give a file whose name");
     assert_contains(trace_file("", "v\nfrom 0 0 1\n", DP_FORMAT_AUTO), "not supported"); /* NFF */
     assert_contains(trace_file(".ply", "\x1f\x8b\x08 x", DP_FORMAT_AUTO), "unpack it first");
     assert_contains(trace_file(".obj", "glTF\x02", DP_FORMAT_AUTO), "glTF");
     assert_contains(trace_file(".stl", "", DP_FORMAT_AUTO),
                     "bad file content at line 0, byte 0: the file is empty");
     assert_contains(trace_file("", "", DP_FORMAT_AUTO), "empty");
+}
+
+static void utf16_is_named(void **state) {
+    static const char *const encodings[] = {"-f UTF-16 -t UTF-8", "-f UTF-16 -t UTF-8",
+                                            "-f UTF-16LE -t UTF-8", "-f UTF-16BE -t UTF-8"};
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) {
+        const bool big = kind % 2, mark = kind < 2;
+        char wide[2 * sizeof OBJ + 2];
+        dp_source *source = NULL;
+        dp_diag diag;
+        memcpy(wide, big ? "\xfe\xff" : "\xff\xfe", 2);
+        for (size_t i = 0; i + 1 < sizeof OBJ; i++)
+            wide[2 + 2 * i + big] = OBJ[i], wide[3 + 2 * i - big] = 0;
+        const size_t from = mark ? 0 : 2;
+        const dp_memory_file file = {
+            .data = wide + from, .size = 2 * sizeof OBJ - from, .name = "wide.obj"};
+        assert_int_equal(dp_source_open_memory(&file, NULL, &source, &diag), DP_ERR_UNSUPPORTED);
+        assert_contains(diag.message, "this is UTF-16 text: convert it to UTF-8, e.g. iconv ");
+        assert_contains(diag.message, encodings[kind]);
+    }
 }
 
 /* ------- samples: the fuzzers' corpus ------- */
@@ -213,6 +234,7 @@ int main(void) {
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(the_name_decides_where_content_does_not),
         cmocka_unit_test(unknown_content_is_refused),
+        cmocka_unit_test(utf16_is_named),
         cmocka_unit_test(every_cut_of_every_sample_is_clean),
         cmocka_unit_test(every_failing_allocation_is_reported_and_leaks_nothing),
         cmocka_unit_test(growing_arrays_may_fail_too),
