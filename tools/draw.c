@@ -44,6 +44,11 @@ typedef struct drawing {
     look_data look;
 } drawing;
 
+/* Warns of what a source is to be remarked on; NULL: nothing. */
+static void warn_source(const char *remark) {
+    if (remark) warn("%s", remark);
+}
+
 /* Draws into a new picture, which the caller frees. */
 static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     dp_camera camera;
@@ -62,8 +67,7 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     int code = look_make(s, d->source, &d->look, &style);
     if (!code) code = planes_prepare(s, &d->target);
     if (code) return code;
-    const char *const remark = style.shade.model_colors ? dp_source_remark(d->source) : NULL;
-    if (remark && !s->quiet) warn("%s", remark);
+    if (!s->quiet && style.shade.model_colors) warn_source(dp_source_color_remark(d->source));
     if (!s->quiet) warn_strokeless(s, &style);
     d->target.rgba = calloc((size_t)d->target.width * d->target.height, 4);
     if (!d->target.rgba) {
@@ -108,6 +112,7 @@ static int write_trace(const tool_settings *s, const drawing *d) {
 static bool is_standard(const char *path) { return path && !strcmp(path, "-"); }
 
 static void print_stats(const tool_settings *s, const drawing *d) {
+    if (!s->quiet) warn_source(dp_source_remark(d->source));
     if (!s->quiet) warn_dropped(&d->stats);
     if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);

@@ -80,6 +80,8 @@ static int inspect(const tool_settings *s, dp_source *source) {
         wrong_usage("%s: there are no polygons in it; give a model with faces", s->model);
         return EXIT_FAILED;
     }
+    const char *const remark = dp_source_remark(source);
+    if (remark && !s->quiet) warn("%s", remark);
     line lines[LINES];
     fill_lines(&extent, &edges, lines);
     if (s->json)

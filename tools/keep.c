@@ -16,6 +16,7 @@ typedef struct kept {
     size_t positions_room, indices_room, firsts_room, flags_room;
     size_t vertices, corners, polygons;
     bool flagged, handed_out;
+    char remark[160]; /* of the source, or "" */
 } kept;
 
 static bool reserve(void *block_address, size_t *room, size_t need, size_t size) {
@@ -93,6 +94,11 @@ static void kept_destroy(void *user) {
     free(k);
 }
 
+static const char *kept_remark(void *user) {
+    const kept *const k = user;
+    return *k->remark ? k->remark : NULL;
+}
+
 /* ---- reading ---- */
 
 static dp_result refuse(dp_diag *diag, dp_result result, const char *message) {
@@ -128,10 +134,15 @@ static dp_result read_all(kept *k, dp_source *source, double most, dp_diag *diag
 dp_result keep_source(dp_source **source, double most, dp_diag *diag) {
     kept *const k = calloc(1, sizeof *k);
     if (!k) return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");
-    const dp_source_callbacks callbacks = {
-        .user = k, .next = kept_next, .rewind = kept_rewind, .destroy = kept_destroy};
+    const dp_source_callbacks callbacks = {.user = k,
+                                           .next = kept_next,
+                                           .rewind = kept_rewind,
+                                           .destroy = kept_destroy,
+                                           .remark = kept_remark};
     dp_source *made = NULL;
     dp_result result = read_all(k, *source, most, diag);
+    const char *const remark = dp_source_remark(*source);
+    if (remark) snprintf(k->remark, sizeof k->remark, "%s", remark);
     if (!result) result = dp_source_from_callbacks(&callbacks, NULL, &made, diag);
     if (result) {
         kept_destroy(k);

@@ -64,9 +64,10 @@ typedef struct dp_source_callbacks {
     /* The colour of group `group`, 0xRRGGBBAA, or 0: none. Optional. May be called from several
      * threads at once. */
     uint32_t (*group_color)(void *user, uint32_t group);
-    /* A sentence on what is missing or wrong although the source can be drawn; or NULL.
-     * Optional. */
+    /* A sentence on what is missing or wrong although the source can be drawn; or NULL. The second
+     * on colours only, which not every drawing uses. Optional. */
     const char *(*remark)(void *user);
+    const char *(*color_remark)(void *user);
 } dp_source_callbacks;
 
 /* Makes a source of one batch, whose memory the caller owns and must not change while the source is
@@ -143,9 +144,11 @@ DP_API bool dp_source_rewindable(const dp_source *source);
 DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);
 /* Its colour (that of its material, say), 0xRRGGBBAA; 0 where it has none. */
 DP_API uint32_t dp_source_group_color(const dp_source *source, uint32_t group);
-/* What is missing or wrong although the source can be drawn: an absent file of materials, say.
+/* What is missing or wrong although the source can be drawn; known when it has been read once.
  * Borrowed; NULL: nothing. */
 DP_API const char *dp_source_remark(const dp_source *source);
+/* The same of its colours alone: an absent file of materials, say. */
+DP_API const char *dp_source_color_remark(const dp_source *source);
 
 /* NULL allowed. */
 DP_API void dp_source_destroy(dp_source *source);

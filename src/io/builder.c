@@ -183,9 +183,9 @@ static uint32_t mesh_group_color(void *user, uint32_t group) {
     return group < built->color_count ? built->colors[group] : 0;
 }
 
-static const char *mesh_remark(void *user) {
+static const char *mesh_color_remark(void *user) {
     const dp_builder *const built = &((mesh *)user)->built;
-    return *built->remark ? built->remark : NULL;
+    return *built->color_remark ? built->color_remark : NULL;
 }
 
 static void mesh_destroy(void *user) {
@@ -238,7 +238,7 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
                                            .destroy = mesh_destroy,
                                            .group_name = mesh_group_name,
                                            .group_color = mesh_group_color,
-                                           .remark = mesh_remark};
+                                           .color_remark = mesh_color_remark};
     const dp_result result = dp_source_from_callbacks(&callbacks, &builder->allocator, out, diag);
     if (result)
         dp_free(&builder->allocator, self);

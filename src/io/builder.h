@@ -28,7 +28,7 @@ typedef struct dp_builder {
     dp_groups names;
     uint32_t *colors; /* [color_count] by group, 0xRRGGBBAA, 0: none */
     size_t color_count, color_capacity;
-    char remark[256];                        /* dp_source_remark, or "" */
+    char color_remark[256];                  /* dp_source_color_remark, or "" */
     dp_builder_attribute normals, texcoords; /* 3 and 2 floats each */
 } dp_builder;
 

@@ -163,8 +163,8 @@ static dp_result read_libraries(obj *self) {
     char names[LIBRARIES];
     dp_text_blank(self->stream);
     dp_text_rest(self->stream, names, sizeof names);
-    if (dp_open_mtl(self->stream, names, &self->materials, self->builder->remark,
-                    sizeof self->builder->remark))
+    if (dp_open_mtl(self->stream, names, &self->materials, self->builder->color_remark,
+                    sizeof self->builder->color_remark))
         return DP_OK;
     return dp_builder_fail(self->builder, self->diag);
 }

@@ -37,6 +37,7 @@ typedef struct stl {
     bool binary;
     bool started;          /* the header, or the first solid, is read */
     bool ended;            /* ASCII: the last solid is closed */
+    bool unclosed;         /* the file has ended before it was */
     uint32_t announced;    /* binary: triangles, by the header */
     uint64_t read;         /* triangles since the start */
     float (*positions)[9]; /* [BATCH] */
@@ -163,10 +164,11 @@ static dp_result read_solid(stl *self) {
     return dp_fail(&self->diag, DP_ERR_MEMORY, "out of memory for the name of a solid");
 }
 
-/* At the end of the file, which must be between facets. */
+/* At the end of the file, which must be between facets. Files without the last `endsolid` are
+ * common; whether such a file is cut short cannot be known. */
 static dp_result check_end(stl *self) {
     if (self->stream->result || !self->started) return expected(self, "`solid`");
-    if (!self->ended) return expected(self, "`facet` or `endsolid`");
+    self->unclosed = !self->ended;
     if (self->read) return DP_OK;
     return dp_fail_line(&self->diag, DP_ERR_FORMAT, self->stream->line,
                         "ASCII STL without facets: there is nothing to draw, export it again");
@@ -272,6 +274,12 @@ static const char *stl_group_name(void *user, uint32_t group) {
     return dp_groups_name(&((stl *)user)->names, group);
 }
 
+static const char *stl_remark(void *user) {
+    return ((stl *)user)->unclosed
+               ? "ASCII STL without its last `endsolid`: if it is cut short, facets are missing"
+               : NULL;
+}
+
 /* Frees all but the stream. */
 static void release(stl *self) {
     const dp_allocator memory = self->allocator;
@@ -316,7 +324,8 @@ dp_result dp_read_stl(dp_stream *stream, dp_source **out, dp_diag *diag) {
                                            .rewind =
                                                dp_stream_rewindable(stream) ? stl_rewind : NULL,
                                            .destroy = stl_destroy,
-                                           .group_name = stl_group_name};
+                                           .group_name = stl_group_name,
+                                           .remark = stl_remark};
     if (!result) result = dp_source_from_callbacks(&callbacks, &stream->allocator, out, diag);
     if (result)
         release(self);

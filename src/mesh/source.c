@@ -163,6 +163,11 @@ const char *dp_source_remark(const dp_source *source) {
     return source->callbacks.remark(source->callbacks.user);
 }
 
+const char *dp_source_color_remark(const dp_source *source) {
+    if (!source || !source->callbacks.color_remark) return NULL;
+    return source->callbacks.color_remark(source->callbacks.user);
+}
+
 void dp_source_destroy(dp_source *source) {
     if (!source) return;
     const dp_allocator memory = source->allocator;

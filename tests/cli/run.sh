@@ -353,6 +353,44 @@ dropped_are_counted() {
     run 0 some.obj $small --quiet -o out.png
     silent err
 }
+# Few polygons without area are usual, and leave no hole.
+flat_triangles_are_passed_over() {
+    run 0 make gear -o gear.obj
+    printf 'f 1 1 2\nf 1 2 2\n' >>gear.obj
+    run 0 gear.obj $small -o out.png --stats
+    grep -q 'no area *2$' err || fail "--stats: $(cat err)"
+    grep -q warning err && fail "two triangles without area of many are worth a warning"
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n' >half.obj
+    run 0 half.obj $small -o out.png
+    one_line
+    says err 'warning: 1 of 2 polygons dropped: 1 without area'
+    printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 1 2 3 4 1 2 3 4\n' >repeated.obj
+    run 0 repeated.obj $small -o out.png
+    silent err
+}
+unclosed_solids_are_told() {
+    printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n' >a.stl
+    run 0 a.stl $small -o out.png
+    one_line
+    says err 'warning: ASCII STL without its last `endsolid`'
+    run 0 info a.stl
+    says err 'warning: ASCII STL without its last `endsolid`'
+    "$program" - $small -o piped.png <a.stl 2>err || fail "not read from a pipe"
+    says err 'warning: ASCII STL without its last `endsolid`'
+    cmp -s out.png piped.png || fail "another picture from a pipe"
+}
+# What an error tells to do can be done.
+advice() {
+    printf 'glTF\2' >scene
+    cp scene scene.obj
+    for model in scene scene.obj; do bad $model 'this is a binary glTF file: give its path, ending in .glb'; done
+    "$program" - -o out.png <scene 2>err && fail "glTF from a pipe"
+    says err 'standard input: this is a binary glTF file: give its path, ending in .glb'
+    printf 'hello\n' >x.xyz
+    bad x.xyz 'x.xyz: not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is one, give a file whose name ends in .stl'
+    printf '\377\376v\0 \0' >wide.obj
+    bad wide.obj 'this is UTF-16 text: convert it to UTF-8, e.g. iconv -f UTF-16 -t UTF-8'
+}
 missing_materials_are_told() {
     printf 'mtllib gone.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >red.obj
     run 0 red.obj $small -o out.png # no colours are asked for
@@ -708,7 +746,7 @@ absurd_thresholds() {
 tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
-    cut_files huge_counts dropped_are_counted missing_materials_are_told old_file_stays_on_error full_disk devices unwritable_places
+    cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
 
 for test in $tests; do

@@ -89,8 +89,9 @@ static void same_to_the_end(dp_source *a, dp_source *b) {
 }
 
 static void same_source(dp_source *a, dp_source *b) {
-    const char *const remark = dp_source_remark(a); /* why a library is not there may differ */
-    same_array(remark, dp_source_remark(b), remark ? strcspn(remark, ":") + 1 : 0);
+    const char *const remark =
+        dp_source_color_remark(a); /* why a library is not there may differ */
+    same_array(remark, dp_source_color_remark(b), remark ? strcspn(remark, ":") + 1 : 0);
     assert_int_equal(a->constant, b->constant);
     assert_int_equal(a->records.read != NULL, b->records.read != NULL);
     assert_true(dp_source_rewindable(a) && dp_source_rewindable(b));
@@ -264,7 +265,7 @@ static uint32_t color_beside(const char *text, shelf *s, const char *asked, cons
         assert_int_equal(s->opened, s->closed);
     }
     const uint32_t color = dp_source_group_color(source, 0);
-    const char *const said = dp_source_remark(source);
+    const char *const said = dp_source_color_remark(source);
     assert_string_equal(said ? said : "", remark);
     dp_source_destroy(source);
     return color;

@@ -109,7 +109,7 @@ static dp_source *open_model(const char *content) {
 static uint32_t color_of(const char *content, bool remarked) {
     dp_source *const source = open_model(content);
     const uint32_t color = dp_source_group_color(source, 0);
-    assert_int_equal(dp_source_remark(source) != NULL, remarked);
+    assert_int_equal(dp_source_color_remark(source) != NULL, remarked);
     dp_source_destroy(source);
     return color;
 }
@@ -166,9 +166,9 @@ static void missing_libraries_are_remarked(void **state) {
     assert_int_equal(color_of("mtllib pipe\nusemtl m\n" TRIANGLES "f 1 2 3\n", true),
                      0); /* and it was not waited for */
     dp_source *const source = open_model("mtllib go\x1bne.mtl\n" TRIANGLES "f 1 2 3\n");
-    assert_contains(dp_source_remark(source), "no colours from go?ne.mtl: ");
+    assert_contains(dp_source_color_remark(source), "no colours from go?ne.mtl: ");
     dp_source_destroy(source);
-    assert_null(dp_source_remark(NULL));
+    assert_null(dp_source_color_remark(NULL));
     /* what comes from memory has no folder */
     assert_trace("mtllib gone.mtl\nusemtl m\n" TRIANGLES "f 1 2 3\n", "(0 0 0)(1 0 0)(0 1 0)@m\n");
 }

@@ -47,7 +47,6 @@ static void solids_are_groups(void **state) {
 
 static void broken_ascii_is_told_with_its_line(void **state) {
     (void)state;
-    assert_contains(trace_text("solid a\n" FIRST), "file ends where `facet` or `endsolid`");
     assert_contains(trace_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0"),
                     "at line 4, byte 0: the file ends where a coordinate (triangle 0)");
     assert_contains(trace_text("solid a\n" FACET("0 0 0", "1 x 0", "0 1 0") "endsolid"),
@@ -59,6 +58,26 @@ static void broken_ascii_is_told_with_its_line(void **state) {
     assert_contains(trace_text("solid a\n" FIRST "facett\n"), "found `facett`");
     assert_contains(trace_text("solid a\nendsolid a\n"), "without facets");
     assert_contains(trace_text("solid"), "bad file content");
+}
+
+/* Many programs leave the last line out. */
+static void a_missing_end_is_remarked(void **state) {
+    static const char *const texts[] = {"solid a\n" FIRST, "solid a\n" FIRST "endsolid a\n"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        dp_source *source = NULL;
+        dp_batch batch;
+        const dp_memory_file file = {.data = texts[i], .size = strlen(texts[i])};
+        assert_int_equal(dp_source_open_memory(&file, NULL, &source, NULL), DP_OK);
+        assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+        assert_int_equal(batch.polygon_count, 1);
+        if (i)
+            assert_null(dp_source_remark(source));
+        else
+            assert_contains(dp_source_remark(source), "without its last `endsolid`");
+        assert_null(dp_source_color_remark(source));
+        dp_source_destroy(source);
+    }
 }
 
 static void binary_is_read(void **state) {
@@ -146,6 +165,7 @@ int main(void) {
         cmocka_unit_test(ascii_is_read),
         cmocka_unit_test(solids_are_groups),
         cmocka_unit_test(broken_ascii_is_told_with_its_line),
+        cmocka_unit_test(a_missing_end_is_remarked),
         cmocka_unit_test(binary_is_read),
         cmocka_unit_test(broken_binary_is_told_with_its_offset),
         cmocka_unit_test(batches_follow_each_other),
