@@ -58,7 +58,7 @@ typedef struct dp_shade {
     /* Towards the light, camera space (x right, y up, z towards the eye), any length; fixed to the
      * camera. {0} means (-0.5, 0.7, 0.6). */
     float light[3];
-    bool model_colors; /* use the colours that the source gives its groups */
+    bool model_colors; /* use the colours that the source gives its vertices, else its groups */
     dp_normals normals;
     float crease_angle; /* degrees, up to 180; 0 means 40. Computed normals are smooth across
                            edges that bend by no more than this */

@@ -46,6 +46,8 @@ typedef struct dp_batch {
     dp_attribute normals;   /* x, y, z, any length; length 0: none. For shading only: facing and
                                   lines follow from the positions */
     dp_attribute texcoords; /* u, v */
+    const uint32_t *colors; /* [vertex_count] 0xRRGGBBAA of the vertices, for shading, instead of
+                               the group's; 0: none. Or NULL */
     bool stable;            /* the memory does not change while the source lives */
 } dp_batch;
 
@@ -85,9 +87,10 @@ DP_API dp_result dp_source_from_callbacks(const dp_source_callbacks *callbacks,
 typedef enum dp_file_format {
     DP_FORMAT_AUTO = 0, /* by content first, then by the name's ending */
     DP_FORMAT_STL,      /* ASCII or binary */
-    DP_FORMAT_PLY,      /* ASCII, binary little or big endian; faces or tristrips */
-    DP_FORMAT_OBJ,      /* v, vn, vt, f, g, o, usemtl; relative indices; colours of its mtllib */
-    DP_FORMAT_OFF       /* OFF and COFF, NOFF, … without their extras; ASCII */
+    DP_FORMAT_PLY, /* ASCII, binary little or big endian; faces or tristrips; vertices' colours */
+    DP_FORMAT_OBJ, /* v with colours, vn, vt, f, g, o, usemtl; relative indices; colours of its
+                           mtllib */
+    DP_FORMAT_OFF  /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
 } dp_file_format;
 
 typedef struct dp_file_options {

@@ -190,6 +190,28 @@ static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
     if (sum > 0) f->g->u[pixel] = uv[0] / sum, f->g->v[pixel] = uv[1] / sum;
 }
 
+/* The colour is interpolated as it is encoded. */
+static void put_color(const dp_fill *f, const weights *at, size_t pixel) {
+    const dp_polygons *const p = &f->w->frame->polygons;
+    float sum = 0, rgba[4] = {0, 0, 0, 0};
+    f->g->color[pixel] = 0;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t color = p->colors[dp_corner_vertex(p, at->corner[k])];
+        if (!color) return;
+        for (int c = 0; c < 4; c++)
+            rgba[c] += at->weight[k] * (float)(color >> (24 - 8 * c) & 0xff);
+        sum += at->weight[k];
+    }
+    for (int c = 0; c < 4 && sum > 0; c++)
+        f->g->color[pixel] |= (uint32_t)(rgba[c] / sum + 0.5f) << (24 - 8 * c);
+}
+
+/* What is interpolated besides normals. */
+static void put_more(const dp_fill *f, const weights *at, size_t pixel) {
+    if (f->g->textured) put_texcoord(f, at, pixel);
+    if (f->g->colored) put_color(f, at, pixel);
+}
+
 /* `collect` for a pixel whose polygon's points are not its three corners. */
 static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row *r) {
     const dp_tile *const w = f->w;
@@ -202,15 +224,15 @@ static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row 
         screen_weights(w, p, r->x[x], r->y_at[x], &at);
     if (!f->facets) sum_normals(f, &at, p->flags & DP_POLYGON_FRONT ? 1 : -1, normal);
     r->wx[x] = normal[0], r->wy[x] = normal[1], r->wz[x] = normal[2];
-    if (f->g->textured) put_texcoord(f, &at, pixel);
+    put_more(f, &at, pixel);
 }
 
-static void put_texcoords(const dp_fill *f, const dp_fill_row *r, size_t pixel) {
+static void put_more_of_row(const dp_fill *f, const dp_fill_row *r, size_t pixel) {
     for (uint64_t bits = r->mask & ~r->odd; bits; bits &= bits - 1) {
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
         const weights at = {{r->first[x], r->first[x] + 1, r->first[x] + 2},
                             {r->weight[0][x], r->weight[1][x], r->weight[2][x]}};
-        put_texcoord(f, &at, pixel + x);
+        put_more(f, &at, pixel + x);
     }
 }
 
@@ -314,7 +336,7 @@ static void end_row(const dp_fill *f, dp_fill_row *r) {
     put_ids(f, r, r->x0, r->x1 - r->x0, row + r->x0);
     g->mask[at] = r->mask;
     g->shared[at] = share_pixels(f, r, row);
-    if (g->textured) put_texcoords(f, r, row);
+    if (g->textured || g->colored) put_more_of_row(f, r, row);
 }
 
 /* Rows are begun two rows ahead: polygons, corners and normals come from memory, one after the
@@ -339,7 +361,7 @@ void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *w, dp_normals normals) {
     const dp_fill f = {.g = g,
                        .w = w,
                        .facets = facets,
-                       .weighted = !facets || g->textured,
+                       .weighted = !facets || g->textured || g->colored,
                        .step = (float)(1 / w->frame->view.focal)};
     memset(mask, 0, DP_TILE * sizeof *mask);
     memset(g->shared + (size_t)w->index * DP_TILE, 0, DP_TILE * sizeof *mask);

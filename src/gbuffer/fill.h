@@ -13,7 +13,7 @@ typedef struct dp_fill {
     dp_gbuffer *g;
     const dp_tile *w;
     bool facets;   /* normals are the polygons' own */
-    bool weighted; /* corners' weights are needed: !facets, or textured */
+    bool weighted; /* corners' weights are needed: !facets, textured or colored */
     float step;    /* depth of a pixel size; perspective: divided by the depth */
 } dp_fill;
 

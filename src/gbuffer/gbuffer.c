@@ -21,9 +21,13 @@ void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory) {
 
 uint64_t dp_gbuffer_bytes(const dp_gbuffer *g) { return dp_arrays_bytes(g, DP_ARRAYS(arrays)); }
 
+/* Planes of four bytes per pixel. */
+static size_t wide_planes(const dp_gbuffer *g) {
+    return (g->textured ? 8u : 6u) + (g->colored ? 1u : 0u);
+}
+
 static bool reserve(dp_gbuffer *g, const dp_frame *frame, size_t plane, size_t tiles) {
-    const size_t floats = g->textured ? 8 : 6,
-                 bytes = dp_times(plane, floats * sizeof(float) + sizeof(uint16_t) + 1);
+    const size_t bytes = dp_times(plane, wide_planes(g) * sizeof(float) + sizeof(uint16_t) + 1);
     return dp_reserve(frame->memory, &g->block, &g->block_cap, bytes, 1) &&
            dp_reserve(frame->memory, &g->mask, &g->mask_cap, 2 * tiles * DP_TILE,
                       sizeof *g->mask) &&
@@ -37,7 +41,8 @@ static void place_planes(dp_gbuffer *g, size_t plane) {
     const size_t floats = g->textured ? 8 : 6;
     for (size_t i = 0; i < 8; i++)
         *planes[i] = i < floats ? (float *)(void *)g->block + i * plane + origin : NULL;
-    uint16_t *const ids = (uint16_t *)(void *)((float *)(void *)g->block + floats * plane);
+    g->color = g->colored ? (uint32_t *)(void *)g->block + floats * plane + origin : NULL;
+    uint16_t *const ids = (uint16_t *)(void *)((float *)(void *)g->block + wide_planes(g) * plane);
     g->id = ids + origin;
     g->share = (uint8_t *)(ids + plane) + origin;
 }
@@ -62,16 +67,17 @@ static void take_camera(dp_gbuffer *g, const dp_frame *frame) {
     g->cy = (float)(-dp_dot(axis, up) / dp_length(y));
 }
 
-bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured) {
+bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured, bool colored) {
     const uint32_t width = frame->target.width, height = frame->target.height;
     const bool same = g->block && g->width == width && g->height == height &&
-                      g->textured == textured && g->perspective == frame->view.perspective;
+                      g->textured == textured && g->colored == colored &&
+                      g->perspective == frame->view.perspective;
     take_camera(g, frame);
     g->normals = NULL;
     g->detectors = dp_detectors_for(dp_lanes_best());
     g->fillers = dp_fillers_for(dp_lanes_best());
     if (same) return true;
-    g->width = width, g->height = height, g->textured = textured;
+    g->width = width, g->height = height, g->textured = textured, g->colored = colored;
     g->tiles_x = frame->tiles_x, g->tiles_y = frame->tiles_y;
     g->stride = ((size_t)g->tiles_x * DP_TILE + 2 * DP_GBUFFER_MARGIN + 15) / 16 * 16;
     const size_t plane = g->stride * ((size_t)height + 2 * DP_GBUFFER_MARGIN);

@@ -38,6 +38,7 @@ typedef struct dp_gbuffer {
     float *depth;           /* the same as depth on the screen, affine on planes (core/view.h) */
     float *other;           /* where `shared`: distance of what covers the rest; DP_FAR: paper */
     float *u, *v;           /* texture coordinates, when asked for; NaN: none */
+    uint32_t *color;        /* 0xRRGGBBAA, of the vertices, when asked for; 0: none */
     uint16_t *id;           /* 1 + group */
     uint32_t *polygon;      /* polygon of the frame; the caller's plane, or NULL */
     uint8_t *share;         /* where `shared`: share of samples on this surface, of 255 */
@@ -60,13 +61,15 @@ typedef struct dp_gbuffer {
     uint8_t *block; /* all planes */
     size_t block_cap, mask_cap, clean_cap;
     bool textured; /* u, v exist */
+    bool colored;  /* color exists */
 } dp_gbuffer;
 
 void dp_gbuffer_free(dp_gbuffer *g, const dp_allocator *memory);
 uint64_t dp_gbuffer_bytes(const dp_gbuffer *g);
 
-/* Allocates planes for the frame's picture; u and v if `textured`. False when memory is out. */
-bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured);
+/* Allocates planes for the frame's picture; u and v if `textured`, color if `colored`. False when
+ * memory is out. */
+bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured, bool colored);
 
 /* First pass: fills a tile from its samples (fill.c). */
 void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *worker, dp_normals normals);

@@ -12,6 +12,7 @@
 
 #include "base/diag.h"
 #include "io/assimp_files.h"
+#include "io/color.h"
 #include "io/readers.h"
 
 #include <assimp/cimport.h>
@@ -125,22 +126,47 @@ static bool find_group(dp_builder *builder, const struct aiNode *node, const str
     return dp_groups_find(&builder->names, name, group);
 }
 
-static uint32_t to_byte(float v) { return v <= 0 ? 0 : v >= 1 ? 255 : (uint32_t)(v * 255 + 0.5f); }
-
-/* The material's colour, in the file's own encoding. Assimp gives files without materials a grey
- * one. */
-static bool add_color(dp_builder *builder, const struct aiScene *scene, const struct aiMesh *mesh,
-                      uint16_t group) {
+/* The material's colour, in the file's own encoding; false: none. Assimp gives files without
+ * materials a grey one. */
+static bool find_color(const struct aiScene *scene, const struct aiMesh *mesh, float rgb[3]) {
     struct aiColor4D c;
     struct aiString name;
-    if (mesh->mMaterialIndex >= scene->mNumMaterials) return true;
+    if (mesh->mMaterialIndex >= scene->mNumMaterials) return false;
     const struct aiMaterial *const material = scene->mMaterials[mesh->mMaterialIndex];
     if (aiGetMaterialString(material, AI_MATKEY_NAME, &name) == aiReturn_SUCCESS &&
         !strcmp(name.data, AI_DEFAULT_MATERIAL_NAME))
-        return true;
-    if (aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c) != aiReturn_SUCCESS) return true;
-    const uint32_t rgb = to_byte(c.r) << 24 | to_byte(c.g) << 16 | to_byte(c.b) << 8;
-    return dp_builder_color(builder, group, rgb | 255);
+        return false;
+    if (aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c) != aiReturn_SUCCESS) return false;
+    rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
+    return true;
+}
+
+static bool is_textured(const struct aiScene *scene, const struct aiMesh *mesh) {
+    if (mesh->mMaterialIndex >= scene->mNumMaterials) return false;
+    const struct aiMaterial *const material = scene->mMaterials[mesh->mMaterialIndex];
+    return aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) ||
+           aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR);
+}
+
+/* The colours of the last vertices, those of the mesh: each is multiplied by the material's. */
+static bool add_vertex_colors(dp_builder *builder, const struct aiMesh *mesh, const float rgb[3]) {
+    const size_t base = builder->vertex_count - mesh->mNumVertices;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiColor4D c = mesh->mColors[0][i];
+        const float product[3] = {c.r * rgb[0], c.g * rgb[1], c.b * rgb[2]};
+        if (!dp_builder_vertex_color(builder, base + i, dp_color_of(product, 1))) return false;
+    }
+    return true;
+}
+
+/* The colours of the mesh whose vertices were added last. */
+static bool add_colors(dp_builder *builder, const struct aiScene *scene, const struct aiMesh *mesh,
+                       uint16_t group) {
+    float rgb[3] = {1, 1, 1};
+    const bool colored = find_color(scene, mesh, rgb);
+    if (is_textured(scene, mesh)) dp_builder_note_textures(builder);
+    return (!colored || dp_builder_color(builder, group, dp_color_of(rgb, 1))) &&
+           (!mesh->mColors[0] || add_vertex_colors(builder, mesh, rgb));
 }
 
 static bool add_mesh(dp_builder *builder, const struct aiScene *scene, const struct aiNode *node,
@@ -150,8 +176,8 @@ static bool add_mesh(dp_builder *builder, const struct aiScene *scene, const str
     const size_t base = builder->vertex_count;
     const bool turned = mirrors(t);
     uint16_t group;
-    if (!find_group(builder, node, mesh, &group) || !add_color(builder, scene, mesh, group) ||
-        !add_vertices(builder, mesh, t))
+    if (!find_group(builder, node, mesh, &group) || !add_vertices(builder, mesh, t) ||
+        !add_colors(builder, scene, mesh, group))
         return false;
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
         if (!add_face(builder, &mesh->mFaces[i], base, turned, group)) return false;

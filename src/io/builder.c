@@ -10,6 +10,7 @@
 #include "base/diag.h"
 #include "mesh/source.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void dp_builder_init(dp_builder *builder, const dp_allocator *allocator) {
@@ -22,6 +23,7 @@ void dp_builder_destroy(dp_builder *builder) {
     dp_free(&builder->allocator, builder->firsts);
     dp_free(&builder->allocator, builder->groups);
     dp_free(&builder->allocator, builder->colors);
+    dp_free(&builder->allocator, builder->vertex_colors);
     dp_free(&builder->allocator, builder->normals.values);
     dp_free(&builder->allocator, builder->normals.indices);
     dp_free(&builder->allocator, builder->texcoords.values);
@@ -97,6 +99,35 @@ bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba) {
     return true;
 }
 
+/* Gives the first `count` vertices colours, those without one 0. */
+static bool fill_vertex_colors(dp_builder *builder, size_t count) {
+    if (!dp_reserve(&builder->allocator, &builder->vertex_colors, &builder->vertex_color_capacity,
+                    count, sizeof *builder->vertex_colors))
+        return false;
+    while (builder->vertex_color_count < count)
+        builder->vertex_colors[builder->vertex_color_count++] = 0;
+    return true;
+}
+
+bool dp_builder_vertex_color(dp_builder *builder, size_t vertex, uint32_t rgba) {
+    if (!fill_vertex_colors(builder, vertex + 1)) return false;
+    builder->vertex_colors[vertex] = rgba;
+    return true;
+}
+
+static void note(dp_builder *builder, const char *text) {
+    if (!*builder->color_remark)
+        snprintf(builder->color_remark, sizeof builder->color_remark, "%s", text);
+}
+
+void dp_builder_note_textures(dp_builder *builder) {
+    note(builder, "the model's textures are not drawn, only colours of materials and vertices");
+}
+
+void dp_builder_note_face_colors(dp_builder *builder) {
+    note(builder, "the colours of the model's faces are not drawn, only those of vertices");
+}
+
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *a, size_t width) {
     if (a->count + 1 >= UINT32_MAX || !dp_reserve(&builder->allocator, &a->values, &a->capacity,
                                                   a->count + 1, width * sizeof(float)))
@@ -164,6 +195,7 @@ static dp_result mesh_next(void *user, dp_batch *batch, dp_diag *diag) {
                         .groups = built->groups,
                         .normals = attribute_of(&built->normals),
                         .texcoords = attribute_of(&built->texcoords),
+                        .colors = built->vertex_colors,
                         .stable = true};
     return DP_OK;
 }
@@ -226,7 +258,8 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
     if ((builder->normals.indices &&
          !fill_indices(builder, &builder->normals, builder->corner_count)) ||
         (builder->texcoords.indices &&
-         !fill_indices(builder, &builder->texcoords, builder->corner_count)))
+         !fill_indices(builder, &builder->texcoords, builder->corner_count)) ||
+        (builder->vertex_colors && !fill_vertex_colors(builder, builder->vertex_count)))
         return dp_builder_fail(builder, diag);
     mesh *const self = dp_alloc(&builder->allocator, sizeof *self);
     if (!self) return dp_builder_fail(builder, diag);

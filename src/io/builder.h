@@ -28,6 +28,8 @@ typedef struct dp_builder {
     dp_groups names;
     uint32_t *colors; /* [color_count] by group, 0xRRGGBBAA, 0: none */
     size_t color_count, color_capacity;
+    uint32_t *vertex_colors; /* [vertex_color_count] dp_batch.colors, of the first vertices */
+    size_t vertex_color_count, vertex_color_capacity;
     char color_remark[256];                  /* dp_source_color_remark, or "" */
     dp_builder_attribute normals, texcoords; /* 3 and 2 floats each */
 } dp_builder;
@@ -72,6 +74,12 @@ static inline bool dp_builder_close(dp_builder *builder, uint16_t group) {
 
 /* Sets a group's colour, if it has none yet. False: dp_builder_fail. */
 bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba);
+
+/* Sets a vertex's colour; vertices in ascending order. False: dp_builder_fail. */
+bool dp_builder_vertex_color(dp_builder *builder, size_t vertex, uint32_t rgba);
+/* Remark that these colours are not drawn, unless there is a remark already. */
+void dp_builder_note_textures(dp_builder *builder);
+void dp_builder_note_face_colors(dp_builder *builder);
 
 /* Adds a value of `width` floats, which the caller writes; NULL when memory is out. */
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);

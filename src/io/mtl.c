@@ -3,10 +3,11 @@
  * A bad library never stops a model from being read: what is missing or broken has no colour. Kd
  * with one number is grey; numbers are clamped to [0, 1].
  *
- * Not handled: textures (map_Kd), Kd as a spectrum or CIE XYZ, transparency. */
+ * Not handled: textures (map_Kd; that there are some is noted), Kd as a spectrum or CIE XYZ, transparency. */
 #include "io/mtl.h"
 
 #include "io/beside.h"
+#include "io/color.h"
 #include "io/text.h"
 
 #include <math.h>
@@ -39,8 +40,6 @@ uint32_t dp_materials_color(const dp_materials *m, uint16_t number) {
 
 /* ------- one library ------- */
 
-static uint32_t to_byte(float v) { return v <= 0 ? 0 : v >= 1 ? 255 : (uint32_t)(v * 255 + 0.5f); }
-
 /* Reads the colour after `Kd`; 0 if there is none. */
 static uint32_t read_color(dp_stream *stream) {
     float rgb[3] = {0, 0, 0};
@@ -51,9 +50,7 @@ static uint32_t read_color(dp_stream *stream) {
     }
     const bool grey = n == 1 && (!dp_text_blank(stream) || *stream->cursor == '#');
     if (grey) rgb[1] = rgb[2] = rgb[0];
-    return grey || n == 3
-               ? to_byte(rgb[0]) << 24 | to_byte(rgb[1]) << 16 | to_byte(rgb[2]) << 8 | 255
-               : 0;
+    return grey || n == 3 ? dp_color_of(rgb, 1) : 0;
 }
 
 bool dp_read_mtl(dp_stream *stream, dp_materials *materials) {
@@ -68,6 +65,8 @@ bool dp_read_mtl(dp_stream *stream, dp_materials *materials) {
             current = number;
         } else if (dp_text_match(stream, "kd") && current != NO_MATERIAL) {
             materials->colors[current] = read_color(stream);
+        } else if (dp_text_match(stream, "map_kd")) {
+            materials->textured = true;
         }
         dp_text_skip_line(stream);
     }

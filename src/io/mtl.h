@@ -10,6 +10,7 @@ typedef struct dp_materials {
     dp_groups names;
     uint32_t *colors; /* by number, 0xRRGGBBAA, 0: none */
     size_t color_count, color_capacity;
+    bool textured; /* some have textures */
 } dp_materials;
 
 enum { DP_MATERIAL_NAME = 256 }; /* bytes of a name that count, with the 0 behind it */

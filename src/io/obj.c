@@ -1,4 +1,5 @@
-/* Wavefront OBJ: vertices, faces, normals and texture coordinates, read whole.
+/* Wavefront OBJ: vertices, faces, normals, texture coordinates and vertices' colours (`v x y z r g
+ * b`, which many programs write), read whole.
  *
  * Polygons stay polygons. A face's group is named "object/group/material", without the parts that
  * are not given; groups are numbered in order of their first face, and have the colour of their
@@ -10,6 +11,7 @@
  * ignored. */
 #include "io/readers.h"
 
+#include "io/color.h"
 #include "io/mtl.h"
 #include "io/number.h"
 #include "io/text.h"
@@ -30,7 +32,17 @@ typedef struct obj {
     dp_materials materials;
     uint32_t *material_of; /* [material_count] by group: 1 + its material's number, 0: none */
     size_t material_count, material_capacity;
+    float most; /* dp_color_guess */
 } obj;
+
+/* Reads up to three numbers after the position: a colour, or one weight, which is ignored. */
+static bool read_color(obj *self) {
+    float rgb[3];
+    int n = 0;
+    while (n < 3 && dp_text_blank(self->stream) && dp_text_float(self->stream, &rgb[n])) n++;
+    return n < 3 || dp_builder_vertex_color(self->builder, self->builder->vertex_count - 1,
+                                            dp_color_guess(rgb, &self->most));
+}
 
 static dp_result read_vertex(obj *self) {
     float position[3];
@@ -42,6 +54,8 @@ static dp_result read_vertex(obj *self) {
     float *const to = dp_builder_vertex(self->builder);
     if (!to) return dp_builder_fail(self->builder, self->diag);
     memcpy(to, position, sizeof position);
+    if (dp_text_blank(self->stream) && !read_color(self))
+        return dp_builder_fail(self->builder, self->diag);
     return DP_OK;
 }
 
@@ -70,6 +84,7 @@ static bool note_material(obj *self) {
 }
 
 static bool color_groups(obj *self) {
+    if (self->materials.textured) dp_builder_note_textures(self->builder);
     for (size_t g = 0; g < self->material_count; g++) {
         if (!self->material_of[g]) continue;
         const uint32_t color =
@@ -204,7 +219,7 @@ static dp_result read_lines(obj *self) {
 }
 
 dp_result dp_read_obj(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
-    obj self = {.stream = stream, .builder = builder, .diag = diag, .renamed = true};
+    obj self = {.stream = stream, .builder = builder, .diag = diag, .renamed = true, .most = 1};
     dp_materials_init(&self.materials, &builder->allocator);
     const dp_result result = read_lines(&self);
     dp_materials_destroy(&self.materials);

@@ -1,12 +1,14 @@
 /* OFF: counts, vertices, faces; read whole.
  *
- * COFF, NOFF, STOFF and their combinations have colours, normals and texture coordinates after the
- * position, and any face may have a colour: all on the same line, so what is left of a vertex's or
- * face's line is ignored. '#' begins a comment. The keyword may be missing.
+ * COFF, NOFF, STOFF and their combinations have normals, colours and texture coordinates after the
+ * position, in this order, and any face may have a colour: all on the same line. Of these, vertices'
+ * colours are read, and what is left of a vertex's or face's line is ignored. '#' begins a comment.
+ * The keyword may be missing.
  *
- * Not handled: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF). */
+ * Not handled: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF); colours of faces. */
 #include "io/readers.h"
 
+#include "io/color.h"
 #include "io/text.h"
 
 #include <inttypes.h>
@@ -16,6 +18,8 @@ typedef struct off {
     dp_builder *builder;
     dp_diag *diag;
     int64_t vertices, faces; /* announced */
+    bool normals, colors;    /* follow the position */
+    float most;              /* dp_color_guess */
 } off;
 
 /* Skips to the next word outside a comment. */
@@ -29,11 +33,14 @@ static bool next_word(dp_stream *stream) {
 
 /* Skips [ST][C][N][4][n]OFF, which the counts may follow without a blank; false if it is not there.
  * *dimensions: vertices do not have three coordinates. */
-static bool take_keyword(dp_stream *stream, bool *dimensions) {
+static bool take_keyword(off *self, bool *dimensions) {
+    dp_stream *const stream = self->stream;
     const uint8_t *p = stream->cursor;
     if (p[0] == 'S' && p[1] == 'T') p += 2;
-    p += *p == 'C';
-    p += *p == 'N';
+    self->colors = *p == 'C';
+    p += self->colors;
+    self->normals = *p == 'N';
+    p += self->normals;
     *dimensions = *p == '4' || *p == 'n';
     p += *p == '4';
     p += *p == 'n';
@@ -47,7 +54,7 @@ static dp_result read_keyword(off *self) {
     bool dimensions = false;
     if (!next_word(stream)) return dp_text_expected(stream, self->diag, "`OFF`");
     const bool number = *stream->cursor >= '0' && *stream->cursor <= '9';
-    if (!take_keyword(stream, &dimensions) && !number)
+    if (!take_keyword(self, &dimensions) && !number)
         return dp_text_expected(stream, self->diag, "`OFF`");
     if (dimensions)
         return dp_fail_line(self->diag, DP_ERR_UNSUPPORTED, stream->line,
@@ -80,6 +87,16 @@ static dp_result expected(off *self, const char *what, int64_t item, int64_t cou
     return result;
 }
 
+/* Reads what follows the position on a vertex's line. False when memory is out. */
+static bool read_color(off *self) {
+    float values[6];
+    const int first = self->normals ? 3 : 0, last = first + 3;
+    int n = 0;
+    while (n < last && dp_text_blank(self->stream) && dp_text_float(self->stream, &values[n])) n++;
+    return n < last || dp_builder_vertex_color(self->builder, self->builder->vertex_count - 1,
+                                               dp_color_guess(values + first, &self->most));
+}
+
 static dp_result read_vertex(off *self, int64_t vertex) {
     float *const to = dp_builder_vertex(self->builder);
     if (!to) return dp_builder_fail(self->builder, self->diag);
@@ -88,6 +105,7 @@ static dp_result read_vertex(off *self, int64_t vertex) {
         if (!dp_text_float(self->stream, &to[k]))
             return expected(self, "a coordinate of vertex", vertex, self->vertices);
     }
+    if (self->colors && !read_color(self)) return dp_builder_fail(self->builder, self->diag);
     dp_text_skip_line(self->stream);
     return DP_OK;
 }
@@ -103,6 +121,8 @@ static dp_result read_face(off *self, int64_t face) {
         if (!dp_builder_corner(self->builder, index))
             return dp_builder_fail(self->builder, self->diag);
     }
+    if (dp_text_blank(self->stream) && *self->stream->cursor != '#')
+        dp_builder_note_face_colors(self->builder);
     dp_text_skip_line(self->stream);
     if (!dp_builder_close(self->builder, 0)) return dp_builder_fail(self->builder, self->diag);
     return DP_OK;
@@ -124,7 +144,7 @@ static dp_result read_header(off *self) {
 }
 
 dp_result dp_read_off(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
-    off self = {.stream = stream, .builder = builder, .diag = diag};
+    off self = {.stream = stream, .builder = builder, .diag = diag, .most = 1};
     dp_text_skip_mark(stream);
     dp_result result = read_header(&self);
     for (int64_t i = 0; i < self.vertices && !result; i++) result = read_vertex(&self, i);

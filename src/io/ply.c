@@ -7,9 +7,11 @@
  *
  * Invariant: no more is allocated for announced counts than the file's size allows.
  *
- * Not handled: polygons given by edges; materials and colours of faces. */
+ * Not handled: polygons given by edges; materials and colours of faces; textures (that there are
+ * some is noted). */
 #include "io/ply.h"
 
+#include "io/color.h"
 #include "io/readers.h"
 #include "io/text.h"
 
@@ -23,6 +25,7 @@ typedef struct ply {
     dp_ply_header header;
     const dp_ply_element *element; /* being read */
     uint64_t item;                 /* its number */
+    float most;                    /* dp_color_guess */
 } ply;
 
 /* ------- scalars ------- */
@@ -227,8 +230,10 @@ static dp_result read_list(ply *self, const dp_ply_property *property) {
     return DP_OK;
 }
 
-/* Reads an item. more: a vertex's normal, then its texture coordinates. */
-static dp_result read_item(ply *self, float *position, float more[5]) {
+/* What a vertex may have besides its position: normal, texture coordinates, colour. */
+enum { NORMAL_AT = 0, TEXCOORD_AT = 3, COLOR_AT = 5, MORE = 8 };
+
+static dp_result read_item(ply *self, float *position, float more[MORE]) {
     const dp_ply_property *property = self->header.properties + self->element->first;
     const dp_ply_property *const end = property + self->element->properties;
     for (; property < end; property++) {
@@ -270,21 +275,33 @@ static bool expect_items(ply *self) {
     return true;
 }
 
-/* Stores the vertex's normal and texture coordinates, if all of their parts exist. */
-static bool keep_more(ply *self, const float more[5]) {
+/* Colours are shares of the largest number of their type, those of floats of 1 or of 255. */
+static uint32_t color_of(ply *self, const float rgb[3]) {
+    const dp_ply_property *property = self->header.properties + self->element->first;
+    while (property->role != DP_PLY_RED) property++;
+    if (property->type >= DP_PLY_FLOAT32) return dp_color_guess(rgb, &self->most);
+    return dp_color_of(rgb, size_of_type[property->type] == 1   ? 255
+                            : size_of_type[property->type] == 2 ? 65535
+                                                                : 4294967295.0F);
+}
+
+/* Stores the vertex's normal, texture coordinates and colour, if all of their parts exist. */
+static bool keep_more(ply *self, const float more[MORE]) {
     dp_builder *const builder = self->builder;
-    const unsigned normal = 7u << DP_PLY_NX, texcoord = 3u << DP_PLY_S;
+    const unsigned normal = 7u << DP_PLY_NX, texcoord = 3u << DP_PLY_S, color = 7u << DP_PLY_RED;
     if ((self->element->roles & normal) == normal) {
         float *const to = dp_builder_vertex_value(builder, &builder->normals, 3);
         if (!to) return false;
-        memcpy(to, more, 3 * sizeof *to);
+        memcpy(to, more + NORMAL_AT, 3 * sizeof *to);
     }
     if ((self->element->roles & texcoord) == texcoord) {
         float *const to = dp_builder_vertex_value(builder, &builder->texcoords, 2);
         if (!to) return false;
-        memcpy(to, more + 3, 2 * sizeof *to);
+        memcpy(to, more + TEXCOORD_AT, 2 * sizeof *to);
     }
-    return true;
+    return (self->element->roles & color) != color ||
+           dp_builder_vertex_color(builder, builder->vertex_count - 1,
+                                   color_of(self, more + COLOR_AT));
 }
 
 static dp_result read_element(ply *self, const dp_ply_element *element) {
@@ -292,8 +309,8 @@ static dp_result read_element(ply *self, const dp_ply_element *element) {
     if (!element->properties) return DP_OK; /* items of no bytes, however many */
     if (!expect_items(self)) return dp_builder_fail(self->builder, self->diag);
     dp_result result = DP_OK;
-    float none[3], more[5];
-    const bool has_more = element->kind == DP_PLY_VERTEX && element->roles >> DP_PLY_NX & 31;
+    float none[3], more[MORE];
+    const bool has_more = element->kind == DP_PLY_VERTEX && element->roles >> DP_PLY_NX & 255;
     for (self->item = 0; self->item < element->count && !result; self->item++) {
         float *const to = element->kind == DP_PLY_VERTEX ? dp_builder_vertex(self->builder) : none;
         if (!to) return dp_builder_fail(self->builder, self->diag);
@@ -313,8 +330,10 @@ static dp_result check_end(ply *self) {
 }
 
 dp_result dp_read_ply(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
-    ply self = {.stream = stream, .builder = builder, .diag = diag};
+    ply self = {.stream = stream, .builder = builder, .diag = diag, .most = 1};
     dp_result result = dp_ply_read_header(stream, &self.header, diag);
+    if (self.header.textured) dp_builder_note_textures(builder);
+    if (self.header.colored_faces) dp_builder_note_face_colors(builder);
     for (size_t i = 0; i < self.header.element_count && !result; i++)
         result = read_element(&self, &self.header.elements[i]);
     if (!result) result = check_end(&self);

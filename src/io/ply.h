@@ -28,6 +28,9 @@ typedef enum dp_ply_role {
     DP_PLY_NZ,
     DP_PLY_S, /* texture coordinates: s, t; u, v; texture_u, texture_v */
     DP_PLY_T,
+    DP_PLY_RED,
+    DP_PLY_GREEN,
+    DP_PLY_BLUE,
     DP_PLY_POLYGON, /* a list of vertex numbers */
     DP_PLY_STRIP    /* a list of vertex numbers, strips with -1 between them */
 } dp_ply_role;
@@ -55,6 +58,8 @@ typedef struct dp_ply_header {
     size_t element_count, element_capacity;
     dp_ply_property *properties;
     size_t property_count, property_capacity;
+    bool textured;      /* a comment names a picture */
+    bool colored_faces; /* faces have colours */
 } dp_ply_header;
 
 /* Reads the header, up to the first byte after it. The caller destroys `header` in any case. */

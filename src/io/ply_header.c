@@ -63,10 +63,24 @@ static dp_ply_role role_of(dp_ply_kind kind, bool list, const char *name) {
     static const struct {
         const char *name;
         dp_ply_role role;
-    } roles[] = {{"x", DP_PLY_X},   {"y", DP_PLY_Y},         {"z", DP_PLY_Z},
-                 {"nx", DP_PLY_NX}, {"ny", DP_PLY_NY},       {"nz", DP_PLY_NZ},
-                 {"s", DP_PLY_S},   {"t", DP_PLY_T},         {"u", DP_PLY_S},
-                 {"v", DP_PLY_T},   {"texture_u", DP_PLY_S}, {"texture_v", DP_PLY_T}};
+    } roles[] = {{"x", DP_PLY_X},
+                 {"y", DP_PLY_Y},
+                 {"z", DP_PLY_Z},
+                 {"nx", DP_PLY_NX},
+                 {"ny", DP_PLY_NY},
+                 {"nz", DP_PLY_NZ},
+                 {"s", DP_PLY_S},
+                 {"t", DP_PLY_T},
+                 {"u", DP_PLY_S},
+                 {"v", DP_PLY_T},
+                 {"texture_u", DP_PLY_S},
+                 {"texture_v", DP_PLY_T},
+                 {"red", DP_PLY_RED},
+                 {"green", DP_PLY_GREEN},
+                 {"blue", DP_PLY_BLUE},
+                 {"diffuse_red", DP_PLY_RED},
+                 {"diffuse_green", DP_PLY_GREEN},
+                 {"diffuse_blue", DP_PLY_BLUE}};
     for (size_t i = 0; kind == DP_PLY_VERTEX && !list && i < sizeof roles / sizeof *roles; i++)
         if (strcmp(roles[i].name, name) == 0) return roles[i].role;
     if (!list || (strcmp(name, "vertex_indices") != 0 && strcmp(name, "vertex_index") != 0))
@@ -134,6 +148,7 @@ static dp_result read_property(header_reader *self) {
     const dp_result result = read_property_types(self, &property);
     if (result) return result;
     property.role = role_of(element->kind, property.list, next_word(self, word));
+    header->colored_faces |= element->kind == DP_PLY_FACE && strcmp(word, "red") == 0;
     if (element->roles >> property.role & 1) property.role = DP_PLY_SKIP; /* named twice */
     element->roles |= 1u << property.role;
     if (!dp_reserve(&header->allocator, &header->properties, &header->property_capacity,
@@ -176,6 +191,8 @@ static dp_result read_line(header_reader *self, const char *word, bool *more) {
         result = read_element(self);
     else if (strcmp(word, "property") == 0)
         result = read_property(self);
+    else if (strcmp(word, "comment") == 0)
+        self->header->textured |= strcmp(next_word(self, (char[WORD]){0}), "TextureFile") == 0;
     else if (strcmp(word, "end_header") == 0)
         *more = false;
     return result;

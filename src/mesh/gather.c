@@ -15,7 +15,7 @@ typedef struct gatherer {
     const dp_allocator *memory;
     dp_stats *stats;
     dp_diag *diag;
-    bool has_firsts, has_flags, has_groups, has_source;
+    bool has_firsts, has_flags, has_groups, has_source, has_colors;
     uint64_t handed_out; /* polygons of earlier batches */
 } gatherer;
 
@@ -23,6 +23,7 @@ static const dp_array arrays[] = {DP_ARRAY(dp_polygon_store, positions, position
                                   DP_ARRAY(dp_polygon_store, corners, corners_cap),
                                   DP_ARRAY(dp_polygon_store, firsts, firsts_cap),
                                   DP_ARRAY(dp_polygon_store, source_polygon, source_cap),
+                                  DP_ARRAY(dp_polygon_store, colors, colors_cap),
                                   DP_ARRAY(dp_polygon_store, edge_flags, flags_cap),
                                   DP_ARRAY(dp_polygon_store, groups, groups_cap)};
 
@@ -95,6 +96,7 @@ static void use_as_is(const dp_batch *batch, dp_polygons *out, dp_stats *stats) 
                          .groups = batch->groups,
                          .normals = batch->normals,
                          .texcoords = batch->texcoords,
+                         .colors = batch->colors,
                          .count = (uint32_t)batch->polygon_count};
     stats->polygons = batch->polygon_count;
     const uint64_t corners = batch->firsts ? batch->firsts[batch->polygon_count] - batch->firsts[0]
@@ -186,6 +188,24 @@ static dp_result append_polygon(gatherer *g, const dp_batch *batch, size_t i, ui
     return append_split(g, batch, i, first, n, base);
 }
 
+/* Vertices have colours from the first batch on that has some; earlier ones then have none. False
+ * when memory is out. */
+static bool append_colors(gatherer *g, const dp_batch *batch) {
+    dp_polygon_store *const s = g->store;
+    const size_t base = s->vertices;
+    if (!batch->colors && !g->has_colors) return true;
+    if (!dp_reserve(g->memory, &s->colors, &s->colors_cap, base + batch->vertex_count,
+                    sizeof *s->colors))
+        return false;
+    if (!g->has_colors) memset(s->colors, 0, base * sizeof *s->colors);
+    g->has_colors = true;
+    if (batch->colors)
+        memcpy(s->colors + base, batch->colors, batch->vertex_count * sizeof *s->colors);
+    else
+        memset(s->colors + base, 0, batch->vertex_count * sizeof *s->colors);
+    return true;
+}
+
 static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     dp_polygon_store *const s = g->store;
     const size_t base = s->vertices;
@@ -197,7 +217,8 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     if (!dp_reserve(g->memory, &s->positions, &s->positions_cap,
                     dp_times(3, base + batch->vertex_count), sizeof *s->positions) ||
         !dp_attribute_add_values(&s->normals, &batch->normals, 3, s->corner_count, g->memory) ||
-        !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory))
+        !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory) ||
+        !append_colors(g, batch))
         return out_of_memory(g);
     for (size_t v = 0; v < batch->vertex_count; v++)
         memcpy(s->positions + 3 * (base + v), batch_position(batch, (uint32_t)v),
@@ -235,6 +256,7 @@ static void use_store(const gatherer *g, dp_polygons *out) {
                          .groups = g->has_groups ? s->groups : NULL,
                          .normals = dp_attribute_of_store(&s->normals, 3),
                          .texcoords = dp_attribute_of_store(&s->texcoords, 2),
+                         .colors = g->has_colors ? s->colors : NULL,
                          .count = (uint32_t)s->polygons};
 }
 

@@ -20,6 +20,7 @@ typedef struct dp_polygons {
     const uint32_t *source_polygon; /* [count] its number in the source; NULL: the same */
     const uint16_t *groups;         /* [count]; NULL: all group 0 */
     dp_attribute normals, texcoords;
+    const uint32_t *colors; /* [vertex_count] as in dp_batch; or NULL */
     uint32_t count;
 } dp_polygons;
 
@@ -44,10 +45,10 @@ uint64_t dp_split_scratch_bytes(const dp_split_scratch *scratch);
 typedef struct dp_polygon_store {
     dp_split_scratch scratch;
     float *positions;
-    uint32_t *corners, *firsts, *source_polygon;
+    uint32_t *corners, *firsts, *source_polygon, *colors;
     uint8_t *edge_flags;
     uint16_t *groups;
-    size_t positions_cap, corners_cap, firsts_cap, source_cap, flags_cap, groups_cap;
+    size_t positions_cap, corners_cap, firsts_cap, source_cap, colors_cap, flags_cap, groups_cap;
     size_t vertices, corner_count, polygons;
     size_t limit;   /* bytes that these arrays and the stages' memory may take; 0: any number */
     bool is_beyond; /* they would have taken more */

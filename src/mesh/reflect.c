@@ -4,8 +4,8 @@
  * cut; each polygon's corners are in reverse order. Polygons that are cut are taken to be convex.
  *
  * Invariant: every corner has a vertex, a flag and, if the batch has them, numbers of its normal
- * and texture coordinate; a cut corner has those of the corner that was kept. Arrays stay for the
- * next batch. */
+ * and texture coordinate; a cut corner has those of the corner that was kept, and its colour. Arrays
+ * stay for the next batch. */
 #include "mesh/reflect.h"
 
 #include "base/diag.h"
@@ -25,13 +25,15 @@ typedef struct reflection {
     dp_allocator memory;
     float *positions, *normals;
     uint32_t *indices, *firsts, *normal_indices, *texcoord_indices;
+    uint32_t *colors; /* [vertices], while the batch has some */
     uint8_t *flags;
     uint16_t *groups;
     corner *corners, *kept; /* of one polygon */
-    size_t positions_cap, normals_cap, indices_cap, firsts_cap, normal_cap, texcoord_cap, flags_cap,
-        groups_cap;
+    size_t positions_cap, normals_cap, indices_cap, firsts_cap, normal_cap, texcoord_cap,
+        colors_cap, flags_cap, groups_cap;
     size_t corners_cap, kept_cap;
     size_t vertices, corner_count, polygons; /* of the reflected batch */
+    bool colored;                            /* it has colours */
 } reflection;
 
 static const float *position(const reflection *r, uint32_t vertex) {
@@ -61,6 +63,7 @@ static bool reserve_batch(reflection *r, const dp_batch *b) {
            dp_reserve(&r->memory, &r->normals, &r->normals_cap, dp_times(3, b->normals.count + 1),
                       sizeof(float)) &&
            RESERVE(r, firsts, firsts_cap, b->polygon_count + 1) &&
+           RESERVE(r, colors, colors_cap, b->colors ? b->vertex_count : 0) &&
            RESERVE(r, groups, groups_cap, b->polygon_count + 1);
 }
 
@@ -72,6 +75,7 @@ static bool reserve_polygon(reflection *r, size_t n) {
            RESERVE(r, indices, indices_cap, corners) && RESERVE(r, flags, flags_cap, corners) &&
            RESERVE(r, normal_indices, normal_cap, corners) &&
            RESERVE(r, texcoord_indices, texcoord_cap, corners) &&
+           RESERVE(r, colors, colors_cap, r->colored ? r->vertices + 2 * n + 2 : 0) &&
            RESERVE(r, corners, corners_cap, n) && RESERVE(r, kept, kept_cap, 2 * n + 2);
 }
 
@@ -82,6 +86,7 @@ static uint32_t cut(reflection *r, const corner *a, const corner *b) {
     const double t = a->side / (a->side - b->side);
     float *const to = r->positions + 3 * r->vertices;
     for (int k = 0; k < 3; k++) to[k] = (float)(p[k] + (q[k] - p[k]) * t);
+    if (r->colored) r->colors[r->vertices] = r->colors[a->side >= 0 ? a->vertex : b->vertex];
     return (uint32_t)r->vertices++;
 }
 
@@ -153,6 +158,8 @@ static bool reflect_batch(reflection *r, const dp_batch *b) {
     for (size_t i = 0; b->normals.values && i < b->normals.count; i++)
         reflect_direction(&r->plane, dp_attribute_value(&b->normals, (uint32_t)i),
                           r->normals + 3 * i);
+    r->colored = b->colors != NULL;
+    if (r->colored) memcpy(r->colors, b->colors, b->vertex_count * sizeof *r->colors);
     r->vertices = b->vertex_count;
     r->corner_count = r->polygons = 0;
     r->firsts[0] = 0;
@@ -177,6 +184,7 @@ static dp_result reflection_next(void *user, dp_batch *out, dp_diag *diag) {
                       .firsts = r->firsts,
                       .polygon_count = r->polygons,
                       .edge_flags = r->flags,
+                      .colors = r->colored ? r->colors : NULL,
                       .groups = b.groups ? r->groups : NULL};
     if (b.normals.values)
         out->normals = (dp_attribute){
@@ -200,6 +208,7 @@ static const dp_array arrays[] = {DP_ARRAY(reflection, positions, positions_cap)
                                   DP_ARRAY(reflection, firsts, firsts_cap),
                                   DP_ARRAY(reflection, normal_indices, normal_cap),
                                   DP_ARRAY(reflection, texcoord_indices, texcoord_cap),
+                                  DP_ARRAY(reflection, colors, colors_cap),
                                   DP_ARRAY(reflection, flags, flags_cap),
                                   DP_ARRAY(reflection, groups, groups_cap),
                                   DP_ARRAY(reflection, corners, corners_cap),

@@ -42,6 +42,7 @@ dp_result dp_check_alignment(const dp_batch *b, dp_diag *diag) {
         {b->firsts, 0, sizeof(uint32_t), "firsts"},
         {b->normals.indices, 0, sizeof(uint32_t), "normals' indices"},
         {b->texcoords.indices, 0, sizeof(uint32_t), "texcoords' indices"},
+        {b->colors, 0, sizeof(uint32_t), "colors"},
         {b->groups, 0, sizeof(uint16_t), "groups"},
     };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)

@@ -97,9 +97,15 @@ static bool wants_texcoords(const dp_shade_store *s) {
            shade->object_space && s->frame->polygons.texcoords.values;
 }
 
+static bool wants_vertex_colors(const dp_shade_store *s) {
+    return s->colored && s->setup.shade.model_colors && s->frame->polygons.colors &&
+           s->setup.shade.shading != DP_SHADING_PAPER;
+}
+
 bool dp_shade_gathered(dp_shade_store *s) {
     if (!s->active) return true;
-    if (!dp_gbuffer_begin(&s->gbuffer, s->frame, wants_texcoords(s))) return false;
+    if (!dp_gbuffer_begin(&s->gbuffer, s->frame, wants_texcoords(s), wants_vertex_colors(s)))
+        return false;
     s->gbuffer.polygon = NULL;
     return s->setup.shade.shading != DP_SHADING_PENCIL ||
            dp_pencil_begin(&s->pencil, s->frame, &s->gbuffer, &s->setup);
@@ -169,6 +175,17 @@ static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
     }
 }
 
+/* Where the vertices have colours, these replace the group's. */
+static void paint_vertex_colors(const uint32_t *color, dp_shade_run *run) {
+    for (uint32_t i = 0; i < run->n; i++) {
+        float rgba[4];
+        if (!run->id[i] || !color[i]) continue;
+        to_floats(color[i], rgba);
+        run->color[0][i] = rgba[0], run->color[1][i] = rgba[1], run->color[2][i] = rgba[2];
+        run->alpha[i] = rgba[3];
+    }
+}
+
 static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1,
                       dp_shade_run *run) {
     const dp_gbuffer *const g = &s->gbuffer;
@@ -184,6 +201,7 @@ static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t
     } else {
         paint_groups(s, run);
     }
+    if (g->colored) paint_vertex_colors(g->color + at, run);
 }
 
 static void end_run(const dp_shade_store *s, const dp_shade_run *run) {

@@ -404,6 +404,20 @@ missing_materials_are_told() {
     cmp -s out.png plain.png && fail "the material's colour is not seen"
 }
 
+colors_of_vertices_are_drawn() {
+    printf 'v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n' >red.obj
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >plain.obj
+    for option in "--style lambert" "--style flat --model-colors on"; do
+        run 0 red.obj $small $option -o red.png
+        run 0 plain.obj $small $option -o plain.png
+        cmp -s red.png plain.png && fail "$option: the vertices' colours are not seen"
+    done
+    run 0 red.obj $small -o red.png
+    run 0 plain.obj $small -o plain.png
+    cmp -s red.png plain.png || fail "the vertices' colours are seen where nobody asked for them"
+    silent err
+}
+
 # ---- outputs ----
 
 old_file_stays_on_error() {
@@ -746,7 +760,7 @@ absurd_thresholds() {
 tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
-    cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told old_file_stays_on_error full_disk devices unwritable_places
+    cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
 
 for test in $tests; do
