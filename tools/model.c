@@ -1,4 +1,5 @@
 /* Opens models for every command: files, standard input, generated shapes. */
+#include "apart.h"
 #include "commands.h"
 #include "keep.h"
 #include "progress.h"
@@ -47,6 +48,17 @@ static bool is_drawn_unseen(const tool_settings *s) {
            s->ink != 2;
 }
 
+/* Own formats are read here, all others in a process of their own. What is no regular file can be
+ * read only once, and is no other format: Assimp wants to go back in it. */
+static dp_result open_file(const tool_settings *s, dp_source **out, dp_diag *diag) {
+    const dp_file_options options = {.progress = progress_report};
+    struct stat status;
+    if (!strcmp(s->model, "-") || stat(s->model, &status) || !S_ISREG(status.st_mode))
+        return dp_io_open(s->model, &options, out, diag);
+    const dp_result result = dp_source_open(s->model, &options, out, diag);
+    return result == DP_ERR_UNSUPPORTED ? open_apart(s->model, s->read_time, out, diag) : result;
+}
+
 int open_model(const tool_settings *s, dp_source **out) {
     *out = NULL;
     if (!strncmp(s->model, scheme, sizeof scheme - 1))
@@ -59,10 +71,9 @@ int open_model(const tool_settings *s, dp_source **out) {
                     s->model, s->model, s->model, s->model);
         return EXIT_FAILED;
     }
-    const dp_file_options options = {.progress = progress_report};
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
-    dp_result result = dp_io_open(s->model, &options, out, &diag);
+    dp_result result = open_file(s, out, &diag);
     if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
         result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();

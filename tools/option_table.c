@@ -223,6 +223,9 @@ const option option_table[] = {
     {"memory", 0, "SIZE", OPTION_BYTES, GROUP_PROGRAM, PICTURE, AT(memory), 0, 48.0 * (1 << 20), 1e15,
      "Memory beyond the picture's own: bytes, or a number with K, M or G. A model that does not fit is "
      "not held in memory but read twice, in parts. Default: 256M; the least is 48M."},
+    {"read-time", 0, "SECONDS", OPTION_INSIDE, GROUP_PROGRAM, PICTURE | INFO, AT(read_time), 0, 0, 1e6,
+     "How long Assimp may take to read a file (in a process of its own: it may hang or crash on broken ones). "
+     "Default: 60, and one more for each MB."},
     {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
      "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
      "(on stderr with -o -)."},

@@ -100,6 +100,7 @@ typedef struct tool_settings {
 
     stats_kind stats;
     bool json, quiet;
+    double read_time; /* s */
     uint32_t frames;
     uint64_t triangles;
     double shape_size;

@@ -19,6 +19,7 @@
 static volatile sig_atomic_t signal_seen;
 static volatile sig_atomic_t writing;
 static volatile sig_atomic_t bar_shown;
+static volatile sig_atomic_t child_process;
 
 static struct {
     const char *what;
@@ -32,6 +33,7 @@ static const char wipe[] = "\r\033[K";
 /* ---- Ctrl-C ---- */
 
 static void leave(int number) {
+    if (child_process) kill((pid_t)child_process, SIGKILL);
     if (bar_shown && write(STDERR_FILENO, wipe, sizeof wipe - 1) < 0) _exit(128 + number);
     _exit(128 + number);
 }
@@ -52,6 +54,8 @@ void interrupt_install(void) {
         sigaction(numbers[k], &action, NULL);
     }
 }
+
+void interrupt_also(pid_t child) { child_process = (sig_atomic_t)child; }
 
 void interrupt_hold(void) { writing = 1; }
 

@@ -3,6 +3,7 @@
 #define TOOL_PROGRESS_H
 
 #include <stdbool.h>
+#include <sys/types.h>
 
 /* One piece of work with a name, "drawing" say. The bar appears when it has lasted over a second
  * and stderr is a terminal, unless `quiet`. */
@@ -18,5 +19,7 @@ void progress_clear(void);
 void interrupt_install(void);
 void interrupt_hold(void);
 void interrupt_release(void);
+/* The child process that is ended with the program; 0: none. */
+void interrupt_also(pid_t child);
 
 #endif

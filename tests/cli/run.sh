@@ -4,6 +4,7 @@
 set -u
 program=$(realpath "${1:?usage: run.sh PATH/TO/drypoint [PATTERN]}")
 pattern=${2:-}
+broken_assimp=$(dirname "$program")/tests/libbroken_assimp.so
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d "${TMPDIR:-/tmp}/drypoint-cli-XXXXXX")
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
@@ -418,6 +419,50 @@ colors_of_vertices_are_drawn() {
     silent err
 }
 
+# broken CODE ARGS...: as run, with an Assimp that breaks.
+broken() {
+    local wanted=$1 code=0
+    shift
+    LD_PRELOAD=$broken_assimp "$program" "$@" >out 2>err </dev/null || code=$?
+    [ "$code" = "$wanted" ] || fail "drypoint $*: exit code $code, not $wanted: $(head -c 300 err)"
+}
+# left WORD: processes whose command line holds WORD, but for the one that looks.
+left() { grep -sl -e "[${1:0:1}]${1:1}" /proc/[0-9]*/cmdline; }
+broken_readers() {
+    [ -e "$broken_assimp" ] || return # not beside sanitizers
+    local file
+    for file in crash exit memory hang; do printf 'glTF\2' >$file.glb; done
+    broken 1 crash.glb -o out.png
+    one_line
+    says err "crash.glb: Assimp's reader of .glb files crashed on it (Aborted): export it again"
+    silent out
+    broken 1 info exit.glb
+    one_line
+    says err "exit.glb: Assimp's reader of .glb files gave up on it"
+    broken 1 memory.glb -o out.png
+    one_line
+    says err "memory.glb: Assimp's reader of .glb files"
+    broken 1 hang.glb --read-time 0.5 -o out.png
+    one_line
+    says err "hang.glb: Assimp's reader of .glb files was not done after 0.5 s: give it more with --read-time"
+    absent out.png
+    [ -z "$(left hang.glb)" ] || fail "a child is left after the time was over"
+}
+interrupted_readers() {
+    [ -e "$broken_assimp" ] || return
+    local signal file code
+    for signal in INT TERM KILL; do
+        file=hang-$$-$signal.glb code=0
+        printf 'glTF\2' >$file
+        # to the program alone: a terminal would send it to the child, too
+        LD_PRELOAD=$broken_assimp timeout --foreground --preserve-status -s $signal 0.5 \
+            "$program" info $file >out 2>err </dev/null || code=$?
+        case $signal:$code in INT:130 | TERM:143 | KILL:137) ;; *) fail "SIG$signal: exit code $code" ;; esac
+        sleep 0.2
+        [ -z "$(left $file)" ] || fail "a child is left after SIG$signal"
+    done
+} 2>/dev/null # the shell tells who was killed
+
 # ---- outputs ----
 
 old_file_stays_on_error() {
@@ -760,7 +805,7 @@ absurd_thresholds() {
 tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
-    cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn old_file_stays_on_error full_disk devices unwritable_places
+    cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
 
 for test in $tests; do

@@ -65,8 +65,8 @@ static void own_readers_know_them(void **state) {
     "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"absent.png\"}],"                         \
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":1},"                 \
     "\"material\":0}]}],\"buffers\":[{\"byteLength\":48,\"uri\":\""                                \
-    "data:application/octet-stream;base64,"                                                          \
-    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA/wAA/wD/AP8AAP//\"}],"                  \
+    "data:application/octet-stream;base64,"                                                        \
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA/wAA/wD/AP8AAP//\"}],"                        \
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},"                                           \
     "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12}],"                                         \
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","       \
@@ -134,8 +134,7 @@ static void assert_pixel(int x, int y, const uint8_t wanted[3]) {
 
 /* Two triangles, or one quadrilateral, that fill the picture: black on the left, (0.5, 1, 0) on the
  * right. bend: how far a corner is off the plane. */
-#define SQUARE(bend)                                                                               \
-    "v -1 -1 0 0 0 0\nv 1 -1 0 .5 1 0\nv 1 1 " bend " .5 1 0\nv -1 1 0 0 0 0\n"
+#define SQUARE(bend) "v -1 -1 0 0 0 0\nv 1 -1 0 .5 1 0\nv 1 1 " bend " .5 1 0\nv -1 1 0 0 0 0\n"
 
 static void assert_gradient(const char *text, dp_style style) {
     dp_source *const source = open_text(text, "a.obj");
@@ -156,11 +155,13 @@ static void are_interpolated(void **state) {
     assert_gradient(SQUARE("1") "f 1 2 3 4\n", (dp_style){0}); /* to be split */
     assert_gradient(SQUARE("0") "f 1 2 3\nf 1 3 4\n",
                     (dp_style){.shade = {.normals = DP_NORMALS_FACET}});
-    assert_gradient("v 0 0 9 1 1 1\n" SQUARE("6") "f 2 3 5\nf 3 4 5\n", (dp_style){0}); /* clipped */
+    assert_gradient("v 0 0 9 1 1 1\n" SQUARE("6") "f 2 3 5\nf 3 4 5\n",
+                    (dp_style){0}); /* clipped */
 }
 
 static void only_where_asked_for(void **state) {
-    static const uint8_t plain[3] = {16, 32, 48}, middle[3] = {64, 128, 0}, white[3] = {255, 255, 255};
+    static const uint8_t plain[3] = {16, 32, 48}, middle[3] = {64, 128, 0},
+                         white[3] = {255, 255, 255};
     (void)state;
     dp_style style = {.surface = DP_RGB(16, 32, 48)};
     dp_source *source = open_text(SQUARE("0") "f 1 2 3 4\n", "a.obj");
@@ -174,7 +175,8 @@ static void only_where_asked_for(void **state) {
     draw(source, style);
     assert_pixel(SIZE / 2, SIZE / 2, middle);
     dp_source_destroy(source);
-    source = open_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 9 9 9 1 0 0\nf 1 2 3 4\n", "a.obj");
+    source =
+        open_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 9 9 9 1 0 0\nf 1 2 3 4\n", "a.obj");
     draw(source, style); /* the vertices without a colour have their group's, here none */
     assert_pixel(SIZE / 2, SIZE / 2, plain);
     dp_source_destroy(source);
@@ -188,8 +190,8 @@ static void are_seen_in_mirrors(void **state) {
     dp_source *const source = open_text("v -1 -1 -5 0 0 0\nv 1 -1 -5 .5 1 0\nv 1 1 9 .5 1 0\n"
                                         "v -1 1 9 0 0 0\nf 1 2 3 4\n",
                                         "a.obj");
-    draw(source, (dp_style){.shade = {.model_colors = true},
-                            .mirror = {.normal = {0, 0, 1}, .size = 8}});
+    draw(source,
+         (dp_style){.shade = {.model_colors = true}, .mirror = {.normal = {0, 0, 1}, .size = 8}});
     for (int y = 2; y < 14; y++) {
         assert_pixel(SIZE / 4, y, left);
         assert_pixel(3 * SIZE / 4, y, right);
@@ -222,7 +224,8 @@ static void batches_may_have_none(void **state) {
     static const float stripe[3][4][3] = {{{-1, -1, 0}, {-.4f, -1, 0}, {-.4f, 1, 0}, {-1, 1, 0}},
                                           {{-.4f, -1, 0}, {.4f, -1, 0}, {.4f, 1, 0}, {-.4f, 1, 0}},
                                           {{.4f, -1, 0}, {1, -1, 0}, {1, 1, 0}, {.4f, 1, 0}}};
-    static const uint32_t firsts[2] = {0, 4}, colors[4] = {0xFF0000FF, 0xFF0000FF, 0xFF0000FF, 0xFF0000FF};
+    static const uint32_t firsts[2] = {0, 4},
+                          colors[4] = {0xFF0000FF, 0xFF0000FF, 0xFF0000FF, 0xFF0000FF};
     static const uint8_t red[3] = {255, 0, 0}, plain[3] = {16, 32, 48};
     batches b = {.next = 0};
     dp_source *source = NULL;
