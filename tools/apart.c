@@ -318,8 +318,8 @@ static received *receive_model(channel *c) {
 static dp_result fail(dp_diag *diag, const char *path, const char *what) {
     const char *const slash = strrchr(path, '/'), *const dot = strrchr(slash ? slash : path, '.');
     *diag = (dp_diag){.result = DP_ERR_FORMAT};
-    snprintf(diag->message, sizeof diag->message, "Assimp's reader of %.20s files %s", dot ? dot : "such",
-             what);
+    snprintf(diag->message, sizeof diag->message, "Assimp's reader of %.20s files %s",
+             dot ? dot : "such", what);
     return DP_ERR_FORMAT;
 }
 

@@ -255,6 +255,9 @@ static bool is_claimed(const char *path) {
 
 static dp_result import_failed(const char *path, dp_diag *diag) {
     char line[160];
+    if (strstr(aiGetErrorString(), "bad_alloc"))
+        return dp_fail(diag, DP_ERR_MEMORY,
+                       "out of memory while Assimp read it: it is broken, or too large");
     copy_error(aiGetErrorString(), path, line, sizeof line);
     return dp_fail(diag, DP_ERR_FORMAT, "Assimp cannot read it: %s", line);
 }

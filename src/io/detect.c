@@ -251,8 +251,8 @@ bool dp_has_own_ending(const char *name) {
 
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag) {
     const char *const encoding = is_binary_stl(stream) ? NULL : find_utf16(stream);
-    if (encoding)
-        return dp_fail(diag, DP_ERR_UNSUPPORTED,
+    if (encoding) /* nothing for Assimp either: it fails, or finds wrong numbers */
+        return dp_fail(diag, DP_ERR_FORMAT,
                        "this is UTF-16 text: convert it to UTF-8, e.g. iconv -f %s -t UTF-8",
                        encoding);
     if (by_content(stream, format)) return DP_OK;

@@ -6,7 +6,7 @@
 #include "io/stream.h"
 
 /* The stream's format, by its first window, then by the ending of `name` (NULL allowed).
- * DP_ERR_UNSUPPORTED. */
+ * DP_ERR_UNSUPPORTED: another one, perhaps Assimp's. DP_ERR_FORMAT: in no reader's encoding. */
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag);
 /* Does the name's ending tell one of the library's own formats? NULL allowed. */
 bool dp_has_own_ending(const char *name);

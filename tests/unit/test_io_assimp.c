@@ -88,7 +88,7 @@ static void what_assimp_refuses_is_said_in_one_line(void **state) {
     assert_contains(trace_file("", "glTF\2", NULL), "glTF file: give its path, ending in .glb");
     assert_contains(trace_file(".obj", "PK\3\4", NULL), "give its path, ending in .3mf");
     assert_contains(trace_file(".glb", "glTF\2", NULL), "Assimp cannot read it: ");
-    assert_contains(trace_file("", "\xff\xfev", NULL), "this is UTF-16 text");
+    assert_contains(trace_file(".dae", "\xff\xfev", NULL), "this is UTF-16 text");
 }
 
 /* ------- in memory ------- */

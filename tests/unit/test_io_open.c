@@ -83,7 +83,7 @@ static void utf16_is_named(void **state) {
         const size_t from = mark ? 0 : 2;
         const dp_memory_file file = {
             .data = wide + from, .size = 2 * sizeof OBJ - from, .name = "wide.obj"};
-        assert_int_equal(dp_source_open_memory(&file, NULL, &source, &diag), DP_ERR_UNSUPPORTED);
+        assert_int_equal(dp_source_open_memory(&file, NULL, &source, &diag), DP_ERR_FORMAT);
         assert_contains(diag.message, "this is UTF-16 text: convert it to UTF-8, e.g. iconv ");
         assert_contains(diag.message, encodings[kind]);
     }
