@@ -175,11 +175,22 @@ static bool by_name(const char *name, dp_file_format *format) {
 /* Other well-known formats, by their marks; for the message. */
 typedef struct foreign {
     const char *magic;
-    size_t size;
+    size_t size; /* of the mark, with which the file begins; 0: a word somewhere in the window */
     const char *what;
     const char *ending; /* of a format that Assimp reads, by the name's ending; or NULL */
     const char *advice; /* where there is no such ending */
 } foreign;
+
+/* Is the stream JSON or XML with that word in its window? */
+static bool has_word(const dp_stream *stream, const char *word) {
+    const size_t size = strlen(word);
+    const bool marked = begins(stream, "\xef\xbb\xbf", 3);
+    const uint8_t *p = skip_spaces(stream->cursor + (marked ? 3 : 0));
+    if (*p != '{' && *p != '<') return false;
+    for (; (size_t)(stream->end - p) >= size; p++)
+        if (*p == (uint8_t)*word && memcmp(p, word, size) == 0) return true;
+    return false;
+}
 
 static const foreign *find_foreign(const dp_stream *stream) {
     static const foreign table[] = {
@@ -193,11 +204,18 @@ static const foreign *find_foreign(const dp_stream *stream) {
         {"glTF", 4, "a binary glTF file", ".glb", NULL},
         {"Kaydara FBX", 11, "an FBX file", ".fbx", NULL},
         {"BLENDER", 7, "a Blender file", ".blend", NULL},
+        {"; FBX", 5, "an FBX file", ".fbx", NULL},
+        {"<COLLADA", 0, "a COLLADA file", ".dae", NULL},
+        {"<X3D", 0, "an X3D file", ".x3d", NULL},
+        {"<amf", 0, "an AMF file", ".amf", NULL},
+        {"\"asset\"", 0, "a glTF file", ".gltf", NULL},
         {"\x89PNG", 4, "a picture (PNG), not a model", NULL, ""},
         {"\xff\xd8\xff", 3, "a picture (JPEG), not a model", NULL, ""},
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        if (begins(stream, table[i].magic, table[i].size)) return &table[i];
+        if (table[i].size ? begins(stream, table[i].magic, table[i].size)
+                          : has_word(stream, table[i].magic))
+            return &table[i];
     return NULL;
 }
 
@@ -260,6 +278,7 @@ dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format,
     if (other) return refuse_foreign(stream, other, diag);
     if (by_name(name, format)) return DP_OK;
     return dp_fail(diag, DP_ERR_UNSUPPORTED,
-                   "not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is one, "
-                   "give a file whose name ends in .stl, .ply, .obj or .off");
+                   "not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is a "
+                   "model, give a file whose name has its format's ending (.stl, .obj, %s…)",
+                   stream->more_readers ? ".gltf, .dae, " : "");
 }

@@ -388,7 +388,7 @@ advice() {
     "$program" - -o out.png <scene 2>err && fail "glTF from a pipe"
     says err 'standard input: this is a binary glTF file: give its path, ending in .glb'
     printf 'hello\n' >x.xyz
-    bad x.xyz 'x.xyz: not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is one, give a file whose name ends in .stl'
+    bad x.xyz 'x.xyz: not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is a model, give a file whose name has its format'\''s ending (.stl, .obj, .gltf'
     printf '\377\376v\0 \0' >wide.obj
     bad wide.obj 'this is UTF-16 text: convert it to UTF-8, e.g. iconv -f UTF-16 -t UTF-8'
 }

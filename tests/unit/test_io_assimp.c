@@ -86,6 +86,9 @@ static void what_assimp_refuses_is_said_in_one_line(void **state) {
     assert_contains(trace_file(".xyzzy", "hello\n", NULL), "not in a known format");
     assert_contains(trace_file(".gz", "\x1f\x8b\x08 x", NULL), "unpack it first");
     assert_contains(trace_file("", "glTF\2", NULL), "glTF file: give its path, ending in .glb");
+    assert_contains(trace_file(".off", "\xef\xbb\xbf {\"asset\":", NULL),
+                    "a glTF file: give its path, ending in .gltf");
+    assert_contains(trace_file(".ply", "<?xml?>\n<COLLADA>", NULL), "ending in .dae");
     assert_contains(trace_file(".obj", "PK\3\4", NULL), "give its path, ending in .3mf");
     assert_contains(trace_file(".glb", "glTF\2", NULL), "Assimp cannot read it: ");
     assert_contains(trace_file(".dae", "\xff\xfev", NULL), "this is UTF-16 text");

@@ -58,8 +58,9 @@ static void the_name_decides_where_content_does_not(void **state) {
 
 static void unknown_content_is_refused(void **state) {
     (void)state;
-    assert_contains(trace_file(".txt", "hello\n", DP_FORMAT_AUTO),
-                    "convert it to STL, PLY, OBJ or OFF, or, if it is one, give a file whose name");
+    assert_contains(
+        trace_file(".txt", "hello\n", DP_FORMAT_AUTO),
+        "convert it to STL, PLY, OBJ or OFF, or, if it is a model, give a file whose name");
     assert_contains(trace_file("", "v\nfrom 0 0 1\n", DP_FORMAT_AUTO), "not supported"); /* NFF */
     assert_contains(trace_file(".ply", "\x1f\x8b\x08 x", DP_FORMAT_AUTO), "unpack it first");
     assert_contains(trace_file(".obj", "glTF\x02", DP_FORMAT_AUTO), "glTF");
