@@ -374,7 +374,7 @@ dp_result open_apart(const char *path, double seconds, dp_source **out, dp_diag 
     int ends[2];
     const double bytes = stat(path, &file) ? 0 : (double)file.st_size;
     const pid_t parent = getpid();
-    if (!(seconds > 0)) seconds = 60 + bytes / 1e6;
+    if (!(seconds > 0)) seconds = 60 + (double)(size_t)(bytes / 1e6);
     if (pipe(ends)) return dp_io_open(path, NULL, out, diag);
     const pid_t child = fork();
     if (child == 0) {

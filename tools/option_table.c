@@ -106,7 +106,7 @@ const option option_table[] = {
      "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
      "above. Default: -40,42."},
     {"model-colors", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(model_colors), 0, 0, 0,
-     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, and formats read through Assimp) or its "
+     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, and formats read through Assimp), faces (PLY, OFF) or "
      "materials (an OBJ's .mtl files, and those formats); textures are not drawn. "
      "Default: on where there is light (lambert, gooch, toon, hatch, halftone) and no --surface."},
     {"normals", 0, "model|smooth|facet", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(normals), 0, 0, 0,

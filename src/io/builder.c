@@ -10,6 +10,7 @@
 #include "base/diag.h"
 #include "mesh/source.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -115,17 +116,31 @@ bool dp_builder_vertex_color(dp_builder *builder, size_t vertex, uint32_t rgba) 
     return true;
 }
 
-static void note(dp_builder *builder, const char *text) {
-    if (!*builder->color_remark)
-        snprintf(builder->color_remark, sizeof builder->color_remark, "%s", text);
+/* Groups are numbered in 16 bits: when most numbers are taken, colours are rounded to four bits per
+ * channel, which are 4096. */
+static uint32_t round_color(const dp_builder *builder, uint32_t rgba) {
+    if (builder->names.count < DP_GROUPS_MOST - 5000) return rgba;
+    return (rgba & 0xF0F0F000) | (rgba & 0xF0F0F000) >> 4 | 255;
+}
+
+bool dp_builder_polygon_color(dp_builder *builder, uint32_t rgba) {
+    char name[16];
+    uint16_t group;
+    rgba = round_color(builder, rgba);
+    snprintf(name, sizeof name, "#%06" PRIX32, rgba >> 8);
+    /* Group 0 is for polygons without a colour. */
+    if ((!builder->names.count && !dp_groups_find(&builder->names, "", &group)) ||
+        !dp_groups_find(&builder->names, name, &group) ||
+        (!builder->groups && group && !start_groups(builder)))
+        return false;
+    if (builder->groups) builder->groups[builder->polygon_count - 1] = group;
+    return dp_builder_color(builder, group, rgba);
 }
 
 void dp_builder_note_textures(dp_builder *builder) {
-    note(builder, "the model's textures are not drawn, only colours of materials and vertices");
-}
-
-void dp_builder_note_face_colors(dp_builder *builder) {
-    note(builder, "the colours of the model's faces are not drawn, only those of vertices");
+    if (!*builder->color_remark)
+        snprintf(builder->color_remark, sizeof builder->color_remark,
+                 "the model's textures are not drawn, only its other colours");
 }
 
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *a, size_t width) {

@@ -77,9 +77,11 @@ bool dp_builder_color(dp_builder *builder, uint16_t group, uint32_t rgba);
 
 /* Sets a vertex's colour; vertices in ascending order. False: dp_builder_fail. */
 bool dp_builder_vertex_color(dp_builder *builder, size_t vertex, uint32_t rgba);
-/* Remark that these colours are not drawn, unless there is a remark already. */
+/* Moves the last polygon to the group of that colour, whose name is the colour. False:
+ * dp_builder_fail. */
+bool dp_builder_polygon_color(dp_builder *builder, uint32_t rgba);
+/* Remarks that the model's textures are not drawn, unless there is a remark already. */
 void dp_builder_note_textures(dp_builder *builder);
-void dp_builder_note_face_colors(dp_builder *builder);
 
 /* Adds a value of `width` floats, which the caller writes; NULL when memory is out. */
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *attribute, size_t width);

@@ -1,11 +1,12 @@
 /* OFF: counts, vertices, faces; read whole.
  *
  * COFF, NOFF, STOFF and their combinations have normals, colours and texture coordinates after the
- * position, in this order, and any face may have a colour: all on the same line. Of these, vertices'
- * colours are read, and what is left of a vertex's or face's line is ignored. '#' begins a comment.
- * The keyword may be missing.
+ * position, in this order, and any face may have a colour: all on the same line. Of these, colours
+ * are read, and what is left of a vertex's or face's line is ignored. '#' begins a comment. The
+ * keyword may be missing.
  *
- * Not handled: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF); colours of faces. */
+ * Not handled: OFF BINARY; four or n coordinates per vertex (4OFF, nOFF); colours of faces as numbers
+ * of a table. */
 #include "io/readers.h"
 
 #include "io/color.h"
@@ -17,9 +18,9 @@ typedef struct off {
     dp_stream *stream;
     dp_builder *builder;
     dp_diag *diag;
-    int64_t vertices, faces; /* announced */
-    bool normals, colors;    /* follow the position */
-    float most;              /* dp_color_guess */
+    int64_t vertices, faces;  /* announced */
+    bool normals, colors;     /* follow the position */
+    float most, most_of_face; /* dp_color_guess */
 } off;
 
 /* Skips to the next word outside a comment. */
@@ -110,6 +111,16 @@ static dp_result read_vertex(off *self, int64_t vertex) {
     return DP_OK;
 }
 
+/* Reads three numbers behind a face's corners; one is an index of a table that nobody has. False
+ * when memory is out. */
+static bool read_face_color(off *self) {
+    float rgb[3];
+    int n = 0;
+    while (n < 3 && dp_text_blank(self->stream) && dp_text_float(self->stream, &rgb[n])) n++;
+    return n < 3 ||
+           dp_builder_polygon_color(self->builder, dp_color_guess(rgb, &self->most_of_face));
+}
+
 static dp_result read_face(off *self, int64_t face) {
     int64_t corners, index;
     if (!next_natural(self->stream, &corners))
@@ -121,11 +132,9 @@ static dp_result read_face(off *self, int64_t face) {
         if (!dp_builder_corner(self->builder, index))
             return dp_builder_fail(self->builder, self->diag);
     }
-    if (dp_text_blank(self->stream) && *self->stream->cursor != '#')
-        dp_builder_note_face_colors(self->builder);
+    const bool closed = dp_builder_close(self->builder, 0) && read_face_color(self);
     dp_text_skip_line(self->stream);
-    if (!dp_builder_close(self->builder, 0)) return dp_builder_fail(self->builder, self->diag);
-    return DP_OK;
+    return closed ? DP_OK : dp_builder_fail(self->builder, self->diag);
 }
 
 /* Keyword, vertices, faces; the edges' count is often missing and never needed. */
@@ -144,7 +153,7 @@ static dp_result read_header(off *self) {
 }
 
 dp_result dp_read_off(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
-    off self = {.stream = stream, .builder = builder, .diag = diag, .most = 1};
+    off self = {.stream = stream, .builder = builder, .diag = diag, .most = 1, .most_of_face = 1};
     dp_text_skip_mark(stream);
     dp_result result = read_header(&self);
     for (int64_t i = 0; i < self.vertices && !result; i++) result = read_vertex(&self, i);

@@ -7,8 +7,7 @@
  *
  * Invariant: no more is allocated for announced counts than the file's size allows.
  *
- * Not handled: polygons given by edges; materials and colours of faces; textures (that there are
- * some is noted). */
+ * Not handled: polygons given by edges; materials; textures (that there are some is noted). */
 #include "io/ply.h"
 
 #include "io/color.h"
@@ -230,8 +229,10 @@ static dp_result read_list(ply *self, const dp_ply_property *property) {
     return DP_OK;
 }
 
-/* What a vertex may have besides its position: normal, texture coordinates, colour. */
+/* What a vertex may have besides its position: normal, texture coordinates, colour. Faces may have a
+ * colour. */
 enum { NORMAL_AT = 0, TEXCOORD_AT = 3, COLOR_AT = 5, MORE = 8 };
+enum { COLOR_ROLES = 7u << DP_PLY_RED };
 
 static dp_result read_item(ply *self, float *position, float more[MORE]) {
     const dp_ply_property *property = self->header.properties + self->element->first;
@@ -285,23 +286,32 @@ static uint32_t color_of(ply *self, const float rgb[3]) {
                                                                 : 4294967295.0F);
 }
 
+static bool has_roles(const ply *self, unsigned roles) {
+    return (self->element->roles & roles) == roles;
+}
+
 /* Stores the vertex's normal, texture coordinates and colour, if all of their parts exist. */
-static bool keep_more(ply *self, const float more[MORE]) {
+static bool keep_more_of_vertex(ply *self, const float more[MORE]) {
     dp_builder *const builder = self->builder;
-    const unsigned normal = 7u << DP_PLY_NX, texcoord = 3u << DP_PLY_S, color = 7u << DP_PLY_RED;
-    if ((self->element->roles & normal) == normal) {
+    if (has_roles(self, 7u << DP_PLY_NX)) {
         float *const to = dp_builder_vertex_value(builder, &builder->normals, 3);
         if (!to) return false;
         memcpy(to, more + NORMAL_AT, 3 * sizeof *to);
     }
-    if ((self->element->roles & texcoord) == texcoord) {
+    if (has_roles(self, 3u << DP_PLY_S)) {
         float *const to = dp_builder_vertex_value(builder, &builder->texcoords, 2);
         if (!to) return false;
         memcpy(to, more + TEXCOORD_AT, 2 * sizeof *to);
     }
-    return (self->element->roles & color) != color ||
+    return !has_roles(self, COLOR_ROLES) ||
            dp_builder_vertex_color(builder, builder->vertex_count - 1,
                                    color_of(self, more + COLOR_AT));
+}
+
+/* Stores the face's colour, if it has one. */
+static bool keep_more_of_face(ply *self, const float more[MORE]) {
+    return !has_roles(self, COLOR_ROLES | 1u << DP_PLY_POLYGON) ||
+           dp_builder_polygon_color(self->builder, color_of(self, more + COLOR_AT));
 }
 
 static dp_result read_element(ply *self, const dp_ply_element *element) {
@@ -310,7 +320,9 @@ static dp_result read_element(ply *self, const dp_ply_element *element) {
     if (!expect_items(self)) return dp_builder_fail(self->builder, self->diag);
     dp_result result = DP_OK;
     float none[3], more[MORE];
-    const bool has_more = element->kind == DP_PLY_VERTEX && element->roles >> DP_PLY_NX & 255;
+    bool (*const keep_more)(ply *, const float *) =
+        element->kind == DP_PLY_VERTEX ? keep_more_of_vertex : keep_more_of_face;
+    const bool has_more = element->roles >> DP_PLY_NX & 255;
     for (self->item = 0; self->item < element->count && !result; self->item++) {
         float *const to = element->kind == DP_PLY_VERTEX ? dp_builder_vertex(self->builder) : none;
         if (!to) return dp_builder_fail(self->builder, self->diag);
@@ -333,7 +345,6 @@ dp_result dp_read_ply(dp_stream *stream, dp_builder *builder, dp_diag *diag) {
     ply self = {.stream = stream, .builder = builder, .diag = diag, .most = 1};
     dp_result result = dp_ply_read_header(stream, &self.header, diag);
     if (self.header.textured) dp_builder_note_textures(builder);
-    if (self.header.colored_faces) dp_builder_note_face_colors(builder);
     for (size_t i = 0; i < self.header.element_count && !result; i++)
         result = read_element(&self, &self.header.elements[i]);
     if (!result) result = check_end(&self);

@@ -58,8 +58,7 @@ typedef struct dp_ply_header {
     size_t element_count, element_capacity;
     dp_ply_property *properties;
     size_t property_count, property_capacity;
-    bool textured;      /* a comment names a picture */
-    bool colored_faces; /* faces have colours */
+    bool textured; /* a comment names a picture */
 } dp_ply_header;
 
 /* Reads the header, up to the first byte after it. The caller destroys `header` in any case. */

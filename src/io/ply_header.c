@@ -81,8 +81,10 @@ static dp_ply_role role_of(dp_ply_kind kind, bool list, const char *name) {
                  {"diffuse_red", DP_PLY_RED},
                  {"diffuse_green", DP_PLY_GREEN},
                  {"diffuse_blue", DP_PLY_BLUE}};
-    for (size_t i = 0; kind == DP_PLY_VERTEX && !list && i < sizeof roles / sizeof *roles; i++)
-        if (strcmp(roles[i].name, name) == 0) return roles[i].role;
+    for (size_t i = 0; !list && i < sizeof roles / sizeof *roles; i++)
+        if (strcmp(roles[i].name, name) == 0 &&
+            (kind == DP_PLY_VERTEX || (kind == DP_PLY_FACE && roles[i].role >= DP_PLY_RED)))
+            return roles[i].role;
     if (!list || (strcmp(name, "vertex_indices") != 0 && strcmp(name, "vertex_index") != 0))
         return DP_PLY_SKIP;
     return kind == DP_PLY_FACE        ? DP_PLY_POLYGON
@@ -148,7 +150,6 @@ static dp_result read_property(header_reader *self) {
     const dp_result result = read_property_types(self, &property);
     if (result) return result;
     property.role = role_of(element->kind, property.list, next_word(self, word));
-    header->colored_faces |= element->kind == DP_PLY_FACE && strcmp(word, "red") == 0;
     if (element->roles >> property.role & 1) property.role = DP_PLY_SKIP; /* named twice */
     element->roles |= 1u << property.role;
     if (!dp_reserve(&header->allocator, &header->properties, &header->property_capacity,

@@ -27,7 +27,8 @@ static void comments_are_passed_over(void **state) {
 static void extras_are_passed_over(void **state) {
     (void)state;
     assert_trace("COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1\n0 1 0 .5 .5 .5 1\n3 0 1 2\n", TRACE);
-    assert_trace("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 255 0 0\n", TRACE);
+    assert_trace("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 255 0 0\n",
+                 "(0 0 0)(1 0 0)(0 1 0)@#FF0000\n");
     assert_trace("STCNOFF\n3 1 0\n0 0 0 0 0 1 1 1 1 1 0 0\n1 0 0 0 0 1 1 1 1 1 0 0\n"
                  "0 1 0 0 0 1 1 1 1 1 0 0\n3 0 1 2 7\n",
                  TRACE);

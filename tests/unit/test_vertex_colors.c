@@ -1,5 +1,5 @@
-/* Colours of vertices: read from every format that has them, interpolated over polygons of every
- * kind, and only where they are asked for. */
+/* Colours of vertices and faces: read from every format that has them; those of vertices are
+ * interpolated over polygons of every kind, and only where they are asked for. */
 #include "reading.h"
 
 #include <drypoint/drypoint.h>
@@ -91,20 +91,73 @@ static void assert_remark(const char *text, const char *name, const char *remark
 
 static void what_is_not_drawn_is_remarked(void **state) {
     (void)state;
-    static const char face[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                               "property float y\nproperty float z\nelement face 1\n"
-                               "property list uchar int vertex_index\nproperty uchar red\n"
-                               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255\n";
     static const char ply[] = "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\n"
                               "property float x\nproperty float y\nproperty float z\nelement face "
                               "1\nproperty list uchar int vertex_index\nend_header\n"
                               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     assert_remark(GLTF, "a.gltf", "textures are not drawn");
     assert_remark(ply, "a.ply", "textures are not drawn");
-    assert_remark(face, "a.ply", "colours of the model's faces are not drawn");
-    assert_remark("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n", "a.off",
-                  "colours of the model's faces are not drawn");
     assert_remark("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 # red\n", "a.off", NULL);
+}
+
+/* ------- faces ------- */
+
+static void assert_face_colors(const char *text, const char *name, const uint32_t wanted[4]) {
+    dp_batch batch;
+    dp_source *const source = open_text(text, name);
+    assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+    assert_int_equal(batch.polygon_count, 4);
+    for (size_t i = 0; i < 4; i++) {
+        const uint32_t group = batch.groups ? batch.groups[i] : 0;
+        if (dp_source_group_color(source, group) != wanted[i])
+            fail_msg("%s: face %zu is %08x", name, i, dp_source_group_color(source, group));
+    }
+    assert_null(dp_source_color_remark(source));
+    dp_source_destroy(source);
+}
+
+static void faces_have_colours_as_groups(void **state) {
+    static const uint32_t rgb[4] = {0xFF0000FF, 0xFF0000FF, 0x00FF00FF, 0x0000FFFF};
+    static const uint32_t some[4] = {0, 0, 0xFF0000FF, 0};
+    static const uint32_t one[4] = {0xFF8000FF, 0xFF8000FF, 0xFF8000FF, 0xFF8000FF};
+    (void)state;
+    assert_face_colors("OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 1 2 255 0 0 255\n"
+                       "3 0 1 2 0 255 0 # green\n3 0 1 2 0 0 255\n",
+                       "a.off", rgb);
+    assert_face_colors("OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 1 .5 0\n3 0 1 2 1.0 0.5 0\n"
+                       "3 0 1 2 1 .5 0\n3 0 1 2 1 .5 0\n",
+                       "a.off", one);
+    assert_face_colors("OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2 7\n3 0 1 2 1 0 0\n"
+                       "3 0 1 2 x\n",
+                       "a.off", some);
+    assert_face_colors("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\nelement face 4\nproperty uchar red\n"
+                       "property list uchar int vertex_index\nproperty uchar green\n"
+                       "property uchar blue\nend_header\n0 0 0\n1 0 0\n0 1 0\n255 3 0 1 2 0 0\n"
+                       "255 3 0 1 2 0 0\n0 3 0 1 2 255 0\n0 3 0 1 2 0 255\n",
+                       "a.ply", rgb);
+}
+
+/* More colours than groups: those that come last are rounded. */
+static void too_many_colours_of_faces_are_rounded(void **state) {
+    enum { FACES = 65536 };
+    char *const text = malloc(40 * FACES + 100), *at = text;
+    (void)state;
+    assert_non_null(text);
+    at += sprintf(at, "OFF\n3 %d 0\n0 0 0\n1 0 0\n0 1 0\n", FACES);
+    for (int i = 0; i < FACES; i++) at += sprintf(at, "3 0 1 2 255 %d %d\n", i >> 8 & 255, i & 255);
+    dp_source *const source = open_text(text, "a.off");
+    dp_batch batch;
+    assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+    for (int i = 0; i < FACES; i++) {
+        const uint32_t color = dp_source_group_color(source, batch.groups[i]);
+        for (int shift = 0; shift < 16; shift += 8) {
+            const int off = (int)(color >> (8 + shift) & 255) - (i >> shift & 255);
+            if (abs(off) > (i < 60000 ? 0 : 15)) fail_msg("face %d is %08x", i, color);
+        }
+    }
+    dp_source_destroy(source);
+    free(text);
 }
 
 /* ------- drawing ------- */
@@ -251,6 +304,8 @@ int main(void) {
         cmocka_unit_test(own_readers_know_them),
         cmocka_unit_test(assimp_s_are_multiplied_by_the_material),
         cmocka_unit_test(what_is_not_drawn_is_remarked),
+        cmocka_unit_test(faces_have_colours_as_groups),
+        cmocka_unit_test(too_many_colours_of_faces_are_rounded),
         cmocka_unit_test(are_interpolated),
         cmocka_unit_test(only_where_asked_for),
         cmocka_unit_test(are_seen_in_mirrors),
