@@ -13,7 +13,9 @@
 extern "C" {
 #endif
 
-/* As dp_source_open, and everything else (glTF, FBX, 3MF, COLLADA, …) through Assimp. */
+/* As dp_source_open, and everything else (glTF, FBX, 3MF, COLLADA, …) through Assimp, some of whose
+ * readers crash or hang on broken files: an application that is given files by strangers does well
+ * to read them in a process of its own, as the program does (tools/apart.c). */
 DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                             dp_diag *diag);
 

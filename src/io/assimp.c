@@ -2,8 +2,8 @@
  *
  * The scene's nodes are walked with their transforms, so that every instance of a mesh becomes
  * vertices and polygons of its own in world space; where a transform mirrors, corners are reversed,
- * so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or triangulated. Only
- * positions, normals, texture coordinates and faces are imported.
+ * so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or triangulated.
+ * Taken are positions, normals, texture coordinates, colours and faces.
  *
  * Not handled: animation, bones and morph targets (models come in their bind pose), points, lines,
  * reading from a pipe. Progress is reported only before and after, as Assimp cannot be stopped from
