@@ -20,9 +20,11 @@ static inline uint64_t dp_fuzz_batch(dp_source *source, const dp_batch *batch) {
     uint64_t sum = dp_fuzz_touch(batch->positions, batch->vertex_count * batch->position_stride);
     if (batch->indices) sum += dp_fuzz_touch(batch->indices, 4 * batch->corner_count);
     if (batch->firsts) sum += dp_fuzz_touch(batch->firsts, 4 * (batch->polygon_count + 1));
+    if (batch->colors) sum += dp_fuzz_touch(batch->colors, 4 * batch->vertex_count);
     if (!batch->groups) return sum;
     for (size_t i = 0; i < batch->polygon_count; i++) {
         const char *const name = dp_source_group_name(source, batch->groups[i]);
+        sum += dp_source_group_color(source, batch->groups[i]);
         if (name) sum += strlen(name);
     }
     return sum;

@@ -64,6 +64,7 @@ static void same_batch(const dp_batch *a, const dp_batch *b) {
     same_array(a->firsts, b->firsts, (a->polygon_count + 1) * sizeof *a->firsts);
     same_array(a->groups, b->groups, a->polygon_count * sizeof *a->groups);
     same_array(a->edge_flags, b->edge_flags, a->corner_count);
+    same_array(a->colors, b->colors, a->vertex_count * sizeof *a->colors);
     same_attribute(&a->normals, &b->normals, a->corner_count);
     same_attribute(&a->texcoords, &b->texcoords, a->corner_count);
 }
