@@ -16,6 +16,11 @@
 
 bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
+    const uint32_t *const source =
+        polygons->source_polygon; /* what it splits is one polygon there */
+    if (source && e->b != UINT32_MAX &&
+        source[w->tile.polygons[e->a].id] == source[w->tile.polygons[e->b].id])
+        return true;
     if (!polygons->has_diagonals) return false;
     const uint32_t a = dp_first_corner(polygons, w->tile.polygons[e->a].id) + e->edge_a;
     if (dp_edge_is_flagged(polygons, a)) return false;

@@ -4,7 +4,7 @@
  *         first met here                        -> alone
  *         met by one triangle, run the other way -> pair
  *         otherwise                             -> fan: all of its edges may be lines
- *     pair, nearly flat or both back-facing     -> plain: forgotten
+ *     pair that faces one way and is nearly flat -> plain: forgotten
  *     any other pair                            -> both edges may be lines
  *
  * A slot also holds half of the key, so that nearly every comparison of positions is with the edge
@@ -47,9 +47,8 @@ bool dp_triangle_facing(const dp_view *view, const float *a, const float *b, con
 
 bool dp_edge_is_plain(uint8_t state_a, const float normal_a[4], uint8_t state_b,
                       const float normal_b[4], float flat_cosine) {
-    const uint8_t both = state_a & state_b;
-    if (both & DP_TRIANGLE_BACK) return true;
-    if (!(both & DP_TRIANGLE_FRONT) || flat_cosine > 1) return false;
+    const uint8_t both = state_a & state_b & (DP_TRIANGLE_FRONT | DP_TRIANGLE_BACK);
+    if (!both || flat_cosine > 1) return false;
     if (flat_cosine < 0) return true;
     const float dot =
         normal_a[0] * normal_b[0] + normal_a[1] * normal_b[1] + normal_a[2] * normal_b[2];

@@ -62,10 +62,10 @@ static void put(dp_input *input, const float *a, const float *b, const float *c,
     input->polygons[input->count++] = (uint32_t)(input->handed_out + polygon);
 }
 
-/* Bit 0 where the edge from corner `from` of n leads to the next one and draws. */
+/* Bit 0 where the edge from corner `from` of n draws: a diagonal may be an outline. */
 static unsigned edge_flag(const dp_batch *batch, size_t first, size_t n, uint32_t from,
                           uint32_t to) {
-    return to == (from + 1) % n && (!batch->edge_flags || batch->edge_flags[first + from]);
+    return to != (from + 1) % n || !batch->edge_flags || batch->edge_flags[first + from];
 }
 
 static void put_piece(dp_input *input, size_t polygon, size_t first, size_t n, uint32_t a,

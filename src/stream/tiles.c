@@ -15,6 +15,9 @@
 
 static const float MARGIN = 0.75f; /* px, as in draw/draw.c */
 
+/* Pixel sizes: by less, depths are equal. */
+static const float AGAIN = 0.01f;
+
 /* Transforms and bins frame->polygons. */
 bool dp_stream_place_polygons(dp_stream_draw *s) {
     dp_frame *const f = s->frame;
@@ -228,8 +231,19 @@ bool dp_stream_draw_apart(const dp_stream_draw *s, dp_finder *w, dp_stream_worke
     return true;
 }
 
-/* With one reading, samples beside the tile are read, which other workers may be redrawing:
- * the tile then draws into a copy. */
+/* Lets the tile draw into a copy of its depth, a little further away: the kept triangles that are
+ * seen win their samples again, and so are known. (With one reading samples beside the tile are
+ * read, too, which other workers may be redrawing.) */
+static bool draw_again_apart(const dp_stream_draw *s, dp_finder *w, dp_stream_worker *own) {
+    const float *const drawn = w->tile.depth;
+    if (!dp_stream_draw_apart(s, w, own)) return false;
+    for (size_t i = 0; i < w->tile.frame->tile_samples; i++)
+        w->tile.depth[i] = drawn[i] > DP_DEPTH_EMPTY
+                               ? drawn[i] - fabsf(dp_depth_steps(w->tile.frame, drawn[i], AGAIN))
+                               : drawn[i];
+    return true;
+}
+
 static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     dp_stream_draw *const s = arg;
     dp_finder *const w = &s->finders[worker];
@@ -237,11 +251,7 @@ static void find_lines(void *arg, uint32_t tile, uint32_t worker) {
     if (!dp_bins_tile_count(&s->frame->polygon_bins, tile)) return;
     w->tile.finds_edges = true;
     dp_finder_open(w, tile);
-    if (!s->read_again) {
-        const float *const drawn = w->tile.depth;
-        if (!dp_stream_draw_apart(s, w, &s->workers[worker])) return;
-        memcpy(w->tile.depth, drawn, w->tile.frame->tile_samples * sizeof *drawn);
-    }
+    if (!draw_again_apart(s, w, &s->workers[worker])) return;
     dp_tile_assemble(&w->tile);
     dp_tile_faces(&w->tile);
     dp_find_edges(w);
