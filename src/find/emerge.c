@@ -38,13 +38,14 @@ static const double ALONG_NEAR = (double)DP_ALONG_NEAR, ALONG_FAR = 1.2 * (doubl
 /* … and at an angle with a smaller sine is the same line. */
 static const double PARALLEL = 0.1;
 
-typedef struct emerging {
+typedef struct dp_emerging {
     dp_unpaired_edge unpaired;
     uint32_t id;  /* frame polygon */
     dp_vec3 a, b; /* ends, world space */
     dp_spine spine;
     uint32_t k0, k1; /* sample points [k0, k1) in the tile or right beside it */
     uint32_t first;  /* number of the first of them */
+    dp_sight sight;
 } emerging;
 
 void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge) {
@@ -54,7 +55,8 @@ void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge) {
     w->emergence.unpaired[w->emergence.unpaired_count++] = (dp_unpaired_edge){polygon, edge};
 }
 
-/* Sample points in and beside the tile are consecutive, as the tile is convex. */
+/* Sample points in and beside the tile are consecutive, as the tile is convex. False: there are
+ * none. */
 static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     e->unpaired = unpaired;
@@ -66,7 +68,8 @@ static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
     e->b = dp_v3f(dp_vertex_position(polygons, vb));
     return dp_spine_make(&w->tile.frame->view, e->a, e->b, dp_v3(0, 0, 0), &e->spine) &&
            dp_spine_range(&e->spine, w->tile.tile_x, w->tile.tile_y, (double)DP_BESIDE, &e->k0,
-                          &e->k1);
+                          &e->k1) &&
+           dp_sight_make(&w->tile.frame->view, e->a, e->b, &e->sight);
 }
 
 /* ------- placing the sample points ------- */
@@ -84,7 +87,7 @@ static int own_side(const dp_finder *w, uint32_t polygon) {
     return !(w->tile.polygons[polygon].flags & DP_POLYGON_FRONT);
 }
 
-static bool place_points(dp_finder *w, emerging *e, uint32_t *count) {
+static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
     const size_t need = (size_t)*count + (e->k1 - e->k0);
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.placed, emergence.placed_cap, need) ||
         !DP_TILE_RESERVE(&w->tile, w, emergence.beheld, emergence.beheld_cap, need))
@@ -206,31 +209,38 @@ static void keep_furthest(dp_beheld *b, int side, uint32_t index, float d) {
     b->furthest[side] = index, b->furthest_d[side] = d;
 }
 
+/* The polygon's edge along here, by the places that it covers; UINT32_MAX: it has none. */
+static uint32_t edge_of(const dp_finder *w, uint32_t index, const dp_lookout *at, uint32_t near,
+                        uint32_t far) {
+    if (near == 3 || (!near && far == 3)) return UINT32_MAX;
+    return dp_edge_along(&w->tile, &w->tile.polygons[index], at, near ? ALONG_NEAR : ALONG_FAR);
+}
+
+/* A polygon beyond a crack has an edge along it; others there merely come near. */
 static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides) {
     dp_beheld *const b = &w->emergence.beheld[point];
     const dp_lookout *const at = &w->emergence.placed[point];
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const float gap = dp_plane_at(p, at->x, at->y) - at->d, slope = p->dx * at->ox + p->dy * at->oy,
                 rounding = fabsf(dp_depth_steps(w->tile.frame, at->d, NEARER));
+    const uint32_t near = sides & 3, far = sides >> 2, edge = edge_of(w, index, at, near, far);
     for (int side = 0; side < 2; side++) {
         const float d = gap + OFF * (side ? slope : -slope);
         if (sides >> side & 1) {
             keep_nearest(w, &b->nearest[side], &b->nearest_d[side], index, d, rounding);
             keep_furthest(b, side, index, d);
-        } else if (sides >> (side + 2) & 1) {
+        } else if (sides >> (side + 2) & 1 && edge != UINT32_MAX) {
             keep_nearest(w, &b->far[side], &b->far_d[side], index, d, rounding);
         }
     }
-    const uint32_t near = sides & 3, far = sides >> 2;
-    if (near == 3 || (!near && far == 3)) return; /* no edge is here */
-    const uint32_t edge = dp_edge_along(&w->tile, p, at, near ? ALONG_NEAR : ALONG_FAR);
     if (edge == UINT32_MAX) return;
     if (p->id < w->tile.polygons[b->first].id) b->first = index;
     b->is_drawn |= edge < 32 && w->emergence.drawn_of[index] >> edge & 1;
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
-    behold(w, w->emergence.lookouts.point[lookout], index, sides);
+    const uint32_t point = w->emergence.lookouts.point[lookout];
+    if (w->emergence.beheld[point].own != index) behold(w, point, index, sides);
 }
 
 bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
@@ -256,9 +266,14 @@ static bool find_drawn(dp_finder *w) {
 /* An edge's own polygon lies on its own side, even where it is too thin to cover a place there. */
 static void behold_own(dp_finder *w, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t own = w->emergence.beheld[i].own;
-        if (!(w->tile.polygons[own].flags & DP_POLYGON_EDGE_ON))
-            behold(w, i, own, own_side(w, own) ? DP_LOOK_RIGHT : DP_LOOK_LEFT);
+        dp_beheld *const b = &w->emergence.beheld[i];
+        const dp_lookout *const at = &w->emergence.placed[i];
+        const dp_tile_polygon *const p = &w->tile.polygons[b->own];
+        if (p->flags & DP_POLYGON_EDGE_ON) continue;
+        const int side = own_side(w, b->own);
+        const float slope = p->dx * at->ox + p->dy * at->oy;
+        b->nearest[side] = b->furthest[side] = b->own;
+        b->nearest_d[side] = b->furthest_d[side] = OFF * (side ? slope : -slope);
     }
 }
 
@@ -280,44 +295,43 @@ static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t poly
     return dp_beside_edge(w->tile.frame, sight, p->id, p->flags & DP_POLYGON_FRONT);
 }
 
-static void judge_outline(const dp_finder *w, const dp_beheld *b, const dp_sight *sight, int side,
-                          finding *f) {
-    const dp_beside near = beside(w, sight, b->nearest[side]),
-                    far = beside(w, sight, b->furthest[side]);
+static void judge_outline(const dp_finder *w, const dp_sight *sight, int side, finding *f) {
+    const dp_beside near = beside(w, sight, f->sides[side]);
+    const dp_beside far = f->behind == f->sides[side] ? near : beside(w, sight, f->behind);
     const bool is_border = dp_is_one_plane(&near, &far);
     f->line = is_border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE;
-    f->behind = is_border ? UINT32_MAX : b->furthest[side];
     f->normal = is_border ? near.normal : dp_outline_normal(sight, &near, &far, side);
 }
 
-static void judge_fold(const dp_finder *w, const emerging *e, const dp_sight *sight, finding *f) {
-    const dp_beside left = beside(w, sight, f->sides[0]), right = beside(w, sight, f->sides[1]);
-    const dp_fold fold = dp_fold_of_sides(sight, &left, &right);
+static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
+    const dp_beside left = beside(w, &e->sight, f->sides[0]),
+                    right = beside(w, &e->sight, f->sides[1]);
+    const dp_fold fold = dp_fold_of_sides(&e->sight, &left, &right);
     f->line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id));
     f->normal = fold.normal;
 }
 
-/* Near its ends, polygons that only share a corner with the edge come within FAR of it. */
-static bool is_near_end(const emerging *e, uint32_t k) { return k < 2 || k + 2 >= e->spine.n; }
-
 /* Which of the polygons that have an edge here makes the line: of those that are seen, else of all,
  * the one that comes first in the source. */
-static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b, const dp_lookout *at,
-                                   const uint32_t sides[2]) {
+static dp_unpaired_edge find_owner(const dp_finder *w, const emerging *e, const dp_beheld *b,
+                                   const dp_lookout *at, const uint32_t sides[2]) {
+    const dp_tile_polygon *const polygons = w->tile.polygons;
     dp_unpaired_edge owner = {UINT32_MAX, 0};
     for (int i = 0; i < 2; i++) {
         if (sides[i] == UINT32_MAX ||
-            (owner.polygon != UINT32_MAX &&
-             w->tile.polygons[owner.polygon].id < w->tile.polygons[sides[i]].id))
+            (owner.polygon != UINT32_MAX && polygons[owner.polygon].id < polygons[sides[i]].id))
             continue;
-        const uint32_t edge = dp_edge_along(&w->tile, &w->tile.polygons[sides[i]], at,
-                                            sides[i] == b->nearest[i] ? ALONG_NEAR : ALONG_FAR);
+        const uint32_t edge = sides[i] == e->unpaired.polygon
+                                  ? e->unpaired.edge
+                                  : dp_edge_along(&w->tile, &polygons[sides[i]], at,
+                                                  sides[i] == b->nearest[i] ? ALONG_NEAR
+                                                                            : ALONG_FAR);
         if (edge != UINT32_MAX) owner = (dp_unpaired_edge){sides[i], edge};
     }
-    if (owner.polygon == UINT32_MAX)
-        owner = (dp_unpaired_edge){
-            b->first, dp_edge_along(&w->tile, &w->tile.polygons[b->first], at, ALONG_FAR)};
-    return owner;
+    if (owner.polygon != UINT32_MAX) return owner;
+    if (b->first == e->unpaired.polygon) return e->unpaired;
+    return (dp_unpaired_edge){b->first,
+                              dp_edge_along(&w->tile, &polygons[b->first], at, ALONG_FAR)};
 }
 
 /* Is that the edge that is looked at, or another polygon's between the same ends? The table leaves
@@ -338,14 +352,18 @@ static bool is_own_edge(const dp_finder *w, const emerging *e, dp_unpaired_edge 
     return same || turned;
 }
 
-static finding judge(const dp_finder *w, const emerging *e, const dp_sight *sight, uint32_t k) {
+static bool has_same_sides(const finding *a, const finding *b) {
+    return a->sides[0] == b->sides[0] && a->sides[1] == b->sides[1] && a->behind == b->behind &&
+           a->owner.polygon == b->owner.polygon && a->owner.edge == b->owner.edge;
+}
+
+/* What sample point k is. Most are what the one `before` is. */
+static finding judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before) {
     const uint32_t at = e->first + (k - e->k0);
     const dp_beheld *const b = &w->emergence.beheld[at];
     finding f = {.line = -1, .behind = UINT32_MAX, .owner = e->unpaired};
-    for (int i = 0; i < 2; i++) {
-        f.sides[i] = b->nearest[i];
-        if (f.sides[i] == UINT32_MAX && !is_near_end(e, k)) f.sides[i] = b->far[i];
-    }
+    for (int i = 0; i < 2; i++)
+        f.sides[i] = b->nearest[i] != UINT32_MAX ? b->nearest[i] : b->far[i];
     const bool left = f.sides[0] != UINT32_MAX, right = f.sides[1] != UINT32_MAX;
     if (!left && !right) { /* a sheet seen edge-on: both its borders are one line */
         f.line = DP_LINE_BORDER;
@@ -354,12 +372,16 @@ static finding judge(const dp_finder *w, const emerging *e, const dp_sight *sigh
         return f;
     }
     if (f.sides[0] == f.sides[1] || b->is_drawn) return NOTHING;
-    f.owner = find_owner(w, b, &w->emergence.placed[at], f.sides);
+    f.owner = find_owner(w, e, b, &w->emergence.placed[at], f.sides);
     if (!is_own_edge(w, e, f.owner)) return NOTHING;
-    if (left && right)
-        judge_fold(w, e, sight, &f);
-    else if (b->nearest[right] != UINT32_MAX)
-        judge_outline(w, b, sight, right, &f);
+    const bool fold = left && right;
+    if (!fold && b->nearest[right] == UINT32_MAX) return NOTHING;
+    if (!fold) f.behind = b->furthest[right];
+    if (has_same_sides(&f, before)) return *before;
+    if (fold)
+        judge_fold(w, e, &f);
+    else
+        judge_outline(w, &e->sight, right, &f);
     return f;
 }
 
@@ -379,7 +401,8 @@ static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t 
     if (!dp_spine_make(&w->tile.frame->view, a, b, f->normal, &spine)) return;
     const uint32_t other =
         f->sides[0] == owner || f->sides[0] == UINT32_MAX ? f->sides[1] : f->sides[0];
-    const uint32_t across = other == UINT32_MAX || other == owner ? f->behind : other;
+    const uint32_t across =
+        other != UINT32_MAX && other != owner ? other : f->behind != owner ? f->behind : UINT32_MAX;
     dp_add_candidate(
         w,
         (dp_candidate){.a = id,
@@ -395,7 +418,7 @@ static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t 
 
 static bool is_same(const finding *a, const finding *b) {
     if (a->line != b->line || a->line < 0) return a->line == b->line;
-    return a->sides[0] == b->sides[0] && a->sides[1] == b->sides[1] && a->behind == b->behind;
+    return has_same_sides(a, b);
 }
 
 /* A single sample point that differs from two neighbours that agree, or from its neighbour at the
@@ -411,14 +434,12 @@ static finding settle(const emerging *e, uint32_t k, const finding *before, cons
 
 /* Adds a candidate for each run of sample points with the same line and neighbour. */
 static void add_lines(dp_finder *w, const emerging *e) {
-    dp_sight sight;
-    if (!dp_sight_make(&w->tile.frame->view, e->a, e->b, &sight)) return;
-    finding last = NOTHING, before, here = judge(w, e, &sight, e->k0), after = here;
+    finding last = NOTHING, before, here = judge(w, e, e->k0, &NOTHING), after = here;
     uint32_t start = e->k0;
     for (uint32_t k = e->k0; k < e->k1 && !w->tile.failed; k++) {
         before = k > e->k0 ? here : after;
         here = k > e->k0 ? after : here;
-        after = k + 1 < e->k1 ? judge(w, e, &sight, k + 1) : here;
+        after = k + 1 < e->k1 ? judge(w, e, k + 1, &here) : here;
         const finding f = settle(e, k, &before, &here, &after);
         if (is_same(&f, &last)) continue;
         add_run(w, e, &last, start, k);
@@ -428,28 +449,35 @@ static void add_lines(dp_finder *w, const emerging *e) {
     if (last.line == DP_LINE_BORDER) w->tile.stats.open_edges++;
 }
 
-void dp_find_emergent(dp_finder *w) {
-    uint32_t count = 0;
-    emerging e;
-    if (!w->emergence.unpaired_count) return;
-    for (uint32_t i = 0; i < w->emergence.unpaired_count; i++)
-        if (begin_edge(w, w->emergence.unpaired[i], &e) && !place_points(w, &e, &count)) return;
-    if (!count || !sort_points(w, count) || !find_drawn(w)) return;
-    behold_own(w, count);
-    dp_find_kernels_for(w->tile.frame->lanes)->look(w);
-    count = 0;
-    for (uint32_t i = 0; i < w->emergence.unpaired_count && !w->tile.failed; i++) {
-        if (!begin_edge(w, w->emergence.unpaired[i], &e)) continue;
-        e.first = count;
-        count += e.k1 - e.k0;
-        w->tile.stats.edges_emergent++;
-        add_lines(w, &e);
+/* The edges that have sample points here, and these. */
+static bool place_all(dp_finder *w, uint32_t *edges, uint32_t *points) {
+    dp_emergence *const own = &w->emergence;
+    *edges = *points = 0;
+    if (!DP_TILE_RESERVE(&w->tile, own, edges, edges_cap, own->unpaired_count)) return false;
+    for (uint32_t i = 0; i < own->unpaired_count; i++) {
+        emerging *const e = &own->edges[*edges];
+        if (!begin_edge(w, own->unpaired[i], e)) continue;
+        e->first = *points;
+        if (!place_points(w, e, points)) return false;
+        ++*edges;
     }
+    return true;
+}
+
+void dp_find_emergent(dp_finder *w) {
+    uint32_t edges, points;
+    if (!w->emergence.unpaired_count || !place_all(w, &edges, &points) || !points) return;
+    if (!sort_points(w, points) || !find_drawn(w)) return;
+    behold_own(w, points);
+    dp_find_kernels_for(w->tile.frame->lanes)->look(w);
+    w->tile.stats.edges_emergent += edges;
+    for (uint32_t i = 0; i < edges && !w->tile.failed; i++) add_lines(w, &w->emergence.edges[i]);
 }
 
 /* ------- memory ------- */
 
 static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap),
+                                  DP_ARRAY(dp_emergence, edges, edges_cap),
                                   DP_ARRAY(dp_emergence, placed, placed_cap),
                                   DP_ARRAY(dp_emergence, beheld, beheld_cap),
                                   DP_ARRAY(dp_emergence, drawn, drawn_cap),

@@ -73,7 +73,8 @@ typedef struct dp_emergence {
     dp_beheld *beheld;       /* by point */
     dp_unpaired_edge *drawn; /* edges that the table has made lines of */
     uint32_t *drawn_of;      /* by tile polygon: a bit for each of its first 32 edges among these */
-    size_t unpaired_cap, placed_cap, beheld_cap, drawn_cap, drawn_of_cap;
+    struct dp_emerging *edges; /* those with sample points here (emerge.c) */
+    size_t unpaired_cap, edges_cap, placed_cap, beheld_cap, drawn_cap, drawn_of_cap;
     uint32_t unpaired_count, drawn_count;
 } dp_emergence;
 
