@@ -44,7 +44,8 @@ typedef struct dp_emerging {
     dp_vec3 a, b; /* ends, world space */
     dp_spine spine;
     uint32_t k0, k1; /* sample points [k0, k1) in the tile or right beside it */
-    uint32_t first;  /* number of the first of them */
+    uint32_t first;  /* number of the first place where it is looked */
+    uint32_t step;   /* sample points for one place */
     dp_sight sight;
 } emerging;
 
@@ -74,6 +75,11 @@ static bool begin_edge(dp_finder *w, dp_unpaired_edge unpaired, emerging *e) {
 
 /* ------- placing the sample points ------- */
 
+/* Of edges this short, in sample points, every other one will do. */
+enum { SHORT = 8 };
+
+static uint32_t places(const emerging *e) { return (e->k1 - e->k0 + e->step - 1) / e->step; }
+
 static uint32_t look_cell(float x, float y) {
     const uint32_t last = DP_LOOK_CELLS - 1;
     const uint32_t cx = x <= 0 ? 0 : dp_minf(x / DP_LOOK_CELL, (float)last),
@@ -88,7 +94,7 @@ static int own_side(const dp_finder *w, uint32_t polygon) {
 }
 
 static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
-    const size_t need = (size_t)*count + (e->k1 - e->k0);
+    const size_t need = (size_t)*count + places(e);
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.placed, emergence.placed_cap, need) ||
         !DP_TILE_RESERVE(&w->tile, w, emergence.beheld, emergence.beheld_cap, need))
         return false;
@@ -96,8 +102,9 @@ static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
                  length = dp_hypot(ex, ey);
     const float ox = length > 0 ? (float)(-ey / length) : 1,
                 oy = length > 0 ? (float)(ex / length) : 0;
-    for (uint32_t k = e->k0; k < e->k1; k++) {
-        const dp_pointd p = dp_point_mix(e->spine.a, e->spine.b, (k + 0.5) / e->spine.n);
+    for (uint32_t k = e->k0; k < e->k1; k += e->step) {
+        const double middle = k + (k + e->step <= e->k1 ? e->step : 1) / 2.0;
+        const dp_pointd p = dp_point_mix(e->spine.a, e->spine.b, middle / e->spine.n);
         w->emergence.beheld[*count] = (dp_beheld){.own = e->unpaired.polygon,
                                                   .first = e->unpaired.polygon,
                                                   .nearest = {UINT32_MAX, UINT32_MAX},
@@ -118,6 +125,7 @@ static bool reserve_lookouts(dp_finder *w, uint32_t count) {
            DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.oy, emergence.lookouts.oy_cap, room) &&
            DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.step, emergence.lookouts.step_cap,
                            room) &&
+           DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.own, emergence.lookouts.own_cap, room) &&
            DP_TILE_RESERVE(&w->tile, w, emergence.lookouts.point, emergence.lookouts.point_cap,
                            room);
 }
@@ -167,7 +175,7 @@ static bool sort_points(dp_finder *w, uint32_t count) {
         out->x[at] = p->x, out->y[at] = p->y, out->d[at] = p->d;
         out->ox[at] = p->ox, out->oy[at] = p->oy;
         out->step[at] = fabsf(dp_depth_steps(w->tile.frame, p->d, DP_TOUCHING));
-        out->point[at] = i;
+        out->point[at] = i, out->own[at] = w->emergence.beheld[i].own;
     }
     mark_cells(w, count);
     return true;
@@ -239,8 +247,7 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
-    const uint32_t point = w->emergence.lookouts.point[lookout];
-    if (w->emergence.beheld[point].own != index) behold(w, point, index, sides);
+    behold(w, w->emergence.lookouts.point[lookout], index, sides);
 }
 
 bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
@@ -288,7 +295,7 @@ typedef struct finding {
     dp_vec3 normal;
 } finding;
 
-static const finding NOTHING = {.line = -1};
+static const finding NOTHING = {.line = -1, .sides = {UINT32_MAX, UINT32_MAX}, .behind = UINT32_MAX};
 
 static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t polygon) {
     const dp_tile_polygon *const p = &w->tile.polygons[polygon];
@@ -297,7 +304,9 @@ static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t poly
 
 static void judge_outline(const dp_finder *w, const dp_sight *sight, int side, finding *f) {
     const dp_beside near = beside(w, sight, f->sides[side]);
-    const dp_beside far = f->behind == f->sides[side] ? near : beside(w, sight, f->behind);
+    const dp_beside far = f->behind == f->sides[side] || f->behind == UINT32_MAX
+                              ? near
+                              : beside(w, sight, f->behind);
     const bool is_border = dp_is_one_plane(&near, &far);
     f->line = is_border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE;
     f->normal = is_border ? near.normal : dp_outline_normal(sight, &near, &far, side);
@@ -357,32 +366,29 @@ static bool has_same_sides(const finding *a, const finding *b) {
            a->owner.polygon == b->owner.polygon && a->owner.edge == b->owner.edge;
 }
 
-/* What sample point k is. Most are what the one `before` is. */
-static finding judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before) {
-    const uint32_t at = e->first + (k - e->k0);
+/* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */
+static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
+                  finding *f) {
+    const uint32_t at = e->first + (k - e->k0) / e->step;
     const dp_beheld *const b = &w->emergence.beheld[at];
-    finding f = {.line = -1, .behind = UINT32_MAX, .owner = e->unpaired};
+    finding here = {.line = -1, .behind = UINT32_MAX, .owner = e->unpaired};
     for (int i = 0; i < 2; i++)
-        f.sides[i] = b->nearest[i] != UINT32_MAX ? b->nearest[i] : b->far[i];
-    const bool left = f.sides[0] != UINT32_MAX, right = f.sides[1] != UINT32_MAX;
-    if (!left && !right) { /* a sheet seen edge-on: both its borders are one line */
-        f.line = DP_LINE_BORDER;
-        f.sides[0] = e->unpaired.polygon;
-        f.normal = dp_polygon_normal(w->tile.frame, e->id);
-        return f;
-    }
-    if (f.sides[0] == f.sides[1] || b->is_drawn) return NOTHING;
-    f.owner = find_owner(w, e, b, &w->emergence.placed[at], f.sides);
-    if (!is_own_edge(w, e, f.owner)) return NOTHING;
-    const bool fold = left && right;
-    if (!fold && b->nearest[right] == UINT32_MAX) return NOTHING;
-    if (!fold) f.behind = b->furthest[right];
-    if (has_same_sides(&f, before)) return *before;
-    if (fold)
-        judge_fold(w, e, &f);
-    else
-        judge_outline(w, &e->sight, right, &f);
-    return f;
+        here.sides[i] = b->nearest[i] != UINT32_MAX ? b->nearest[i] : b->far[i];
+    const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
+    here.owner = find_owner(w, e, b, &w->emergence.placed[at], here.sides);
+    if (left != right) here.behind = b->furthest[right];
+    /* else a sheet seen edge-on: both its borders are one line */
+    if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
+    if (here.sides[0] == here.sides[1] || b->is_drawn || !is_own_edge(w, e, here.owner) ||
+        (left != right && b->nearest[right] == UINT32_MAX))
+        here = NOTHING;
+    if (has_same_sides(&here, before)) return false;
+    *f = here;
+    if (f->sides[0] != UINT32_MAX && f->sides[1] != UINT32_MAX)
+        judge_fold(w, e, f);
+    else if (f->sides[0] != f->sides[1])
+        judge_outline(w, &e->sight, f->sides[0] == UINT32_MAX, f);
+    return true;
 }
 
 /* Adds the candidate of a run of sample points, along the owner's edge. */
@@ -417,6 +423,7 @@ static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t 
 }
 
 static bool is_same(const finding *a, const finding *b) {
+    if (a == b) return true;
     if (a->line != b->line || a->line < 0) return a->line == b->line;
     return has_same_sides(a, b);
 }
@@ -424,26 +431,44 @@ static bool is_same(const finding *a, const finding *b) {
 /* A single sample point that differs from two neighbours that agree, or from its neighbour at the
  * edge's end: something merely passes through the edge or touches its corner there. It follows
  * them. */
-static finding settle(const emerging *e, uint32_t k, const finding *before, const finding *here,
-                      const finding *after) {
-    if (e->spine.n < 3) return *here;
-    if (k == 0) return *after;
-    if (k + 1 == e->spine.n) return *before;
-    return is_same(before, after) ? *before : *here;
+static const finding *settle(const emerging *e, uint32_t k, const finding *before,
+                             const finding *here, const finding *after) {
+    if (e->spine.n < 3) return here;
+    if (k == 0) return after;
+    if (k + 1 == e->spine.n) return before;
+    return is_same(before, after) ? before : here;
+}
+
+/* The findings of consecutive sample points: those that are looked at together stay. */
+enum { KEPT = 8 };
+typedef struct findings {
+    finding of[KEPT];
+    uint32_t count;
+} findings;
+
+static const finding *next_finding(const dp_finder *w, const emerging *e, uint32_t k,
+                                   const finding *before, findings *all) {
+    finding *const f = &all->of[all->count % KEPT];
+    if (!judge(w, e, k, before, f)) return before;
+    all->count++;
+    return f;
 }
 
 /* Adds a candidate for each run of sample points with the same line and neighbour. */
 static void add_lines(dp_finder *w, const emerging *e) {
-    finding last = NOTHING, before, here = judge(w, e, e->k0, &NOTHING), after = here;
+    findings all;
+    all.count = 0;
+    finding last = NOTHING;
+    const finding *before, *here = next_finding(w, e, e->k0, &NOTHING, &all), *after = here;
     uint32_t start = e->k0;
     for (uint32_t k = e->k0; k < e->k1 && !w->tile.failed; k++) {
         before = k > e->k0 ? here : after;
         here = k > e->k0 ? after : here;
-        after = k + 1 < e->k1 ? judge(w, e, k + 1, &here) : here;
-        const finding f = settle(e, k, &before, &here, &after);
-        if (is_same(&f, &last)) continue;
+        after = k + 1 < e->k1 ? next_finding(w, e, k + 1, here, &all) : here;
+        const finding *const f = settle(e, k, before, here, after);
+        if (is_same(f, &last)) continue;
         add_run(w, e, &last, start, k);
-        last = f, start = k;
+        last = *f, start = k;
     }
     add_run(w, e, &last, start, e->k1);
     if (last.line == DP_LINE_BORDER) w->tile.stats.open_edges++;
@@ -458,6 +483,7 @@ static bool place_all(dp_finder *w, uint32_t *edges, uint32_t *points) {
         emerging *const e = &own->edges[*edges];
         if (!begin_edge(w, own->unpaired[i], e)) continue;
         e->first = *points;
+        e->step = e->spine.n <= SHORT ? 2 : 1;
         if (!place_points(w, e, points)) return false;
         ++*edges;
     }
@@ -488,6 +514,7 @@ static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap)
                                   DP_ARRAY(dp_emergence, lookouts.ox, lookouts.ox_cap),
                                   DP_ARRAY(dp_emergence, lookouts.oy, lookouts.oy_cap),
                                   DP_ARRAY(dp_emergence, lookouts.step, lookouts.step_cap),
+                                  DP_ARRAY(dp_emergence, lookouts.own, lookouts.own_cap),
                                   DP_ARRAY(dp_emergence, lookouts.point, lookouts.point_cap)};
 
 void dp_emergence_free(dp_emergence *store, const dp_allocator *memory) {

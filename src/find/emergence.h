@@ -46,7 +46,8 @@ typedef struct dp_lookouts {
     float *ox, *oy;   /* px: unit vector to the right of the edge on the screen */
     float *step;      /* depth of DP_TOUCHING pixel sizes */
     uint32_t *point;  /* its number, in the order of edges */
-    size_t x_cap, y_cap, d_cap, ox_cap, oy_cap, step_cap, point_cap;
+    uint32_t *own; /* the edge's polygon */
+    size_t x_cap, y_cap, d_cap, ox_cap, oy_cap, step_cap, point_cap, own_cap;
     uint32_t first[DP_LOOK_CELLS * DP_LOOK_CELLS + 1]; /* by cell: its first point */
     uint64_t row[DP_TILE]; /* pixels within DP_LOOK_FAR of which there are points */
     /* By blocks of cells of DP_CELL px, as dp_cell_bits: do they hold such pixels? */
