@@ -33,7 +33,10 @@ typedef struct dp_frame {
     dp_view view;
     float nearly_edge_on; /* px: thinner polygons' facing is decided in space (outline.h) */
     float step_scale, step_offset; /* pixel size in depth: |d| * step_scale + step_offset */
-    const dp_style *styles;        /* by group, resolved; [style_count] */
+    float touching, crack; /* pixel sizes by which planes that touch an edge may miss it; px: cracks
+                              narrower than this are closed (core/precision.c) */
+    double precision;      /* world units: thinner polygons are rounding; 0: none is known */
+    const dp_style *styles; /* by group, resolved; [style_count] */
     uint32_t style_count;
     dp_target target;
     uint32_t lines;     /* classes drawn by any group */

@@ -13,6 +13,7 @@
 #include "features/features.h"
 #include "base/kernels.h"
 #include "mesh/source.h"
+#include "core/precision.h"
 #include "core/facing.h"
 #include "printed/fins.h"
 #include "features/silhouette_edge.h"
@@ -92,6 +93,7 @@ static void begin_view(dp_frame *f) {
     f->nearly_edge_on = dp_nearly_edge_on(&f->view);
     f->step_scale = f->view.perspective ? size : 0;
     f->step_offset = f->view.perspective ? 0 : size;
+    f->touching = DP_TOUCHING, f->crack = DP_CRACK, f->precision = 0;
 }
 
 static bool begin_workers(dp_context *c) {
@@ -320,6 +322,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
                     sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
+    dp_find_tolerances(f);
     if (f->styles[0].edges == DP_EDGES_ADJACENCY && !find_adjacency(c)) return out_of_memory(diag);
     if (is_polar(f)) dp_find_centre(f);
     lap(&c->stats, DP_STAGE_VERTICES, since);

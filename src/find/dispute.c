@@ -12,14 +12,13 @@
  * thin that no sample shows it, or touches less than a pixel of the edge. */
 #include "find/fan.h"
 
+#include "core/precision.h"
+
 enum { STEP = 4 };
 
 /* px: where samples are looked at, to either side of the edge; one that lies nearer to it than
  * LEAST may be won by either side. */
 static const float BESIDE = 0.5f, LEAST = 0.02f;
-
-/* px: how near to the edge a polygon must come to reach it. */
-static const float REACHES[2] = {DP_LOOK_NEAR, DP_LOOK_FAR};
 
 typedef struct place {
     dp_lookout at;     /* a point of the edge, and the side */
@@ -29,9 +28,10 @@ typedef struct place {
 /* A polygon beside the one that is expected must lie over that right at the edge. */
 static bool reaches(const dp_tile *t, const dp_tile_polygon *p, const place *here) {
     const int count = here->expected == UINT32_MAX ? 2 : 1;
+    const float reach[2] = {DP_LOOK_NEAR, dp_look_far(t)};
     for (int i = 0; i < count; i++)
-        if (dp_tile_covers(t, p, here->at.x + REACHES[i] * here->at.ox,
-                           here->at.y + REACHES[i] * here->at.oy))
+        if (dp_tile_covers(t, p, here->at.x + reach[i] * here->at.ox,
+                           here->at.y + reach[i] * here->at.oy))
             return true;
     return false;
 }
@@ -46,6 +46,7 @@ static bool goes_on(const dp_tile *t, float x, float y, float d, const place *he
 /* Does polygon `index` lie in the edge there, and reach it? */
 static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
     const dp_tile_polygon *const p = &t->polygons[index];
+    if (t->frame->precision > 0 && dp_is_sliver(t->frame, p->id)) return false;
     return fabsf(dp_plane_at(p, here->at.x, here->at.y) - here->at.d) <=
                dp_touching(t, p, here->at.d) &&
            reaches(t, p, here);

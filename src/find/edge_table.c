@@ -28,6 +28,8 @@
  * (emerge.c). */
 #include "find/edge_table.h"
 
+#include "core/precision.h"
+
 #include "base/elementary.h"
 #include "base/hostile.h"
 #include "find/kernels.h"
@@ -135,11 +137,14 @@ static bool make_list(dp_finder *w) {
     }
     list->count = w->tile.unsure_count = w->table.flat_edges = 0;
     if (!reserve_list(w, corners + DP_EDGES_ROOM)) return false;
-    if (!polygons->firsts && !polygons->edge_flags) {
+    if (!polygons->firsts && !polygons->edge_flags && !(w->tile.frame->precision > 0)) {
         if (!reserve_rings(w)) return false;
         dp_find_kernels_for(w->tile.frame->lanes)->list_edges(w);
     } else {
-        for (uint32_t i = 0; i < w->tile.seen_count; i++) dp_edge_list_polygon(w, w->tile.seen[i]);
+        for (uint32_t i = 0; i < w->tile.seen_count; i++)
+            if (!(w->tile.frame->precision > 0) ||
+                !dp_is_sliver(w->tile.frame, w->tile.polygons[w->tile.seen[i]].id))
+                dp_edge_list_polygon(w, w->tile.seen[i]);
     }
     for (uint32_t i = 0; i < DP_EDGES_ROOM; i++)
         list->from[list->count + i] = list->key[list->count + i] = 0;

@@ -34,9 +34,14 @@ static const float OFF = 0.25f;
 static const float NEARER = 1e-3f;
 
 /* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, … */
-static const double ALONG_NEAR = (double)DP_ALONG_NEAR, ALONG_FAR = 1.2 * (double)DP_LOOK_FAR;
-/* … and at an angle with a smaller sine is the same line. */
+static const double ALONG_NEAR = (double)DP_ALONG_NEAR;
+static double along_far(const dp_finder *w) { return 1.2 * (double)dp_look_far(&w->tile); }
+
+/* … and at an angle with a smaller sine, is the same line. */
 static const double PARALLEL = 0.1;
+
+#define NO_EDGE                                                                                    \
+    { UINT32_MAX, UINT32_MAX }
 
 typedef struct dp_emerging {
     dp_unpaired_edge unpaired;
@@ -105,11 +110,11 @@ static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
     for (uint32_t k = e->k0; k < e->k1; k += e->step) {
         const double middle = k + (k + e->step <= e->k1 ? e->step : 1) / 2.0;
         const dp_pointd p = dp_point_mix(e->spine.a, e->spine.b, middle / e->spine.n);
-        w->emergence.beheld[*count] = (dp_beheld){.own = e->unpaired.polygon,
-                                                  .first = e->unpaired.polygon,
-                                                  .nearest = {UINT32_MAX, UINT32_MAX},
+        w->emergence.beheld[*count] = (dp_beheld){.own = e->unpaired,
+                                                  .first = e->unpaired,
+                                                  .nearest = {NO_EDGE, NO_EDGE},
                                                   .furthest = {UINT32_MAX, UINT32_MAX},
-                                                  .far = {UINT32_MAX, UINT32_MAX}};
+                                                  .far = {NO_EDGE, NO_EDGE}};
         w->emergence.placed[(*count)++] = (dp_lookout){
             (float)(p.x - w->tile.tile_x), (float)(p.y - w->tile.tile_y), (float)p.d, ox, oy};
     }
@@ -140,12 +145,11 @@ static void mark_cells(dp_finder *w, uint32_t count) {
     const uint32_t all = DP_CELLS * DP_CELLS;
     memset(out->there, 0, sizeof out->there);
     memset(out->row, 0, sizeof out->row);
+    const float reach = dp_look_far(&w->tile);
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 4; k++) {
-            const uint32_t x = pixel_of(w->emergence.placed[i].x +
-                                        (k & 1 ? DP_LOOK_FAR : -DP_LOOK_FAR)),
-                           y = pixel_of(w->emergence.placed[i].y +
-                                        (k & 2 ? DP_LOOK_FAR : -DP_LOOK_FAR));
+            const uint32_t x = pixel_of(w->emergence.placed[i].x + (k & 1 ? reach : -reach)),
+                           y = pixel_of(w->emergence.placed[i].y + (k & 2 ? reach : -reach));
             out->row[y] |= (uint64_t)1 << x;
             out->there[0][0][y / DP_CELL * DP_CELLS + x / DP_CELL] = 1;
         }
@@ -174,8 +178,8 @@ static bool sort_points(dp_finder *w, uint32_t count) {
         const uint32_t at = --out->first[look_cell(p->x, p->y)];
         out->x[at] = p->x, out->y[at] = p->y, out->d[at] = p->d;
         out->ox[at] = p->ox, out->oy[at] = p->oy;
-        out->step[at] = fabsf(dp_depth_steps(w->tile.frame, p->d, DP_TOUCHING));
-        out->point[at] = i, out->own[at] = w->emergence.beheld[i].own;
+        out->step[at] = fabsf(dp_depth_steps(w->tile.frame, p->d, w->tile.frame->touching));
+        out->point[at] = i, out->own[at] = w->emergence.beheld[i].own.polygon;
     }
     mark_cells(w, count);
     return true;
@@ -202,14 +206,13 @@ uint32_t dp_edge_along(const dp_tile *w, const dp_tile_polygon *p, const dp_look
 }
 
 /* Keeps the polygon if it lies nearer at a side than what is there. */
-static void keep_nearest(const dp_finder *w, uint32_t *nearest, float *nearest_d, uint32_t index,
-                         float d, float rounding) {
-    const bool is_first =
-        *nearest != UINT32_MAX && w->tile.polygons[index].id < w->tile.polygons[*nearest].id;
-    if (*nearest != UINT32_MAX && !(d > *nearest_d + rounding) &&
-        !(is_first && d >= *nearest_d - rounding))
-        return;
-    *nearest = index, *nearest_d = d;
+static void keep_nearest(const dp_finder *w, dp_unpaired_edge *nearest, float *nearest_d,
+                         dp_unpaired_edge here, float d, float rounding) {
+    const bool there = nearest->polygon != UINT32_MAX,
+               is_first = there &&
+                          w->tile.polygons[here.polygon].id < w->tile.polygons[nearest->polygon].id;
+    if (there && !(d > *nearest_d + rounding) && !(is_first && d >= *nearest_d - rounding)) return;
+    *nearest = here, *nearest_d = d;
 }
 
 static void keep_furthest(dp_beheld *b, int side, uint32_t index, float d) {
@@ -217,11 +220,19 @@ static void keep_furthest(dp_beheld *b, int side, uint32_t index, float d) {
     b->furthest[side] = index, b->furthest_d[side] = d;
 }
 
-/* The polygon's edge along here, by the places that it covers; UINT32_MAX: it has none. */
-static uint32_t edge_of(const dp_finder *w, uint32_t index, const dp_lookout *at, uint32_t near,
-                        uint32_t far) {
-    if (near == 3 || (!near && far == 3)) return UINT32_MAX;
-    return dp_edge_along(&w->tile, &w->tile.polygons[index], at, near ? ALONG_NEAR : ALONG_FAR);
+/* The polygon's edge along here, by the places that it covers NEAR and FAR; edge UINT32_MAX: it has
+ * none. Where the sides of a crack overlap, what a polygon covers is what it covers FAR. */
+static dp_unpaired_edge edge_here(const dp_finder *w, uint32_t index, const dp_lookout *at,
+                                  uint32_t *near, uint32_t far) {
+    const dp_tile_polygon *const p = &w->tile.polygons[index];
+    const bool overlaps = *near == 3 && (far == 1 || far == 2), beyond = !*near && far != 3;
+    dp_unpaired_edge here = {index, UINT32_MAX};
+    if (overlaps || beyond)
+        here.edge = dp_edge_along(&w->tile, p, at, along_far(w));
+    else if (*near != 3 && *near)
+        here.edge = dp_edge_along(&w->tile, p, at, ALONG_NEAR);
+    if (overlaps && here.edge != UINT32_MAX) *near = far;
+    return here;
 }
 
 /* A polygon beyond a crack has an edge along it; others there merely come near. */
@@ -231,19 +242,22 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const float gap = dp_plane_at(p, at->x, at->y) - at->d, slope = p->dx * at->ox + p->dy * at->oy,
                 rounding = fabsf(dp_depth_steps(w->tile.frame, at->d, NEARER));
-    const uint32_t near = sides & 3, far = sides >> 2, edge = edge_of(w, index, at, near, far);
+    uint32_t near = sides & 3;
+    const uint32_t far = sides >> 2;
+    const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     for (int side = 0; side < 2; side++) {
         const float d = gap + OFF * (side ? slope : -slope);
-        if (sides >> side & 1) {
-            keep_nearest(w, &b->nearest[side], &b->nearest_d[side], index, d, rounding);
+        if (near >> side & 1) {
+            keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
             keep_furthest(b, side, index, d);
-        } else if (sides >> (side + 2) & 1 && edge != UINT32_MAX) {
-            keep_nearest(w, &b->far[side], &b->far_d[side], index, d, rounding);
+        } else if (!near && far >> side & 1 && here.edge != UINT32_MAX) {
+            keep_nearest(w, &b->far[side], &b->far_d[side], here, d, rounding);
+            keep_furthest(b, side, index, d);
         }
     }
-    if (edge == UINT32_MAX) return;
-    if (p->id < w->tile.polygons[b->first].id) b->first = index;
-    b->is_drawn |= edge < 32 && w->emergence.drawn_of[index] >> edge & 1;
+    if (here.edge == UINT32_MAX) return;
+    if (p->id < w->tile.polygons[b->first.polygon].id) b->first = here;
+    b->is_drawn |= here.edge < 32 && w->emergence.drawn_of[index] >> here.edge & 1;
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
@@ -275,11 +289,11 @@ static void behold_own(dp_finder *w, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         dp_beheld *const b = &w->emergence.beheld[i];
         const dp_lookout *const at = &w->emergence.placed[i];
-        const dp_tile_polygon *const p = &w->tile.polygons[b->own];
+        const dp_tile_polygon *const p = &w->tile.polygons[b->own.polygon];
         if (p->flags & DP_POLYGON_EDGE_ON) continue;
-        const int side = own_side(w, b->own);
+        const int side = own_side(w, b->own.polygon);
         const float slope = p->dx * at->ox + p->dy * at->oy;
-        b->nearest[side] = b->furthest[side] = b->own;
+        b->nearest[side] = b->own, b->furthest[side] = b->own.polygon;
         b->nearest_d[side] = b->furthest_d[side] = OFF * (side ? slope : -slope);
     }
 }
@@ -295,7 +309,8 @@ typedef struct finding {
     dp_vec3 normal;
 } finding;
 
-static const finding NOTHING = {.line = -1, .sides = {UINT32_MAX, UINT32_MAX}, .behind = UINT32_MAX};
+static const finding NOTHING = {
+    .line = -1, .sides = {UINT32_MAX, UINT32_MAX}, .behind = UINT32_MAX};
 
 static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t polygon) {
     const dp_tile_polygon *const p = &w->tile.polygons[polygon];
@@ -304,9 +319,8 @@ static dp_beside beside(const dp_finder *w, const dp_sight *sight, uint32_t poly
 
 static void judge_outline(const dp_finder *w, const dp_sight *sight, int side, finding *f) {
     const dp_beside near = beside(w, sight, f->sides[side]);
-    const dp_beside far = f->behind == f->sides[side] || f->behind == UINT32_MAX
-                              ? near
-                              : beside(w, sight, f->behind);
+    const dp_beside far =
+        f->behind == f->sides[side] || f->behind == UINT32_MAX ? near : beside(w, sight, f->behind);
     const bool is_border = dp_is_one_plane(&near, &far);
     f->line = is_border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE;
     f->normal = is_border ? near.normal : dp_outline_normal(sight, &near, &far, side);
@@ -322,25 +336,12 @@ static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
 
 /* Which of the polygons that have an edge here makes the line: of those that are seen, else of all,
  * the one that comes first in the source. */
-static dp_unpaired_edge find_owner(const dp_finder *w, const emerging *e, const dp_beheld *b,
-                                   const dp_lookout *at, const uint32_t sides[2]) {
+static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b,
+                                   const dp_unpaired_edge sides[2]) {
     const dp_tile_polygon *const polygons = w->tile.polygons;
-    dp_unpaired_edge owner = {UINT32_MAX, 0};
-    for (int i = 0; i < 2; i++) {
-        if (sides[i] == UINT32_MAX ||
-            (owner.polygon != UINT32_MAX && polygons[owner.polygon].id < polygons[sides[i]].id))
-            continue;
-        const uint32_t edge = sides[i] == e->unpaired.polygon
-                                  ? e->unpaired.edge
-                                  : dp_edge_along(&w->tile, &polygons[sides[i]], at,
-                                                  sides[i] == b->nearest[i] ? ALONG_NEAR
-                                                                            : ALONG_FAR);
-        if (edge != UINT32_MAX) owner = (dp_unpaired_edge){sides[i], edge};
-    }
-    if (owner.polygon != UINT32_MAX) return owner;
-    if (b->first == e->unpaired.polygon) return e->unpaired;
-    return (dp_unpaired_edge){b->first,
-                              dp_edge_along(&w->tile, &polygons[b->first], at, ALONG_FAR)};
+    const bool left = sides[0].edge != UINT32_MAX, right = sides[1].edge != UINT32_MAX;
+    if (left && right) return sides[polygons[sides[1].polygon].id < polygons[sides[0].polygon].id];
+    return left ? sides[0] : right ? sides[1] : b->first;
 }
 
 /* Is that the edge that is looked at, or another polygon's between the same ends? The table leaves
@@ -369,18 +370,20 @@ static bool has_same_sides(const finding *a, const finding *b) {
 /* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */
 static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
                   finding *f) {
-    const uint32_t at = e->first + (k - e->k0) / e->step;
-    const dp_beheld *const b = &w->emergence.beheld[at];
-    finding here = {.line = -1, .behind = UINT32_MAX, .owner = e->unpaired};
-    for (int i = 0; i < 2; i++)
-        here.sides[i] = b->nearest[i] != UINT32_MAX ? b->nearest[i] : b->far[i];
+    const dp_beheld *const b = &w->emergence.beheld[e->first + (k - e->k0) / e->step];
+    finding here = {.line = -1, .behind = UINT32_MAX};
+    dp_unpaired_edge sides[2];
+    for (int i = 0; i < 2; i++) {
+        sides[i] = b->nearest[i].polygon != UINT32_MAX ? b->nearest[i] : b->far[i];
+        here.sides[i] = sides[i].polygon;
+    }
     const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
-    here.owner = find_owner(w, e, b, &w->emergence.placed[at], here.sides);
+    here.owner = find_owner(w, b, sides);
     if (left != right) here.behind = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
     if (here.sides[0] == here.sides[1] || b->is_drawn || !is_own_edge(w, e, here.owner) ||
-        (left != right && b->nearest[right] == UINT32_MAX))
+        (left != right && b->nearest[right].polygon == UINT32_MAX))
         here = NOTHING;
     if (has_same_sides(&here, before)) return false;
     *f = here;
@@ -407,8 +410,9 @@ static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t 
     if (!dp_spine_make(&w->tile.frame->view, a, b, f->normal, &spine)) return;
     const uint32_t other =
         f->sides[0] == owner || f->sides[0] == UINT32_MAX ? f->sides[1] : f->sides[0];
-    const uint32_t across =
-        other != UINT32_MAX && other != owner ? other : f->behind != owner ? f->behind : UINT32_MAX;
+    const uint32_t across = other != UINT32_MAX && other != owner ? other
+                            : f->behind != owner                  ? f->behind
+                                                                  : UINT32_MAX;
     dp_add_candidate(
         w,
         (dp_candidate){.a = id,

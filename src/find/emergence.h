@@ -10,18 +10,15 @@ typedef struct dp_unpaired_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
 } dp_unpaired_edge;
 
-/* How far from the edge a polygon is looked for, px: first close enough to hit the smallest
- * triangle, then far enough to reach across a crack. */
+/* How far from the edge a polygon is looked for, px: NEAR, close enough to hit the smallest
+ * triangle, then FAR enough to reach across a crack. */
 #define DP_LOOK_NEAR 0.002f
-#define DP_LOOK_FAR  0.05f
+static inline float dp_look_far(const dp_tile *w) { return w->frame->crack; }
 
-/* Pixel sizes: a plane that misses a point of an edge by no more, measured across the plane, passes
- * through it. Far less than is seen, more than the rounding of corners makes. */
-#define DP_TOUCHING 0.02f
-
-/* The depth by which polygon p's plane may miss a point at depth d. */
+/* The depth by which polygon p's plane may miss a point at depth d and still pass through it:
+ * frame->touching is measured across the plane. */
 static inline float dp_touching(const dp_tile *w, const dp_tile_polygon *p, float d) {
-    return DP_TOUCHING * (dp_depth_steps(w->frame, d, 1) + fabsf(p->dx) + fabsf(p->dy));
+    return w->frame->touching * (dp_depth_steps(w->frame, d, 1) + fabsf(p->dx) + fabsf(p->dy));
 }
 
 /* A sample point of an edge. */
@@ -44,27 +41,29 @@ enum { DP_LOOK_CELL = 2 /* px */, DP_LOOK_CELLS = DP_TILE / DP_LOOK_CELL };
 typedef struct dp_lookouts {
     float *x, *y, *d; /* px, tile space; depth */
     float *ox, *oy;   /* px: unit vector to the right of the edge on the screen */
-    float *step;      /* depth of DP_TOUCHING pixel sizes */
+    float *step;      /* depth of frame->touching pixel sizes */
     uint32_t *point;  /* its number, in the order of edges */
-    uint32_t *own; /* the edge's polygon */
+    uint32_t *own;    /* the edge's polygon */
     size_t x_cap, y_cap, d_cap, ox_cap, oy_cap, step_cap, point_cap, own_cap;
     uint32_t first[DP_LOOK_CELLS * DP_LOOK_CELLS + 1]; /* by cell: its first point */
-    uint64_t row[DP_TILE]; /* pixels within DP_LOOK_FAR of which there are points */
+    uint64_t row[DP_TILE]; /* pixels within dp_look_far of which there are points */
     /* By blocks of cells of DP_CELL px, as dp_cell_bits: do they hold such pixels? */
     uint32_t there[DP_CELL_SPANS][DP_CELL_SPANS][DP_CELL_ROOM];
 } dp_lookouts;
 
 enum { DP_LOOK_ROOM = 16 };
 
-/* What has been found at one sample point. Tile polygons; UINT32_MAX: none. Index 0: to the left of
+/* What has been found at one sample point. Tile polygons and their edges; UINT32_MAX: none. Index 0: to the left of
  * the edge, 1: to the right. */
 typedef struct dp_beheld {
-    uint32_t own;                     /* the edge's polygon */
-    uint32_t nearest[2], furthest[2]; /* of those that reach the edge */
-    uint32_t far[2];                  /* the nearest of those only within DP_LOOK_FAR of it */
+    dp_unpaired_edge own;        /* the edge that is looked at */
+    dp_unpaired_edge nearest[2]; /* of those that reach the edge; with its edge along here */
+    uint32_t furthest[2];        /* of these; and of those in `far` */
+    dp_unpaired_edge far[2];     /* the nearest of those only within dp_look_far of it */
     float nearest_d[2], furthest_d[2], far_d[2]; /* how near they lie a little way off */
-    uint32_t first; /* of those with an edge along here, the one that comes first in the source */
-    bool is_drawn;  /* one of them has made a line of it already */
+    dp_unpaired_edge
+        first;     /* of those with an edge along here, the one that comes first in the source */
+    bool is_drawn; /* one of them has made a line of it already */
 } dp_beheld;
 
 typedef struct dp_emergence {

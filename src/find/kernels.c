@@ -2,6 +2,7 @@
 #include "find/kernels.h"
 
 #include "find/finder.h"
+#include "core/precision.h"
 #include "base/lanes.h"
 #include "raster/kernels.h"
 

@@ -11,6 +11,8 @@
  * dp_stream_find_lines on, it is the mesh of pending triangles. */
 #include "stream/draw.h"
 
+#include "core/precision.h"
+
 #include <string.h>
 
 static const float MARGIN = 0.75f; /* px, as in draw/draw.c */
@@ -269,7 +271,9 @@ bool dp_stream_find_lines(dp_stream_draw *s) {
     const bool painted = dp_stream_for_tiles(s, paint_surface);
     f->target.normal = normal;
     if (!painted || !f->lines) return painted;
-    return make_mesh(s) && dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_lines) &&
+    if (!make_mesh(s)) return false;
+    dp_find_tolerances(f);
+    return dp_stream_place_polygons(s) && dp_stream_for_tiles(s, find_lines) &&
            (!s->read_again || dp_stream_make_fans(s));
 }
 
