@@ -77,12 +77,14 @@ void dp_find_tolerances(dp_frame *f) {
 
 bool dp_is_sliver(const dp_frame *f, uint32_t polygon) {
     const dp_polygons *const polygons = &f->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
     const dp_vec3 o = dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first)));
     dp_vec3 sum = {0, 0, 0}, a = {0, 0, 0};
     double longest = 0;
     for (uint32_t i = 1; i < n; i++) {
-        const dp_vec3 p = dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i))),
+        const dp_vec3 p = dp_v3f(
+                          dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i))),
                       b = dp_sub(p, o);
         sum = dp_add(sum, dp_cross(a, b));
         longest = dp_max(longest, dp_max(dp_length(b), dp_length(dp_sub(b, a))));

@@ -113,8 +113,7 @@ static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
         w->emergence.beheld[*count] = (dp_beheld){.own = e->unpaired,
                                                   .first = e->unpaired,
                                                   .nearest = {NO_EDGE, NO_EDGE},
-                                                  .furthest = {UINT32_MAX, UINT32_MAX},
-                                                  .far = {NO_EDGE, NO_EDGE}};
+                                                  .furthest = {UINT32_MAX, UINT32_MAX}};
         w->emergence.placed[(*count)++] = (dp_lookout){
             (float)(p.x - w->tile.tile_x), (float)(p.y - w->tile.tile_y), (float)p.d, ox, oy};
     }
@@ -247,13 +246,9 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     for (int side = 0; side < 2; side++) {
         const float d = gap + OFF * (side ? slope : -slope);
-        if (near >> side & 1) {
-            keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
-            keep_furthest(b, side, index, d);
-        } else if (!near && far >> side & 1 && here.edge != UINT32_MAX) {
-            keep_nearest(w, &b->far[side], &b->far_d[side], here, d, rounding);
-            keep_furthest(b, side, index, d);
-        }
+        if (!(near >> side & 1) && !(!near && far >> side & 1 && here.edge != UINT32_MAX)) continue;
+        keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
+        keep_furthest(b, side, index, d);
     }
     if (here.edge == UINT32_MAX) return;
     if (p->id < w->tile.polygons[b->first.polygon].id) b->first = here;
@@ -336,8 +331,8 @@ static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
 
 /* Which of the polygons that have an edge here makes the line: of those that are seen, else of all,
  * the one that comes first in the source. */
-static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b,
-                                   const dp_unpaired_edge sides[2]) {
+static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b) {
+    const dp_unpaired_edge *const sides = b->nearest;
     const dp_tile_polygon *const polygons = w->tile.polygons;
     const bool left = sides[0].edge != UINT32_MAX, right = sides[1].edge != UINT32_MAX;
     if (left && right) return sides[polygons[sides[1].polygon].id < polygons[sides[0].polygon].id];
@@ -372,18 +367,13 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
                   finding *f) {
     const dp_beheld *const b = &w->emergence.beheld[e->first + (k - e->k0) / e->step];
     finding here = {.line = -1, .behind = UINT32_MAX};
-    dp_unpaired_edge sides[2];
-    for (int i = 0; i < 2; i++) {
-        sides[i] = b->nearest[i].polygon != UINT32_MAX ? b->nearest[i] : b->far[i];
-        here.sides[i] = sides[i].polygon;
-    }
+    for (int i = 0; i < 2; i++) here.sides[i] = b->nearest[i].polygon;
     const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
-    here.owner = find_owner(w, b, sides);
+    here.owner = find_owner(w, b);
     if (left != right) here.behind = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
-    if (here.sides[0] == here.sides[1] || b->is_drawn || !is_own_edge(w, e, here.owner) ||
-        (left != right && b->nearest[right].polygon == UINT32_MAX))
+    if (here.sides[0] == here.sides[1] || b->is_drawn || !is_own_edge(w, e, here.owner))
         here = NOTHING;
     if (has_same_sides(&here, before)) return false;
     *f = here;

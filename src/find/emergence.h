@@ -56,11 +56,10 @@ enum { DP_LOOK_ROOM = 16 };
 /* What has been found at one sample point. Tile polygons and their edges; UINT32_MAX: none. Index 0: to the left of
  * the edge, 1: to the right. */
 typedef struct dp_beheld {
-    dp_unpaired_edge own;        /* the edge that is looked at */
-    dp_unpaired_edge nearest[2]; /* of those that reach the edge; with its edge along here */
-    uint32_t furthest[2];        /* of these; and of those in `far` */
-    dp_unpaired_edge far[2];     /* the nearest of those only within dp_look_far of it */
-    float nearest_d[2], furthest_d[2], far_d[2]; /* how near they lie a little way off */
+    dp_unpaired_edge own;              /* the edge that is looked at */
+    dp_unpaired_edge nearest[2];       /* of those that reach the edge, with its edge along here */
+    uint32_t furthest[2];              /* of these */
+    float nearest_d[2], furthest_d[2]; /* how near they lie a little way off */
     dp_unpaired_edge
         first;     /* of those with an edge along here, the one that comes first in the source */
     bool is_drawn; /* one of them has made a line of it already */
