@@ -149,7 +149,7 @@ DP_API const char *dp_stage_name(dp_stage stage);
 typedef struct dp_stats {
     uint64_t polygons;        /* handed out by the source */
     uint64_t triangles;       /* the same, polygons counted as their corners - 2 */
-    uint64_t split;           /* concave or non-planar polygons that were split */
+    uint64_t split;           /* concave, non-planar or large polygons that were split */
     uint64_t dropped;         /* sum of the next four */
     uint64_t dropped_index;   /* index out of range */
     uint64_t dropped_finite;  /* NaN or infinite coordinate */

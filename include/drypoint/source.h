@@ -5,9 +5,9 @@
  * the rest of the library; nothing needs to be held in memory as a whole.
  *
  * A polygon is given by its corners, counter-clockwise seen from its front. It should be convex
- * and planar; one that is not is split when drawn, and the splitting diagonals never draw a line.
- * Polygons with fewer than three corners, no area, indices out of range or coordinates that are
- * not finite are dropped and counted (dp_stats). */
+ * and planar; one that is not, or has more than 4096 corners, is split when drawn, and the splitting
+ * diagonals never draw a line. Polygons with fewer than three corners, no area, indices out of
+ * range or coordinates that are not finite are dropped and counted (dp_stats). */
 #ifndef DRYPOINT_SOURCE_H
 #define DRYPOINT_SOURCE_H
 

@@ -80,7 +80,7 @@ static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
             return false;
         }
         if (locate(batch, batch->firsts[i], n, g->store->scratch.at) &&
-            !dp_is_convex_planar(g->store->scratch.at, (uint32_t)n))
+            !dp_stays_whole(g->store->scratch.at, (uint32_t)n))
             return false;
     }
     return true;
@@ -155,8 +155,7 @@ static dp_result append_whole(gatherer *g, const dp_batch *batch, size_t i, size
 
 static dp_result append_split(gatherer *g, const dp_batch *batch, size_t i, size_t first, size_t n,
                               uint32_t base) {
-    const uint32_t count = dp_split_polygon(g->store->scratch.at, (uint32_t)n,
-                                            g->store->scratch.links, g->store->scratch.triangles);
+    const uint32_t count = dp_split_polygon(&g->store->scratch, (uint32_t)n);
     g->stats->split++;
     for (uint32_t t = 0; t < count; t++) {
         if (!reserve_polygon(g, 3)) return out_of_memory(g);
@@ -183,7 +182,7 @@ static dp_result append_polygon(gatherer *g, const dp_batch *batch, size_t i, ui
     if (n == 3) return append_whole(g, batch, i, first, n, base);
     if (!dp_split_scratch_reserve(&g->store->scratch, n, g->memory)) return out_of_memory(g);
     const bool known = locate(batch, first, n, g->store->scratch.at);
-    if (!known || dp_is_convex_planar(g->store->scratch.at, (uint32_t)n))
+    if (!known || dp_stays_whole(g->store->scratch.at, (uint32_t)n))
         return append_whole(g, batch, i, first, n, base);
     return append_split(g, batch, i, first, n, base);
 }

@@ -3,6 +3,7 @@
 #define DP_MESH_POLYGONS_H
 
 #include "mesh/attributes.h"
+#include "mesh/corner_tree.h"
 #include <drypoint/draw.h>
 #include <drypoint/source.h>
 
@@ -28,12 +29,18 @@ typedef struct dp_polygons {
  * crease. */
 enum { DP_EDGE_DIAGONAL = 2 };
 
-/* Scratch for splitting one polygon; as large as the largest so far. */
+/* Scratch for splitting one polygon; as large as the largest so far. The caller sets `at`. */
 typedef struct dp_split_scratch {
-    const float **at;
-    uint32_t *links;
-    uint32_t (*triangles)[3];
+    const float **at;         /* position of each corner */
+    uint32_t *links;          /* next corner that is left */
+    uint32_t (*triangles)[3]; /* the result: corner numbers, wound as the polygon */
     size_t at_cap, links_cap, triangles_cap;
+    /* of polygons with many corners (split.c) */
+    dp_corner_tree tree;
+    struct dp_waiting *waiting;
+    uint32_t *previous, *waiters;
+    uint64_t *untried;
+    size_t waiting_cap, previous_cap, waiters_cap, untried_cap;
 } dp_split_scratch;
 
 /* Room for a polygon of n corners; false when memory is out (split.c). */
@@ -101,11 +108,10 @@ static inline void dp_prefetch_positions(const dp_polygons *polygons, uint32_t p
         __builtin_prefetch(dp_vertex_position(polygons, dp_corner_vertex(polygons, first + i)));
 }
 
-/* Splitting (split.c). at[i]: position of corner i of n. */
-bool dp_is_convex_planar(const float *const *at, uint32_t n);
-/* Fills triangles[n - 2][3] with corner numbers, wound as the polygon; returns how many: fewer than
- * n - 2 if corners coincide or are collinear. links: scratch of n entries. */
-uint32_t dp_split_polygon(const float *const *at, uint32_t n, uint32_t *links,
-                          uint32_t (*triangles)[3]);
+/* Splitting (split.c). May a polygon with corners at at[i], i < n, stay whole? It is convex and
+ * planar then, and does not have so many corners that it were slow to draw. */
+bool dp_stays_whole(const float *const *at, uint32_t n);
+/* Fills scratch->triangles[n - 2] from scratch->at[n]; returns how many. */
+uint32_t dp_split_polygon(dp_split_scratch *scratch, uint32_t n);
 
 #endif

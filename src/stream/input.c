@@ -116,13 +116,12 @@ static bool take_polygon(dp_input *input, size_t polygon, dp_result *result, dp_
         return *result = out_of_memory(diag), false;
     input->stats->triangles += n - 2;
     if (!locate(input, first, n)) return true;
-    if (n == 3 || dp_is_convex_planar(input->scratch.at, (uint32_t)n)) {
+    if (n == 3 || dp_stays_whole(input->scratch.at, (uint32_t)n)) {
         for (uint32_t i = 1; i + 1 < n; i++) put_piece(input, polygon, first, n, 0, i, i + 1);
         return true;
     }
     input->stats->split++;
-    const uint32_t pieces = dp_split_polygon(input->scratch.at, (uint32_t)n, input->scratch.links,
-                                             input->scratch.triangles);
+    const uint32_t pieces = dp_split_polygon(&input->scratch, (uint32_t)n);
     for (uint32_t i = 0; i < pieces; i++) {
         const uint32_t *const t = input->scratch.triangles[i];
         put_piece(input, polygon, first, n, t[0], t[1], t[2]);
