@@ -22,8 +22,8 @@ extern "C" {
  * Vertices at one position count as one; the index written is the neighbour's own. Across a border
  * lies the triangle's own third corner, so that the triangle is its own back-facing neighbour.
  * Where more than two triangles meet at an edge, neighbours are those whose fronts face each other.
- * Indices out of range are copied. DP_ERR_ARGUMENT (also for polygons that are not triangles),
- * DP_ERR_LIMIT, DP_ERR_MEMORY. */
+ * Indices out of range are copied. DP_ERR_ARGUMENT (also for polygons that are not triangles,
+ * and for a corner_count below 3 * polygon_count), DP_ERR_LIMIT, DP_ERR_MEMORY. */
 DP_API dp_result dp_adjacency_indices(const dp_batch *triangles, const dp_allocator *allocator,
                                       uint32_t *six, dp_diag *diag);
 

@@ -1,7 +1,10 @@
 /* drypoint/camera.h: view and projection, in OpenGL's conventions.
  *
  * Matrices are column-major, multiply column vectors, and use a right-handed camera space that
- * looks along -z. The projection maps to clip space with -w <= x, y, z <= w. */
+ * looks along -z. The projection maps to clip space with -w <= x, y, z <= w.
+ *
+ * These calls fail for one reason only, an argument out of the range that is given at each, and so
+ * fill no dp_diag. After DP_ERR_ARGUMENT the camera is not to be used. */
 #ifndef DRYPOINT_CAMERA_H
 #define DRYPOINT_CAMERA_H
 
@@ -33,7 +36,7 @@ DP_API dp_result dp_camera_orthographic(dp_camera *camera, double height, double
 
 /* How a camera sees a whole box. Zero is the default. */
 typedef struct dp_fit {
-    float min[3], max[3]; /* the box, world space */
+    float min[3], max[3]; /* the box, world space, as from dp_source_extent */
     double direction[3];  /* from the box's centre to the eye; {0} means (1, 0.6, 1) */
     double up[3];         /* {0} means +y, or -z / +z when looking down or up along y */
     double fov_y;         /* degrees; 0 means 35 */
@@ -47,7 +50,8 @@ typedef struct dp_fit {
 /* Sets the camera so that the box fills the picture, with a margin of 4 % on the narrower side, and
  * near and far enclose the box. With `steady`, the eye's distance from the box's centre is half the
  * box's diagonal / sin(fov / 2), with fov the smaller of the vertical and the horizontal one.
- * DP_ERR_ARGUMENT for values out of range. */
+ * DP_ERR_ARGUMENT for values out of range, for a box with min above max (that of a source without
+ * polygons) or with coordinates that are not finite. */
 DP_API dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit);
 
 /* Near and far for a box: far encloses it; near is as large as the box allows, and at least 1e-4 of

@@ -11,7 +11,8 @@
  *
  * Polygons are recorded with the state that holds at their dp_begin (enabled classes, widths,
  * colours, theta and phi, surface colour); dp_finish draws all as one scene. Nothing is enabled at
- * first. Wrong calls (a vertex outside begin and end, begin twice, …) are reported by dp_finish,
+ * first; edges of open surfaces (of a single triangle, say) are borders, and DP_SIL_RIDGE_VALLEY
+ * does not hold those: enable DP_BORDER, too. Wrong calls (a vertex outside begin and end, begin twice, …) are reported by dp_finish,
  * so no call before it needs a check.
  *
  * As in OpenGL, vertices left at dp_end that make no whole primitive are ignored. Unlike OpenGL,

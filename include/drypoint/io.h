@@ -29,7 +29,8 @@ DP_API dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_opt
 /* Writes [height][width][4] RGBA, not premultiplied, rows `stride` bytes apart (0: 4 * width), as a
  * PNG. A regular file is written under another name and renamed when complete; until then the old
  * one stays. A device or pipe is written in place; "-" is standard output. DP_ERR_IO (also for a
- * full disk), DP_ERR_MEMORY. */
+ * full disk), DP_ERR_MEMORY, DP_ERR_LIMIT, DP_ERR_ARGUMENT (also for a stride shorter than a
+ * row). */
 DP_API dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width,
                                  uint32_t height, size_t stride, dp_diag *diag);
 

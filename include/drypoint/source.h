@@ -31,10 +31,11 @@ typedef struct dp_attribute {
 /* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
  * `stable` is set, until the source is destroyed. Pointers to floats and to uint32_t, and strides,
  * must be multiples of 4, pointers to groups of 2; copy data that is packed otherwise. Calls refuse
- * any other batch with DP_ERR_ARGUMENT. */
+ * any other batch with DP_ERR_ARGUMENT, and one of too many vertices with DP_ERR_LIMIT. */
 typedef struct dp_batch {
     const float *positions;    /* x, y, z of vertex v at (const char *)positions + v * stride */
-    size_t position_stride;    /* bytes from one vertex to the next, a multiple of 4; 0 means 12 */
+    size_t position_stride;    /* bytes from one vertex to the next, a multiple of 4, not below 12;
+                                  0 means 12 */
     size_t vertex_count;       /* at most UINT32_MAX */
     const uint32_t *indices;   /* [corner_count] vertex numbers; NULL: corner c is vertex c */
     size_t corner_count;       /* triangles without `firsts`: 3 * polygon_count */
@@ -158,7 +159,8 @@ DP_API void dp_source_destroy(dp_source *source);
 
 /* What dp_source_extent finds. */
 typedef struct dp_extent {
-    float min[3], max[3]; /* of the finite corners that polygons use */
+    float min[3], max[3]; /* of the finite corners that polygons use; where there are none, min is
+                             INFINITY and max -INFINITY, which dp_camera_fit refuses */
     uint64_t polygons;    /* all of the source */
     uint64_t corners;
     uint64_t vertices;
@@ -166,7 +168,9 @@ typedef struct dp_extent {
     uint64_t bad_index;  /* polygons with an index out of range */
 } dp_extent;
 
-/* Reads a source to its end, and rewinds it if it can be. Errors are those of the source. */
+/* Reads a source from its start to its end, wherever it is, and leaves it at its start. One that
+ * can be read only once is read from where it is, and is at its end then. Errors are those of the
+ * source. */
 DP_API dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag);
 
 #ifdef __cplusplus

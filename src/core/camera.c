@@ -193,7 +193,8 @@ dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     if (!camera || !fit || !finite3(fit->direction) || !finite3(fit->up)) return DP_ERR_ARGUMENT;
     const dp_vec3 min = dp_v3f(fit->min), max = dp_v3f(fit->max);
     double radius = dp_length(dp_sub(max, min)) / 2;
-    if (!isfinite(radius)) return DP_ERR_ARGUMENT;
+    if (!isfinite(radius) || min.x > max.x || min.y > max.y || min.z > max.z)
+        return DP_ERR_ARGUMENT; /* also the extent of a source without polygons */
     if (!(radius > 0)) radius = 1;
     const double fov = fit->fov_y != 0 ? fit->fov_y : 35;
     const double aspect = fit->aspect != 0 ? fit->aspect : 4.0 / 3.0;

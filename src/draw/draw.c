@@ -305,6 +305,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, since, diag);
+    c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.pencil.curvature.ms;
     if (dp_shade_needs_normals(&c->shade) &&

@@ -182,6 +182,10 @@ static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
     if (!m->c1_passes) m->c1_passes = 3;
     if (m->c1_passes > 3)
         return dp_fail(diag, DP_ERR_ARGUMENT, "C1 has three passes, not %u", m->c1_passes);
+    if (m->enhanced_count && !m->enhanced)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the edge map's enhanced_count is %u, but enhanced is NULL",
+                       m->enhanced_count);
     if (m->radius > 4)
         return dp_fail(diag, DP_ERR_ARGUMENT, "the edge map's radius is %u px; it must be 1 to 4",
                        m->radius);

@@ -302,6 +302,9 @@ static bool is_for_assimp(dp_result result, const char *name, const dp_file_opti
 dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,
                      dp_diag *diag) {
     dp_diag first = {0};
+    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_open: out is NULL");
+    *out = NULL;
+    if (!path) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_open: path is NULL");
     const dp_result result = dp_open_path(path, options, true, out, &first);
     if (diag && result) *diag = first;
     if (!is_for_assimp(result, path, options) || strcmp(path, "-") == 0) return result;
@@ -311,6 +314,10 @@ dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source
 dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_options *options,
                             dp_source **out, dp_diag *diag) {
     dp_diag first = {0};
+    if (!out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_open_memory: out is NULL");
+    *out = NULL;
+    if (!file || (file->size && !file->data))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_open_memory: file or its data is NULL");
     const dp_result result = dp_open_memory(file, options, true, out, &first);
     if (diag && result) *diag = first;
     if (!is_for_assimp(result, file ? file->name : NULL, options)) return result;

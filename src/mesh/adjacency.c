@@ -444,6 +444,11 @@ dp_result dp_adjacency_indices(const dp_batch *triangles, const dp_allocator *al
                        "six indices each");
     if (triangles->polygon_count > UINT32_MAX / 4 || triangles->vertex_count >= UINT32_MAX)
         return dp_fail(diag, DP_ERR_LIMIT, "more than %u triangles or vertices", UINT32_MAX / 4);
+    if (triangles->corner_count / 3 < triangles->polygon_count)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "dp_adjacency_indices: %zu triangles need three times as many corners; "
+                       "corner_count is %zu",
+                       triangles->polygon_count, triangles->corner_count);
     const dp_result misplaced = dp_check_alignment(triangles, diag);
     if (misplaced) return misplaced;
     const dp_allocator memory = dp_allocator_resolve(allocator);

@@ -41,7 +41,7 @@ typedef struct dp_corner_tree {
     uint32_t levels;                 /* the last has one box */
     uint32_t first[DP_TREE_LEVELS];  /* box of each level */
     uint32_t length[DP_TREE_LEVELS]; /* boxes of each level */
-    double slack; /* what rounding may make of a distance between points, per unit of length */
+    double slack;    /* what rounding may make of a distance between points, per unit of length */
     uint64_t visits; /* boxes and points looked at by dp_corner_tree_find since it was built */
 } dp_corner_tree;
 

@@ -119,8 +119,7 @@ static void add_up(const seen *workers, uint32_t count, dp_extent *extent) {
         float lo = INFINITY, hi = -INFINITY;
         for (uint32_t i = 0; i < count; i++)
             lo = fminf(lo, workers[i].min[k]), hi = fmaxf(hi, workers[i].max[k]);
-        extent->min[k] = lo <= hi ? lo : 0;
-        extent->max[k] = lo <= hi ? hi : 0;
+        extent->min[k] = lo, extent->max[k] = hi;
     }
     for (uint32_t i = 0; i < count; i++) extent->not_finite += workers[i].not_finite;
 }

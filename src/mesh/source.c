@@ -7,6 +7,7 @@
 #include "base/diag.h"
 #include "base/vec.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -45,6 +46,10 @@ dp_result dp_check_alignment(const dp_batch *b, dp_diag *diag) {
         {b->colors, 0, sizeof(uint32_t), "colors"},
         {b->groups, 0, sizeof(uint16_t), "groups"},
     };
+    if (b->position_stride && b->position_stride < 3 * sizeof(float))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "a batch's position_stride is %zu bytes, but a position takes %zu",
+                       b->position_stride, 3 * sizeof(float));
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!is_aligned(arrays[i].address, arrays[i].stride, arrays[i].size))
             return dp_fail(
@@ -105,15 +110,20 @@ dp_result dp_source_from_arrays(const dp_batch *batch, const dp_allocator *alloc
 /* A table whose counts contradict each other cannot be walked safely. */
 static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
     if (!batch->polygon_count) return DP_OK;
-    if (!batch->positions || batch->vertex_count > UINT32_MAX)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "a batch has polygons but no usable positions");
+    if (!batch->positions)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "a batch has polygons but no positions");
+    if (batch->vertex_count > UINT32_MAX)
+        return dp_fail(diag, DP_ERR_LIMIT, "a batch of %zu vertices; %" PRIu32 " are the most",
+                       batch->vertex_count, UINT32_MAX);
     if (dp_times(batch->vertex_count, batch->position_stride) > PTRDIFF_MAX)
         return dp_fail(diag, DP_ERR_ARGUMENT, "%zu vertices %zu bytes apart are beyond any address",
                        batch->vertex_count, batch->position_stride);
     const dp_result misplaced = dp_check_alignment(batch, diag);
     if (misplaced) return misplaced;
     if (!batch->firsts && batch->corner_count / 3 < batch->polygon_count)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "a batch of %zu triangles has only %zu corners",
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "a batch of %zu triangles needs three times as many corners; "
+                       "its corner_count is %zu",
                        batch->polygon_count, batch->corner_count);
     if (!batch->firsts) return DP_OK;
     for (size_t i = 0; i < batch->polygon_count; i++)
@@ -211,6 +221,10 @@ dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) 
     if (!source || !extent)
         return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
     if (source->records.read) return dp_records_extent(source, extent, diag);
+    if (dp_source_rewindable(source)) {
+        const dp_result result = dp_source_rewind(source, diag);
+        if (result) return result;
+    }
     dp_extent sum = {
         {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0, 0, 0, 0};
     for (;;) {
@@ -227,8 +241,6 @@ dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) 
         sum.polygons += batch.polygon_count;
         sum.vertices += batch.vertex_count;
     }
-    if (sum.min[0] > sum.max[0])
-        memset(sum.min, 0, sizeof sum.min), memset(sum.max, 0, sizeof sum.max);
     *extent = sum;
     return dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
 }

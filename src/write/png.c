@@ -155,10 +155,15 @@ static dp_result write_picture(encoder *self, const char *path) {
 
 dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag) {
     if (!path || !picture || !picture->rgba || !picture->width || !picture->height)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_io_write_picture: nothing to write, or nowhere");
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "nothing to write, or nowhere: path or rgba is NULL, or width or height 0");
     if (picture->width > PNG_UINT_31_MAX / 4 || picture->height > PNG_UINT_31_MAX)
         return dp_fail(diag, DP_ERR_LIMIT, "a PNG cannot be %u x %u pixels large", picture->width,
                        picture->height);
+    if (picture->stride && picture->stride < (size_t)4 * picture->width)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "rows are %zu bytes apart, but one of %u pixels takes %zu", picture->stride,
+                       picture->width, (size_t)4 * picture->width);
     encoder self = {.picture = picture};
     const dp_result result = write_picture(&self, path);
     png_destroy_write_struct(&self.png, &self.info);

@@ -90,6 +90,11 @@ static void test_wrong_calls_and_bad_indices(void **state) {
     assert_int_equal(dp_adjacency_indices(&batch, NULL, NULL, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_OK);
     expect_six(six, (const uint32_t[6]){0, 2, 1, 0, 2, 1}); /* the bad one is nobody's neighbour */
+    batch.corner_count = 5;
+    dp_diag diag = {0};
+    assert_int_equal(dp_adjacency_indices(&batch, NULL, six, &diag), DP_ERR_ARGUMENT);
+    assert_non_null(strstr(diag.message, "corner_count is 5"));
+    batch.corner_count = 6;
     batch.firsts = firsts, batch.polygon_count = 1;
     assert_int_equal(dp_adjacency_indices(&batch, NULL, six, NULL), DP_ERR_ARGUMENT);
 }

@@ -81,6 +81,12 @@ static void wrong_cameras_are_refused(void **state) {
                          DP_ERR_ARGUMENT);
     assert_int_equal(dp_camera_orthographic(&camera, 0, 1, 0, 1), DP_ERR_ARGUMENT);
     assert_int_equal(dp_camera_orthographic(&camera, 1, 1, 1, 1), DP_ERR_ARGUMENT);
+    for (int k = 0; k < 3; k++) {
+        dp_fit fit = {.min = {0, 0, 0}, .max = {1, 1, 1}};
+        assert_int_equal(dp_camera_fit(&camera, &fit), DP_OK);
+        fit.min[k] = 2;
+        assert_int_equal(dp_camera_fit(&camera, &fit), DP_ERR_ARGUMENT);
+    }
 }
 
 static void a_fitted_box_is_seen_whole(void **state) {

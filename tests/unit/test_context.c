@@ -266,6 +266,7 @@ static void wrong_arguments_are_told(void **state) {
                                {.passes = 7},
                                {.passes = -1},
                                {.between_offset = -2},
+                               {.edge_map = {.enhanced_count = 5}},
                                {.passes = 1, .ink = DP_INK_QUADS, .between = DP_BETWEEN_PLANE}};
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
         diag = (dp_diag){0};
@@ -446,6 +447,27 @@ static void statistics_and_segments_add_up(void **state) {
     dp_source_destroy(source);
 }
 
+/* What one picture took does not stay in the next one's statistics. */
+static void statistics_are_of_the_last_picture(void **state) {
+    static uint8_t rgba[BYTES];
+    const dp_camera camera = camera_of(2, 1.5, 2.5);
+    const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};
+    const dp_style pencil = {.shade = {.shading = DP_SHADING_PENCIL}};
+    dp_context *context = NULL;
+    dp_source *source = new_shape("torus", NULL);
+    dp_stats stats;
+    (void)state;
+    assert_int_equal(dp_context_create(NULL, &context, NULL), DP_OK);
+    assert_int_equal(dp_draw(context, source, &camera, &pencil, &target, NULL), DP_OK);
+    dp_stats_of(context, &stats);
+    assert_true(stats.curvature_ms > 0);
+    assert_int_equal(dp_draw(context, source, &camera, NULL, &target, NULL), DP_OK);
+    dp_stats_of(context, &stats);
+    assert_true(stats.curvature_ms == 0);
+    dp_context_destroy(context);
+    dp_source_destroy(source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contexts_work_side_by_side),
@@ -458,6 +480,7 @@ int main(void) {
         cmocka_unit_test(planes_are_optional),
         cmocka_unit_test(extreme_sizes),
         cmocka_unit_test(statistics_and_segments_add_up),
+        cmocka_unit_test(statistics_are_of_the_last_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

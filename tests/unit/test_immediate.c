@@ -57,6 +57,25 @@ static void figure_3_draws_what_the_batch_draws(void **state) {
     free(box);
 }
 
+/* The README's example. A triangle alone has borders, which are no silhouettes. */
+static void a_lone_corner_needs_borders(void **state) {
+    const dp_camera camera = scene_flat_camera();
+    (void)state;
+    dp_set_camera(context, &camera);
+    for (int borders = 0; borders < 2; borders++) {
+        const uint32_t lines = DP_SIL_RIDGE_VALLEY | (borders ? DP_BORDER : 0);
+        dp_enable(context, lines);
+        dp_begin(context, DP_TRIANGLES);
+        dp_vertex3f(context, 0, 0, 0);
+        dp_vertex3f(context, 40, 0, 0);
+        dp_vertex3f(context, 0, 40, 0);
+        dp_end(context);
+        dp_disable(context, lines);
+        finish();
+        assert_int_equal(ink() > 100, borders);
+    }
+}
+
 /* A strip of the plane z = 0, 80 x 60, in every kind of primitive: one and the same picture. */
 static void every_kind_of_primitive(void **state) {
     static const float p[6][3] = {{-40, -30, 0}, {-40, 30, 0}, {0, -30, 0},
@@ -380,6 +399,7 @@ static void nothing_is_left_behind(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figure_3_draws_what_the_batch_draws),
+        cmocka_unit_test(a_lone_corner_needs_borders),
         cmocka_unit_test(every_kind_of_primitive),
         cmocka_unit_test(strips_are_wound_consistently),
         cmocka_unit_test(state_holds_at_begin),

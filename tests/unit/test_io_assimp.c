@@ -173,8 +173,10 @@ static void wrong_calls_are_refused(void **state) {
     (void)state;
     assert_int_equal(dp_io_open("/nonexistent.fbx", NULL, &source, &diag), DP_ERR_IO);
     assert_int_equal(dp_io_open(NULL, NULL, &source, &diag), DP_ERR_ARGUMENT);
+    assert_string_equal(diag.message, "dp_io_open: path is NULL");
     assert_int_equal(dp_io_open("x", NULL, NULL, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_io_open_memory(NULL, NULL, &source, &diag), DP_ERR_ARGUMENT);
+    assert_string_equal(diag.message, "dp_io_open_memory: file or its data is NULL");
     assert_int_equal(dp_io_open_memory(&(dp_memory_file){0}, NULL, NULL, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_io_open_memory(&(dp_memory_file){0}, NULL, &source, &diag), DP_ERR_FORMAT);
     const dp_file_options options = {.format = DP_FORMAT_OBJ};

@@ -196,6 +196,9 @@ static void wrong_calls_are_refused(void **state) {
     assert_int_equal(dp_io_write_png(path, painted, 0, 1, 0, &diag), DP_ERR_ARGUMENT);
     assert_int_equal(dp_io_write_png(path, painted, 1, 0, 0, NULL), DP_ERR_ARGUMENT);
     assert_int_equal(dp_io_write_png(path, painted, UINT32_MAX, 1, 0, &diag), DP_ERR_LIMIT);
+    assert_int_equal(dp_io_write_png(path, painted, WIDTH, HEIGHT, 4 * WIDTH - 1, &diag),
+                     DP_ERR_ARGUMENT);
+    assert_non_null(strstr(diag.message, "bytes apart"));
     assert_true(access(path, F_OK) != 0);
 }
 

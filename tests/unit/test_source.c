@@ -68,14 +68,44 @@ static void extent_counts_and_skips_what_is_not_usable(void **state) {
     dp_source_destroy(source);
 }
 
-static void the_extent_of_nothing_is_zero(void **state) {
+/* Deforming meshes: after a drawing the source stands at its end. */
+static void extent_begins_at_the_start(void **state) {
+    static const char *const shapes[] = {"cube", "terrain"};
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        const dp_batch arrays = quad_batch();
+        dp_source *source = NULL;
+        dp_extent fresh, later;
+        dp_batch batch;
+        if (i < 2)
+            assert_int_equal(dp_source_from_shape(&(dp_shape){.name = shapes[i]}, &source, NULL),
+                             DP_OK);
+        else
+            assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);
+        assert_int_equal(dp_source_extent(source, &fresh, NULL), DP_OK);
+        do assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+        while (batch.polygon_count);
+        assert_int_equal(dp_source_extent(source, &later, NULL), DP_OK);
+        assert_memory_equal(&later, &fresh, sizeof fresh);
+        assert_true(fresh.polygons > 0);
+        assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+        assert_true(batch.polygon_count > 0); /* it is left at its start */
+        dp_source_destroy(source);
+    }
+}
+
+static void the_extent_of_nothing_is_no_box(void **state) {
+    dp_camera camera;
+    dp_fit fit = {0};
     (void)state;
     const dp_batch arrays = {0};
     dp_source *source;
     dp_extent extent;
     assert_int_equal(dp_source_from_arrays(&arrays, NULL, &source, NULL), DP_OK);
     assert_int_equal(dp_source_extent(source, &extent, NULL), DP_OK);
-    assert_true(extent.min[0] == 0 && extent.max[0] == 0 && extent.polygons == 0);
+    assert_true(extent.min[0] == INFINITY && extent.max[2] == -INFINITY && extent.polygons == 0);
+    memcpy(fit.min, extent.min, sizeof fit.min), memcpy(fit.max, extent.max, sizeof fit.max);
+    assert_int_equal(dp_camera_fit(&camera, &fit), DP_ERR_ARGUMENT);
     dp_source_destroy(source);
 }
 
@@ -143,7 +173,11 @@ static void tables_that_contradict_themselves_are_refused(void **state) {
         app self = {.batch = bad[i], .left = 1};
         dp_source *const source = open_app(&self);
         dp_batch batch;
-        assert_int_equal(dp_source_next(source, &batch, NULL), DP_ERR_ARGUMENT);
+        dp_diag diag = {0};
+        assert_int_equal(dp_source_next(source, &batch, &diag),
+                         i == 4 ? DP_ERR_LIMIT : DP_ERR_ARGUMENT);
+        if (i == 4) assert_non_null(strstr(diag.message, "4294967296 vertices"));
+        if (i == 0) assert_non_null(strstr(diag.message, "its corner_count is 5"));
         dp_source_destroy(source);
     }
     app self = {.batch = quad_batch(), .left = 1};
@@ -259,6 +293,20 @@ static void what_lies_askew_is_refused(void **state) {
     dp_source_destroy(source);
 }
 
+static void positions_that_overlap_are_refused(void **state) {
+    (void)state;
+    for (size_t stride = 4; stride <= 12; stride += 4) {
+        dp_batch batch = quad_batch();
+        dp_source *source = NULL;
+        dp_diag diag = {0};
+        batch.position_stride = stride;
+        const dp_result result = dp_source_from_arrays(&batch, NULL, &source, &diag);
+        assert_int_equal(result, stride < 12 ? DP_ERR_ARGUMENT : DP_OK);
+        if (result) assert_non_null(strstr(diag.message, "position_stride"));
+        dp_source_destroy(source);
+    }
+}
+
 static void draw(const dp_batch *batch, const dp_style *style, uint8_t *rgba) {
     dp_context *context = NULL;
     dp_source *source = NULL;
@@ -308,7 +356,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(arrays_come_once_per_rewind),
         cmocka_unit_test(extent_counts_and_skips_what_is_not_usable),
-        cmocka_unit_test(the_extent_of_nothing_is_zero),
+        cmocka_unit_test(extent_begins_at_the_start),
+        cmocka_unit_test(the_extent_of_nothing_is_no_box),
+        cmocka_unit_test(positions_that_overlap_are_refused),
         cmocka_unit_test(a_stream_is_read_once_and_destroyed_once),
         cmocka_unit_test(a_failing_stream_always_says_something),
         cmocka_unit_test(tables_that_contradict_themselves_are_refused),
