@@ -42,10 +42,10 @@ typedef struct dp_context_desc {
      * others and return. NULL: the context's own threads. */
     void (*parallel_for)(void *user, uint32_t count, void (*task)(void *arg, uint32_t index),
                          void *arg);
-    /* Called from the drawing thread now and then, fraction in [0, 1], or negative while a source
-     * of unknown length is streamed. It never falls and is 1 when a picture is done, whatever that
-     * takes: several readings, shading, a mirror. A non-zero return stops the drawing with
-     * DP_ERR_CANCELLED. */
+    /* Called from the drawing thread now and then, from reading the source on, fraction in [0, 1],
+     * or negative while a source of unknown length is streamed. A known one never falls and is 1
+     * when a picture is done, whatever that takes: several readings, shading, a mirror. A non-zero
+     * return stops the drawing with DP_ERR_CANCELLED. */
     int (*progress)(void *user, double fraction);
     void *user;
     /* Memory beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. A source that
@@ -90,6 +90,12 @@ typedef struct dp_target {
  * stable batch are drawn from where they lie, whatever their size.
  *
  * style NULL: all defaults. The picture is the same, bit for bit, for any number of threads.
+ *
+ * A call whose own arguments are refused leaves the target as it was. After any other error,
+ * DP_ERR_CANCELLED too, each pixel of each plane holds what it held before or what the picture
+ * would have had at some stage (a surface without its lines, say): nothing to show. What lies
+ * between rows is never written. The context can draw again at once.
+ *
  * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with;
  * DP_ERR_FORMAT when the source held polygons but every one of them had to be dropped; DP_ERR_LIMIT
  * when a picture's samples do not fit into a size_t, which takes one of 32 bits and more than 130

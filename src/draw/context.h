@@ -27,6 +27,7 @@ struct dp_context {
     void *user;
     double share_from, share_to; /* of the drawing's progress that this picture is: 0 to 1, or less
                                     where several make one (mirror.c) */
+    double told;                 /* the last that was told of the drawing, 0 to 1 */
     dp_threads *threads;
     uint32_t workers;
 
@@ -73,7 +74,7 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
 
 /* Tells how far the picture is, 0 to 1, or below 0 where that is not known; DP_ERR_CANCELLED when
  * it is to stop. What is told must not fall (dp_context_desc). */
-dp_result dp_tell_progress(const dp_context *context, double fraction, dp_diag *diag);
+dp_result dp_tell_progress(dp_context *context, double fraction, dp_diag *diag);
 
 /* dp_draw with a mirror; the style is resolved (draw/mirror.c). */
 dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,

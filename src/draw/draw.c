@@ -145,7 +145,8 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
 }
 
 /* Progress when a stage is over; what is read in parts ends at DP_STREAMED instead. */
-static const double BINNED = 0.1, FOUND = 0.8, SHADED = 0.85;
+static const double GATHERED = 0.05, TRANSFORMED = 0.06, PAIRED = 0.08, BINNED = 0.1, FOUND = 0.8,
+                    SHADED = 0.85;
 
 /* A part of a long loop, so that progress can be told between the parts. */
 typedef struct part {
@@ -159,11 +160,12 @@ static void part_task(void *arg, uint32_t index, uint32_t worker) {
     p->task(p->arg, p->first + index, worker);
 }
 
-dp_result dp_tell_progress(const dp_context *c, double fraction, dp_diag *diag) {
+dp_result dp_tell_progress(dp_context *c, double fraction, dp_diag *diag) {
     if (!c->progress) return DP_OK;
     /* min: the sum may be rounded up, and the end is to be met exactly */
     const double done = c->share_from + (c->share_to - c->share_from) * fraction;
     const double told = fraction < 0 ? -1 : fraction >= 1 ? c->share_to : dp_min(done, c->share_to);
+    if (told >= 0) c->told = told;
     if (c->progress(c->user, told)) return dp_fail(diag, DP_ERR_CANCELLED, "drawing was stopped");
     return DP_OK;
 }
@@ -261,6 +263,10 @@ static bool may_stream(const dp_context *c) {
            !(style->stroke.light > 0);
 }
 
+static dp_result tell_gathered(void *arg, double done, dp_diag *diag) {
+    return dp_tell_progress(arg, GATHERED * done, diag);
+}
+
 /* Whether to stream is decided by the source's size where it tells, else while it is gathered. */
 static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag *diag) {
     const dp_style *const style = &c->frame.styles[0];
@@ -268,6 +274,7 @@ static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag
     *streams = may && (dp_stream_is_large(source, c->limit) || (!rewindable && style->passes == 1));
     if (*streams) return DP_OK;
     c->polygons.limit = may ? c->limit : 0;
+    c->polygons.tell = tell_gathered, c->polygons.tell_arg = c;
     const dp_result result =
         dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
     if (!result || !c->polygons.is_beyond) return result;
@@ -279,6 +286,7 @@ static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag
             c->limit >> 20);
     dp_polygon_store_free(&c->polygons, &c->memory);
     c->stats = (dp_stats){0};
+    c->share_from = dp_max(c->share_from, c->told); /* progress goes on from there */
     *streams = true;
     return DP_OK;
 }
@@ -297,6 +305,20 @@ static dp_result stream_lines(dp_context *c, dp_source *source, double *since, d
     lap(&c->stats, DP_STAGE_TILES, since);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->finders[i].tile.stats);
     return check_dropped(&c->stats, diag);
+}
+
+static dp_result place_vertices(dp_context *c, dp_diag *diag) {
+    dp_frame *const f = &c->frame;
+    if (!dp_reserve(&c->memory, &f->vertices, &f->vertices_cap, f->polygons.vertex_count,
+                    sizeof *f->vertices))
+        return out_of_memory(diag);
+    dp_transform_vertices(f);
+    dp_find_tolerances(f);
+    dp_result result = dp_tell_progress(c, TRANSFORMED, diag);
+    if (!result && f->styles[0].edges == DP_EDGES_ADJACENCY)
+        result = find_adjacency(c) ? dp_tell_progress(c, PAIRED, diag) : out_of_memory(diag);
+    if (!result && is_polar(f)) dp_find_centre(f);
+    return result;
 }
 
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
@@ -319,18 +341,14 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
         c->shade.gbuffer.normals = &c->normals.packed;
     }
     lap(&c->stats, DP_STAGE_GATHER, since);
-    if (!dp_reserve(&c->memory, &f->vertices, &f->vertices_cap, f->polygons.vertex_count,
-                    sizeof *f->vertices))
-        return out_of_memory(diag);
-    dp_transform_vertices(f);
-    dp_find_tolerances(f);
-    if (f->styles[0].edges == DP_EDGES_ADJACENCY && !find_adjacency(c)) return out_of_memory(diag);
-    if (is_polar(f)) dp_find_centre(f);
+    if ((result = dp_tell_progress(c, GATHERED, diag))) return result;
+    if ((result = place_vertices(c, diag))) return result;
     lap(&c->stats, DP_STAGE_VERTICES, since);
     if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, diag))) return result;
+    if ((result = dp_tell_progress(c, BINNED, diag))) return result;
     if (!begin_paint(c)) return out_of_memory(diag);
     if ((result = for_tiles(c, find_tile, c, BINNED, FOUND, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
@@ -394,7 +412,9 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
 }
 
 static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+    const double from = c->share_from;
     const dp_result result = draw_stages(c, source, diag);
+    c->share_from = from;
     dp_stream_free(c->stream);
     c->stream = NULL;
     return result;
@@ -402,6 +422,7 @@ static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
 
 void dp_forget_drawing(dp_context *c) {
     c->drawn = false;
+    c->told = 0;
     c->drawing.count = 0;
     c->drawing.chained = false;
 }

@@ -6,6 +6,7 @@
 #include "mesh/polygons.h"
 
 #include "base/diag.h"
+#include "base/hostile.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +18,29 @@ typedef struct gatherer {
     dp_diag *diag;
     bool has_firsts, has_flags, has_groups, has_source, has_colors;
     uint64_t handed_out; /* polygons of earlier batches */
+    size_t only;         /* polygons of a source of one batch; 0: not known */
 } gatherer;
+
+/* Polygons between two reports. */
+enum { STEP = DP_TUNED(1 << 16, 64) };
+
+/* A source of one batch is checked first, and stored where that finds something. How long others
+ * are is not known: reports come ever closer to the end. */
+static const double CHECKED = 0.2, MANY = 1 << 20;
+
+static dp_result tell(gatherer *g, double done) {
+    return g->store->tell ? g->store->tell(g->store->tell_arg, done, g->diag) : DP_OK;
+}
+
+static dp_result tell_checked(gatherer *g, size_t i) {
+    return i && i % STEP == 0 ? tell(g, CHECKED * (double)i / (double)g->only) : DP_OK;
+}
+
+static dp_result tell_stored(gatherer *g, size_t i) {
+    const double sum = (double)g->handed_out + (double)i;
+    if (!sum || fmod(sum, STEP) != 0) return DP_OK;
+    return tell(g, g->only ? CHECKED + (1 - CHECKED) * sum / (double)g->only : sum / (sum + MANY));
+}
 
 static const dp_array arrays[] = {DP_ARRAY(dp_polygon_store, positions, positions_cap),
                                   DP_ARRAY(dp_polygon_store, corners, corners_cap),
@@ -73,7 +96,7 @@ static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
     if (batch->corner_count > UINT32_MAX) return false;
     for (size_t i = 0; i < batch->polygon_count; i++) {
         const size_t n = batch->firsts[i + 1] - batch->firsts[i];
-        if (n < 3) return false;
+        if ((*result = tell_checked(g, i)) || n < 3) return false;
         if (n == 3) continue;
         if (!dp_split_scratch_reserve(&g->store->scratch, n, g->memory)) {
             *result = out_of_memory(g);
@@ -225,7 +248,8 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     s->vertices += batch->vertex_count;
     if (batch->groups) g->has_groups = true;
     for (size_t i = 0; i < batch->polygon_count; i++) {
-        const dp_result result = append_polygon(g, batch, i, (uint32_t)base);
+        dp_result result = tell_stored(g, i);
+        if (!result) result = append_polygon(g, batch, i, (uint32_t)base);
         if (result) return result;
     }
     g->handed_out += batch->polygon_count;
@@ -267,6 +291,7 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
     if (stable) {
         const dp_batch first = batch;
         if ((result = dp_source_next(source, &next, g->diag))) return result;
+        if (!next.polygon_count) g->only = first.polygon_count;
         if (!next.polygon_count && is_sound(g, &first, &result)) {
             use_as_is(&first, out, g->stats);
             return DP_OK;

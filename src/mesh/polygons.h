@@ -59,6 +59,10 @@ typedef struct dp_polygon_store {
     size_t vertices, corner_count, polygons;
     size_t limit;   /* bytes that these arrays and the stages' memory may take; 0: any number */
     bool is_beyond; /* they would have taken more */
+    /* Hears how much of the source is read, 0 to 1, rising; an error of its own ends dp_gather. NULL
+     * allowed. */
+    dp_result (*tell)(void *arg, double done, dp_diag *diag);
+    void *tell_arg;
     dp_attribute_store normals, texcoords;
 } dp_polygon_store;
 

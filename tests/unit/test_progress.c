@@ -24,7 +24,8 @@ static uint8_t rgba[4 * PIXELS], expected[4 * PIXELS], edge_map[4 * PIXELS];
 static float eye_normal[3 * PIXELS];
 
 typedef struct told {
-    double last;     /* -1: not known yet */
+    double last;     /* -1: not known */
+    double known;    /* the last one that was */
     int calls, rest; /* rest: calls where it stood still */
     int stop_at;     /* 0: never */
     bool fell, outside;
@@ -32,7 +33,8 @@ typedef struct told {
 
 static int listen(void *user, double fraction) {
     told *const t = user;
-    t->fell |= t->last >= 0 && fraction < t->last;
+    t->fell |= fraction >= 0 && fraction < t->known;
+    if (fraction >= 0) t->known = fraction;
     t->outside |= fraction > 1 || fraction != fraction;
     t->rest += fraction >= 0 && fraction == t->last;
     t->last = fraction < 0 ? -1 : fraction;
@@ -209,10 +211,92 @@ static void streamed(void **state) {
     }
 }
 
+/* Many batches, all of one triangle again and again. */
+enum { BATCH = DP_TUNED(5000, 50), BATCHES = 100 };
+typedef struct long_source {
+    float at[9 * BATCH];
+    int given;
+} long_source;
+
+static dp_result next_long(void *user, dp_batch *batch, dp_diag *diag) {
+    long_source *const s = user;
+    (void)diag;
+    if (s->given < BATCHES)
+        *batch = (dp_batch){.positions = s->at,
+                            .vertex_count = 3 * BATCH,
+                            .corner_count = 3 * BATCH,
+                            .polygon_count = BATCH};
+    s->given++;
+    return DP_OK;
+}
+static dp_result rewind_long(void *user, dp_diag *diag) {
+    (void)diag;
+    ((long_source *)user)->given = 0;
+    return DP_OK;
+}
+
+/* Reading is stopped, too, and nothing is drawn then. */
+static void reading_tells_progress(void **state) {
+    static long_source self;
+    static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const dp_source_callbacks callbacks = {.user = &self, .next = next_long, .rewind = rewind_long};
+    told t = {.last = -1};
+    const dp_context_desc desc = {.threads = 1, .progress = listen, .user = &t};
+    dp_context *context = NULL;
+    dp_source *source = NULL;
+    dp_camera camera;
+    (void)state;
+    for (int i = 0; i < 9 * BATCH; i++) self.at[i] = triangle[i % 9];
+    assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+    assert_int_equal(dp_camera_fit(&camera, &(dp_fit){.max = {1, 1, 0}}), DP_OK);
+    const mode m = {.name = "many batches"};
+    assert_int_equal(draw(context, source, &camera, &m), DP_OK);
+    expect_forward(&m, &t);
+    for (int stop = 1; stop <= 2; stop++) {
+        t = (told){.last = -1, .stop_at = stop};
+        assert_int_equal(draw(context, source, &camera, &m), DP_ERR_CANCELLED);
+        assert_true(self.given < BATCHES / 2);
+        for (size_t i = 0; i < sizeof rgba; i++) assert_int_equal(rgba[i], 0);
+    }
+    dp_context_destroy(context);
+    dp_source_destroy(source);
+}
+
+/* Of a target only pixels are written, also when the drawing is stopped. */
+static void between_rows_nothing_is_written(void **state) {
+    enum { W = 130, H = 70, STRIDE = 4 * W + 9 };
+    static uint8_t padded[STRIDE * H];
+    const dp_target target = {.width = W, .height = H, .rgba = padded, .rgba_stride = STRIDE};
+    told t = {.last = -1};
+    const dp_context_desc desc = {.threads = 2, .progress = listen, .user = &t};
+    dp_context *context = NULL;
+    dp_camera camera;
+    const mode m = {.name = "padded"};
+    dp_source *const source = new_source(&m, &camera);
+    (void)state;
+    assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+    for (int stop = 1;; stop++) {
+        t = (told){.last = -1, .stop_at = stop};
+        memset(padded, 0xa5, sizeof padded);
+        const dp_result result = dp_draw(context, source, &camera, &m.style, &target, NULL);
+        for (size_t i = 0; i < sizeof padded; i++)
+            if (i % STRIDE >= (size_t)4 * W) assert_int_equal(padded[i], 0xa5);
+        if (!result) break;
+        assert_int_equal(result, DP_ERR_CANCELLED);
+    }
+    dp_context_destroy(context);
+    dp_source_destroy(source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_and_quads), cmocka_unit_test(every_shading),
-        cmocka_unit_test(edge_maps),       cmocka_unit_test(mirrors),
+        cmocka_unit_test(reading_tells_progress),
+        cmocka_unit_test(between_rows_nothing_is_written),
+        cmocka_unit_test(lines_and_quads),
+        cmocka_unit_test(every_shading),
+        cmocka_unit_test(edge_maps),
+        cmocka_unit_test(mirrors),
         cmocka_unit_test(streamed),
     };
     temporary_name(path, sizeof path, "progress");
