@@ -116,10 +116,9 @@ static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_dropped(&d->stats);
     if (!s->quiet) warn_lost(&d->stats);
     if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
-    if (s->stats == STATS_JSON)
-        print_stats_json(is_standard(s->output) || is_standard(s->outputs[OUTPUT_TRACE]) ? stderr
-                                                                                         : stdout,
-                         &d->stats, &d->target);
+    bool taken = is_standard(s->output);
+    for (int k = 0; k < OUTPUT_COUNT; k++) taken |= is_standard(s->outputs[k]);
+    if (s->stats == STATS_JSON) print_stats_json(taken ? stderr : stdout, &d->stats, &d->target);
 }
 
 static int run(const tool_settings *s, drawing *d) {

@@ -22,7 +22,7 @@ const option option_table[] = {
     {"output", 'o', "FILE or NAME=FILE", OPTION_OUTPUT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
      "Where the result goes: FILE.png for a drawing; FILE.ply, .stl or .obj for a model. An old file "
      "stays until the new one is whole. - is standard output (a PNG, or a PLY). NAME=FILE.png, once for each "
-     "NAME, writes what shading and edges are made from beside the drawing: edge-map (inner edges in RGB, "
+     "NAME, writes what shading and edges are made from, beside the drawing or alone: edge-map (inner edges in RGB, "
      "profile edges in A), normals, depth, id. trace=FILE writes the visible lines as text: chains of segments, "
      "with their edges and what ends them."},
     {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent",

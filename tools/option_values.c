@@ -165,6 +165,16 @@ static bool unknown_output(const char *value, size_t length) {
                        name, output_names[best], value);
 }
 
+/* One run draws one picture. */
+static bool store_file(const char *file, const char *what, const char **to) {
+    if (*to)
+        return wrong_usage("--output: there is one %s at a time: \"%s\" comes after \"%s\"; leave "
+                           "one out, or run it twice",
+                           what, file, *to);
+    *to = file;
+    return true;
+}
+
 /* Stores NAME=FILE under its name, anything else as the picture's file. */
 static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
@@ -173,14 +183,13 @@ static bool store_output(const char *value, tool_settings *settings) {
         if (!value[length + 1])
             return wrong_usage("--output %s: a file is missing; give %sFILE%s", value, value,
                                k < PLANE_COUNT ? ".png" : "");
-        settings->outputs[k] = value + length + 1;
         settings->wants_edge_map |= k == PLANE_EDGE_MAP;
-        return true;
+        return store_file(value + length + 1, output_names[k], &settings->outputs[k]);
     }
     if (value[length] && length && strspn(value, "abcdefghijklmnopqrstuvwxyz-") == length)
         return unknown_output(value, length);
-    settings->output = value;
-    return true;
+    return store_file(value, settings->command == COMMAND_MAKE ? "model" : "picture",
+                      &settings->output);
 }
 
 static bool store_size(const option *o, const char *value, uint32_t to[2]) {
@@ -316,6 +325,10 @@ static bool store_classes(const option *o, const char *value, dp_style *style) {
             if (line == DP_LINE_COUNT) return false;
             set = 1u << line;
             at = equals + 1;
+        } else if (at != value) { /* it would undo what comes before it */
+            return wrong_usage("--%s: only the first value can be for all classes; say which class "
+                               "\"%.*s\" is for, as in ridge=%.*s",
+                               o->name, (int)(end - at), at, (int)(end - at), at);
         }
         if (!store_one(o, at, end, set, style)) return false;
         if (!*end) return true;

@@ -140,13 +140,17 @@ static bool check_present(const tool_settings *s) {
         return wrong_usage("no %s given; usage: drypoint %s%s%s",
                            s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,
                            text->arguments);
-    const bool traces = s->command == COMMAND_DRAW && s->outputs[OUTPUT_TRACE];
-    if (!s->output && !traces && (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
+    int outputs = s->output != NULL, standard = s->output && !strcmp(s->output, "-");
+    for (int k = 0; k < OUTPUT_COUNT; k++) {
+        outputs += s->outputs[k] != NULL;
+        standard += s->outputs[k] && !strcmp(s->outputs[k], "-");
+    }
+    if (!s->output && (!outputs || s->command == COMMAND_MAKE) &&
+        (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
         return wrong_usage("no output given; add -o %s",
                            s->command == COMMAND_DRAW ? "OUT.png" : "OUT.ply");
-    const bool both = traces && s->output && !strcmp(s->outputs[OUTPUT_TRACE], "-");
-    if (both && !strcmp(s->output, "-"))
-        return wrong_usage("picture and trace cannot both go to standard output; give one a file");
+    if (standard > 1)
+        return wrong_usage("only one output can go to standard output; give the others files");
     return true;
 }
 

@@ -653,6 +653,35 @@ outputs_beside() {
     run 0 shape:gear -o ./a=b.png --size 60x40
     is_png ./a=b.png
 }
+# A plane without the picture; and one picture at a time.
+planes_alone() {
+    run 0 shape:cube $small -o depth=both.png -o out.png
+    rm out.png
+    run 0 shape:cube $small -o depth=depth.png
+    silent out
+    silent err
+    absent out.png
+    cmp -s depth.png both.png || fail "the picture changes the depth"
+    run 0 shape:cube $small -o depth=- --stats=json
+    cmp -s depth.png out || fail "standard output differs"
+    says err '"frame_ms"'
+    run 0 shape:cube $small -o edge-map=map.png
+    is_png map.png
+    wrong shape:cube -o depth=- -o id=- -- 'only one output can go to standard output'
+    wrong shape:cube -o a.png -o b.png -- 'one picture at a time: "b.png" comes after "a.png"'
+    wrong shape:cube -o depth=a.png -o depth=b.png -- 'one depth at a time'
+    wrong make cube -o a.ply -o b.ply -- 'one model at a time'
+    absent a.png
+    absent b.png
+}
+# The value for all classes comes first, or would undo the others.
+widths_of_classes() {
+    run 0 shape:cube $small -o first.png --width 3,ridge=1
+    run 0 shape:cube $small -o each.png --width silhouette=3,valley=3,intersection=3,border=3,ridge=1
+    cmp -s first.png each.png || fail "the classes' widths differ"
+    wrong shape:cube -o out.png --width 2,3 -- 'only the first value can be for all classes'
+    wrong shape:cube -o out.png --color 'ridge=#FF0000,#00FF00' -- 'which class "#00FF00" is for'
+}
 # The lines as text: alone, beside a picture, to standard output; and no half a file.
 traces() {
     run 0 shape:cube $small -o trace=alone.txt
@@ -802,7 +831,7 @@ absurd_thresholds() {
     done
 }
 
-tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
+tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
