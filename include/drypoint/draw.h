@@ -96,7 +96,8 @@ typedef struct dp_target {
  * would have had at some stage (a surface without its lines, say): nothing to show. What lies
  * between rows is never written. The context can draw again at once.
  *
- * DP_ERR_ARGUMENT, DP_ERR_MEMORY, DP_ERR_CANCELLED, whatever the source fails with;
+ * DP_ERR_ARGUMENT, DP_ERR_MEMORY (the message says how much was asked for last, and what the context
+ * holds), DP_ERR_CANCELLED, whatever the source fails with;
  * DP_ERR_FORMAT when the source held polygons but every one of them had to be dropped; DP_ERR_LIMIT
  * when a picture's samples do not fit into a size_t, which takes one of 32 bits and more than 130
  * million pixels. */

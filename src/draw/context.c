@@ -9,6 +9,29 @@
 
 #include "base/diag.h"
 
+#include <stdio.h>
+#include <string.h>
+
+static void *noted(dp_context *c, void *block, size_t size) {
+    if (!block) atomic_store(&c->refused, size);
+    return block;
+}
+
+static void *pass_alloc(size_t size, void *user) {
+    dp_context *const c = user;
+    return noted(c, c->given.alloc(size, c->given.user), size);
+}
+
+static void *pass_realloc(void *block, size_t size, void *user) {
+    dp_context *const c = user;
+    return noted(c, c->given.realloc(block, size, c->given.user), size);
+}
+
+static void pass_free(void *block, void *user) {
+    const dp_context *const c = user;
+    c->given.free(block, c->given.user);
+}
+
 /* One of each for every worker. */
 static bool make_workers(dp_context *c) {
     const dp_allocator *const memory = &c->memory;
@@ -56,12 +79,13 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     const dp_allocator memory = dp_allocator_resolve(d.allocator);
     dp_context *const c = dp_alloc_zeroed(&memory, sizeof *c);
     if (!c) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
-    c->memory = memory;
+    c->given = memory;
+    c->memory = (dp_allocator){pass_alloc, pass_realloc, pass_free, c};
     c->limit = d.memory ? d.memory : DP_MEMORY_DEFAULT;
     c->progress = d.progress;
     c->share_to = 1;
     c->user = d.user;
-    c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &memory);
+    c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &c->memory);
     if (!c->threads || !make_workers(c)) {
         dp_context_destroy(c);
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
@@ -84,6 +108,17 @@ void dp_context_destroy(dp_context *c) {
     dp_mirror_store_free(&c->mirror, &memory);
     dp_recording_free(c->recording, &memory);
     dp_free(&memory, c);
+}
+
+dp_result dp_context_settle(dp_context *c, dp_result result, dp_diag *diag) {
+    const size_t refused = atomic_exchange(&c->refused, 0);
+    c->stats.bytes = dp_context_bytes(c);
+    if (result != DP_ERR_MEMORY || !diag || !refused) return result;
+    const size_t length = strlen(diag->message);
+    snprintf(diag->message + length, sizeof diag->message - length,
+             ": %zu bytes were asked for in vain; the context holds %llu", refused,
+             (unsigned long long)c->stats.bytes);
+    return result;
 }
 
 uint64_t dp_context_bytes(const dp_context *c) {

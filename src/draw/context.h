@@ -11,6 +11,8 @@
 #include "sink/raster.h"
 #include "stream/stream.h"
 
+#include <stdatomic.h>
+
 typedef struct dp_recording dp_recording; /* immediate.c */
 
 /* A mirror's own memory (mirror.c). Zero is empty. */
@@ -22,7 +24,9 @@ typedef struct dp_mirror_store {
 } dp_mirror_store;
 
 struct dp_context {
-    dp_allocator memory;
+    dp_allocator memory;   /* passes all on to … */
+    dp_allocator given;    /* … the application's, and keeps … */
+    atomic_size_t refused; /* … the size of what it refused last, bytes; 0: nothing */
     int (*progress)(void *user, double fraction);
     void *user;
     double share_from, share_to; /* of the drawing's progress that this picture is: 0 to 1, or less
@@ -57,6 +61,10 @@ struct dp_context {
 /* What the allocator has given to the context and not got back; between dp_draw's stages
  * (context.c). */
 uint64_t dp_context_bytes(const dp_context *context);
+
+/* Ends dp_draw or dp_finish: counts the memory, and says in a message that it is out how much was
+ * asked for. Returns the result. */
+dp_result dp_context_settle(dp_context *context, dp_result result, dp_diag *diag);
 
 /* dp_draw with one resolved style per group; what holds for the whole picture comes from
  * styles[0]. */

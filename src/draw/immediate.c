@@ -441,7 +441,7 @@ dp_result dp_finish(dp_context *context, const dp_target *target, dp_diag *diag)
     dp_forget_drawing(context);
     dp_result result = check_finish(context, target, diag);
     if (!result) result = draw_recorded(context, target, diag);
-    context->stats.bytes = dp_context_bytes(context);
+    dp_context_settle(context, result, diag);
     context->recording_lost = false;
     dp_recording *const r = context->recording;
     if (!r) return result;

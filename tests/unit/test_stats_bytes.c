@@ -376,8 +376,11 @@ static void starved(const char *what, const dp_style *style, size_t limit) {
         b.is_alone = false;
         atomic_store(&b.memory.calls, 0);
         atomic_store(&b.memory.fail_at, at);
-        result = dp_draw(b.context, source, &camera, style, &colours, NULL);
+        dp_diag diag = {0};
+        result = dp_draw(b.context, source, &camera, style, &colours, &diag);
         check(&b, "out of memory");
+        if (result == DP_ERR_MEMORY && !strstr(diag.message, " bytes were asked for in vain"))
+            fail_msg("%s: \"%s\"", what, diag.message);
         atomic_store(&b.memory.fail_at, 0);
         assert_int_equal(dp_draw(b.context, source, &camera, style, &colours, NULL), DP_OK);
         check(&b, "there is memory again");
