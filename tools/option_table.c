@@ -218,7 +218,7 @@ const option option_table[] = {
 
     {"frames", 0, "N", OPTION_COUNT, GROUP_PROGRAM, BENCH, AT(frames), 0, 1, 1000000,
      "Frames to time, after one that is not counted. Default: 10."},
-    {"threads", 0, "N", OPTION_COUNT, GROUP_PROGRAM, PICTURE, AT(threads), 0, 1, 1024,
+    {"threads", 0, "N", OPTION_COUNT, GROUP_PROGRAM, PICTURE, AT(threads), 0, 1, 256,
      "Threads that draw. The picture is the same for any number. Default: one per processor."},
     {"memory", 0, "SIZE", OPTION_BYTES, GROUP_PROGRAM, PICTURE, AT(memory), 0, 48.0 * (1 << 20), 1e15,
      "Memory beyond the picture's own: bytes, or a number with K, M or G. A model that does not fit is "

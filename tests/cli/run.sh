@@ -272,6 +272,7 @@ wrong_values() {
     done
     wrong shape:cube --samples 3 -o out.png -- '1|4|8|16'
     wrong shape:cube --threads 0 -o out.png -- '--threads: '
+    wrong shape:cube --threads 257 -o out.png -- 'give 1 to 256'
     wrong shape:cube --elevation 91 -o out.png -- '--elevation: '
     wrong shape:cube --ridge-angle 360 -o out.png -- '--ridge-angle: '
     wrong shape:cube --stats=xml -o out.png -- '--stats: '
