@@ -524,6 +524,24 @@ interrupt() {
     code=0
     timeout --preserve-status -s "$signal" "$seconds" "$program" "$@" >out 2>err </dev/null || code=$?
 }
+# A polygon of 100,000 corners takes a second at the most, and would take hours if all corners were looked at for
+# each; the time limit is for sanitizers.
+many_corners() {
+    awk 'BEGIN { n = 100000
+        for (i = 0; i < n; i++) {
+            t = 6.283185307179586 * i / n
+            r = 1 + 0.1 * sin(7 * t) + 0.05 * sin(61 * t) + 0.01 * sin(997 * t) + i % 2 * 0.002
+            printf "v %.9g %.9g 0\n", r * cos(t), r * sin(t)
+        }
+        printf "f"
+        for (i = 1; i <= n; i++) printf " %d", i
+        print "" }' >coast.obj
+    interrupt TERM 60 coast.obj -o out.png --stats=json
+    [ "$code" = 0 ] || fail "exit code $code: $(head -c 400 err)"
+    says out '"triangles": 99998'
+    says out '"dropped": 0'
+    is_png out.png
+}
 interrupted() {
     echo old >out.png
     interrupt INT 0.7 shape:terrain:60000000 -o out.png
@@ -835,7 +853,7 @@ absurd_thresholds() {
 tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
     views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
-    cut_files huge_counts dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
+    cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
 
 for test in $tests; do
