@@ -15,6 +15,8 @@ int command_bench(const tool_settings *s);
 int open_model(const tool_settings *s, dp_source **out);
 /* The model's extent. 0, or the exit code after a message, also when there is nothing to see. */
 int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent);
+/* Warns if the model lies so far from 0 that its float32 coordinates no longer tell its shape. */
+void warn_coarse(const tool_settings *s, const dp_extent *extent);
 
 /* The camera of the settings, for a model of that extent. 0, or the exit code after a message. */
 int make_camera(const tool_settings *s, const dp_extent *extent, dp_camera *camera);

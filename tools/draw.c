@@ -125,6 +125,7 @@ static int run(const tool_settings *s, drawing *d) {
     dp_extent extent;
     int code = open_model(s, &d->source);
     if (!code) code = measure_model(s, d->source, &extent);
+    if (!code) warn_coarse(s, &extent);
     if (!code) code = draw(s, d, &extent);
     if (!code) code = planes_write(s, &d->target);
     if (!code) code = write_trace(s, d);

@@ -143,13 +143,14 @@ static bool sound(const dp_batch *batch, size_t first, size_t last, edge_counts 
 
 static bool add_polygon(table *t, const dp_batch *batch, size_t first, size_t last,
                         dp_extent *extent) {
+    const double *const o = batch->origin;
     uint64_t before = position_hash(corner(batch, last - 1));
     for (size_t c = first; c < last; c++) {
         const float *const p = corner(batch, c);
         const uint64_t here = position_hash(p);
         for (int k = 0; k < 3; k++) {
-            extent->min[k] = fminf(extent->min[k], p[k]);
-            extent->max[k] = fmaxf(extent->max[k], p[k]);
+            extent->exact_min[k] = fmin(extent->exact_min[k], o[k] + (double)p[k]);
+            extent->exact_max[k] = fmax(extent->exact_max[k], o[k] + (double)p[k]);
         }
         if (here != before && !add_edge(t, edge_key(before, here))) return false;
         before = here;
@@ -189,11 +190,12 @@ static dp_result add_source(table *t, dp_source *source, dp_extent *extent, edge
 dp_result count_edges(dp_source *source, dp_extent *extent, edge_counts *counts, dp_diag *diag) {
     table t = {0};
     *counts = (edge_counts){0};
-    *extent = (dp_extent){.min = {INFINITY, INFINITY, INFINITY},
-                          .max = {-INFINITY, -INFINITY, -INFINITY}};
+    *extent = (dp_extent){.exact_min = {INFINITY, INFINITY, INFINITY},
+                          .exact_max = {-INFINITY, -INFINITY, -INFINITY}};
     const dp_result result = add_source(&t, source, extent, counts, diag);
-    if (extent->min[0] > extent->max[0])
-        memset(extent->min, 0, sizeof extent->min), memset(extent->max, 0, sizeof extent->max);
+    if (extent->exact_min[0] > extent->exact_max[0])
+        memset(extent->exact_min, 0, sizeof extent->exact_min),
+            memset(extent->exact_max, 0, sizeof extent->exact_max);
     for (size_t k = 0; k < t.size; k++) {
         counts->open += t.slots[k].count == 1;
         counts->crowded += t.slots[k].count > 2;

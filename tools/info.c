@@ -4,6 +4,7 @@
 #include "progress.h"
 #include "report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,14 +47,31 @@ static void fill_lines(const dp_extent *e, const edge_counts *edges, line lines[
     memcpy(lines, filled, sizeof filled);
 }
 
+/* Digits of a coordinate: those of a float32, or, where there is more to tell, as many as its
+ * positions have about their origin. */
+static int digits_of(double v, double spacing) {
+    if (v == (double)(float)v || !(spacing > 0)) return 9;
+    const double digits = floor(log10(fabs(v))) + 1 + floor(-log10(spacing));
+    return (int)fmin(fmax(digits, 9), 17);
+}
+
+static void print_place(const char *before, const char *between, const char *after,
+                        const double p[3], double spacing) {
+    fputs(before, stdout);
+    for (int k = 0; k < 3; k++) printf("%s%.*g", k ? between : "", digits_of(p[k], spacing), p[k]);
+    fputs(after, stdout);
+}
+
 static void print_table(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
     printf("%-32s %s\n", "model", s->model);
     for (int k = 0; k < LINES; k++)
         printf("%-32s %llu\n", lines[k].text, (unsigned long long)lines[k].value);
-    printf("%-32s %.9g %.9g %.9g\n", "bounds from", e->min[0], e->min[1], e->min[2]);
-    printf("%-32s %.9g %.9g %.9g\n", "bounds to", e->max[0], e->max[1], e->max[2]);
-    printf("%-32s %.9g x %.9g x %.9g\n", "size", (double)e->max[0] - e->min[0],
-           (double)e->max[1] - e->min[1], (double)e->max[2] - e->min[2]);
+    printf("%-32s ", "bounds from");
+    print_place("", " ", "\n", e->exact_min, e->spacing);
+    printf("%-32s ", "bounds to");
+    print_place("", " ", "\n", e->exact_max, e->spacing);
+    printf("%-32s %.9g x %.9g x %.9g\n", "size", e->exact_max[0] - e->exact_min[0],
+           e->exact_max[1] - e->exact_min[1], e->exact_max[2] - e->exact_min[2]);
 }
 
 static void print_json(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
@@ -61,16 +79,17 @@ static void print_json(const tool_settings *s, const dp_extent *e, const line li
     json_string(stdout, s->model);
     for (int k = 0; k < LINES; k++)
         printf(", \"%s\": %llu", lines[k].key, (unsigned long long)lines[k].value);
-    printf(", \"min\": [%.9g, %.9g, %.9g]", e->min[0], e->min[1], e->min[2]);
-    printf(", \"max\": [%.9g, %.9g, %.9g]}\n", e->max[0], e->max[1], e->max[2]);
+    print_place(", \"min\": [", ", ", "]", e->exact_min, e->spacing);
+    print_place(", \"max\": [", ", ", "]}\n", e->exact_max, e->spacing);
 }
 
 static int inspect(const tool_settings *s, dp_source *source) {
-    dp_extent extent;
+    dp_extent extent, measured;
     edge_counts edges;
     dp_diag diag = {0};
     progress_begin("counting edges", s->quiet);
-    const dp_result result = count_edges(source, &extent, &edges, &diag);
+    dp_result result = dp_source_extent(source, &measured, &diag);
+    if (!result) result = count_edges(source, &extent, &edges, &diag);
     progress_end();
     if (result) {
         report_failure(s->model, &diag);
@@ -83,6 +102,8 @@ static int inspect(const tool_settings *s, dp_source *source) {
     const char *const remark = dp_source_remark(source);
     if (remark && !s->quiet) warn("%s", remark);
     line lines[LINES];
+    warn_coarse(s, &measured);
+    extent.spacing = measured.spacing;
     fill_lines(&extent, &edges, lines);
     if (s->json)
         print_json(s, &extent, lines);

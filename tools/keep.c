@@ -15,6 +15,7 @@ typedef struct kept {
     uint8_t *flags;
     size_t positions_room, indices_room, firsts_room, flags_room;
     size_t vertices, corners, polygons;
+    double origin[3]; /* of the first batch */
     bool flagged, handed_out;
     char remark[160]; /* of the source, or "" */
 } kept;
@@ -43,9 +44,14 @@ static bool make_room(kept *k, const dp_batch *b) {
 
 static bool add(kept *k, const dp_batch *b) {
     if (!make_room(k, b)) return false;
-    for (size_t v = 0; v < b->vertex_count; v++)
-        memcpy(k->positions[k->vertices + v], (const char *)b->positions + v * b->position_stride,
-               sizeof *k->positions);
+    if (!k->polygons) memcpy(k->origin, b->origin, sizeof k->origin);
+    for (size_t v = 0; v < b->vertex_count; v++) {
+        float *const p = k->positions[k->vertices + v];
+        memcpy(p, (const char *)b->positions + v * b->position_stride, sizeof *k->positions);
+        for (int i = 0; i < 3; i++)
+            if (b->origin[i] != k->origin[i])
+                p[i] = (float)((double)p[i] + (b->origin[i] - k->origin[i]));
+    }
     for (size_t c = 0; c < b->corner_count; c++) {
         const uint32_t v = b->indices ? b->indices[c] : (uint32_t)c;
         const bool there = v < b->vertex_count; /* a bad index must stay bad */
@@ -74,7 +80,8 @@ static dp_result kept_next(void *user, dp_batch *batch, dp_diag *diag) {
                             .firsts = k->firsts,
                             .polygon_count = k->polygons,
                             .edge_flags = k->flagged ? k->flags : NULL,
-                            .stable = true};
+                            .stable = true,
+                            .origin = {k->origin[0], k->origin[1], k->origin[2]}};
     k->handed_out = true;
     return DP_OK;
 }

@@ -168,7 +168,24 @@ int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_sty
 /* ---- --mirror ---- */
 
 static void corner_of(const dp_extent *e, int i, double p[3]) {
-    for (int k = 0; k < 3; k++) p[k] = (double)(i >> k & 1 ? e->max[k] : e->min[k]);
+    for (int k = 0; k < 3; k++) p[k] = i >> k & 1 ? e->exact_max[k] : e->exact_min[k];
+}
+
+/* Rounds a coordinate as the model's positions are: to float32 from 0, or, where its box is as far
+ * from there as 8 times its size, from the box. */
+static double as_position(const dp_extent *e, int axis, double at) {
+    const double from = e->exact_min[axis], size = e->exact_max[axis] - from;
+    const double origin = fabs(from) > 8 * size ? from : 0;
+    return origin + (double)(float)(at - origin);
+}
+
+/* Takes a coordinate into the box. */
+static void widen(dp_extent *e, int axis, double at) {
+    const float near = (float)at;
+    e->exact_min[axis] = fmin(e->exact_min[axis], at);
+    e->exact_max[axis] = fmax(e->exact_max[axis], at);
+    e->min[axis] = fminf(e->min[axis], (double)near > at ? nextafterf(near, -INFINITY) : near);
+    e->max[axis] = fmaxf(e->max[axis], (double)near < at ? nextafterf(near, INFINITY) : near);
 }
 
 void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
@@ -179,30 +196,28 @@ void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
     for (int k = 0; k < 3; k++) length += s->mirror[k] * s->mirror[k];
     for (int k = 0; k < 3; k++) {
         n[k] = s->mirror[k] / sqrt(length);
-        m->normal[k] = (float)n[k];
-        m->center[k] = 0.5f * (model.min[k] + model.max[k]);
-        largest = fmax(largest, (double)model.max[k] - (double)model.min[k]);
+        m->normal[k] = n[k];
+        m->center[k] = as_position(&model, k, 0.5 * (model.exact_min[k] + model.exact_max[k]));
+        largest = fmax(largest, model.exact_max[k] - model.exact_min[k]);
     }
     for (int i = 0; i < 8; i++) {
         corner_of(&model, i, p);
         least = fmin(least, n[0] * p[0] + n[1] * p[1] + n[2] * p[2]);
     }
     const double offset = s->has_mirror_offset ? s->mirror[3] / sqrt(length) : least;
-    m->offset = (float)offset;
+    m->offset = offset;
     m->size = (float)(s->mirror_size > 0 ? s->mirror_size : 1.5 * largest);
     m->fade = (float)s->mirror_fade;
     m->tint = s->mirror_tint;
     m->tint_share = (float)(s->mirror_tint_share > 0 ? s->mirror_tint_share
                             : s->mirror_tint         ? 0.25
                                                      : 0);
-    const double off = n[0] * (double)m->center[0] + n[1] * (double)m->center[1] +
-                       n[2] * (double)m->center[2] - offset;
+    const double off = n[0] * m->center[0] + n[1] * m->center[1] + n[2] * m->center[2] - offset;
     for (int i = 0; i < 8; i++) /* corners of a box around the mirror */
         for (int k = 0; k < 3; k++) {
             const double half = 0.5 * (double)m->size * sqrt(fmax(1 - n[k] * n[k], 0));
-            const float at =
-                (float)((double)m->center[k] - off * n[k] + (i >> k & 1 ? half : -half));
-            extent->min[k] = fminf(extent->min[k], at), extent->max[k] = fmaxf(extent->max[k], at);
+            const double at = m->center[k] - off * n[k] + (i >> k & 1 ? half : -half);
+            widen(extent, k, as_position(&model, k, at));
         }
 }
 
@@ -211,13 +226,11 @@ void look_deepen(const dp_style *style, const dp_extent *seen, dp_camera *camera
     dp_extent deep = *seen;
     if (!(m->size > 0)) return;
     for (int i = 0; i < 8; i++) { /* the image's box */
-        double p[3], off = -(double)m->offset;
+        double p[3], off = -m->offset;
         corner_of(seen, i, p);
-        for (int k = 0; k < 3; k++) off += (double)m->normal[k] * p[k];
-        for (int k = 0; k < 3; k++) {
-            const float at = (float)(p[k] - 2 * off * (double)m->normal[k]);
-            deep.min[k] = fminf(deep.min[k], at), deep.max[k] = fmaxf(deep.max[k], at);
-        }
+        for (int k = 0; k < 3; k++) off += m->normal[k] * p[k];
+        for (int k = 0; k < 3; k++)
+            widen(&deep, k, as_position(seen, k, p[k] - 2 * off * m->normal[k]));
     }
     double near_z, far_z, *const matrix = camera->projection;
     dp_camera_near_far(camera, deep.min, deep.max, &near_z, &far_z);

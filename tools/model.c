@@ -88,8 +88,8 @@ static void unseen_extent(const tool_settings *s, dp_extent *extent) {
     *extent = (dp_extent){.polygons = 1};
     for (int k = 0; k < 3; k++) square += (s->eye[k] - s->target[k]) * (s->eye[k] - s->target[k]);
     for (int k = 0; k < 3; k++) {
-        extent->min[k] = (float)(s->target[k] - 100 * sqrt(square));
-        extent->max[k] = (float)(s->target[k] + 100 * sqrt(square));
+        extent->min[k] = (float)(extent->exact_min[k] = s->target[k] - 100 * sqrt(square));
+        extent->max[k] = (float)(extent->exact_max[k] = s->target[k] + 100 * sqrt(square));
     }
 }
 
@@ -117,4 +117,17 @@ int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) 
             name, (unsigned long long)extent->polygons, (unsigned long long)extent->not_finite,
             (unsigned long long)extent->bad_index);
     return EXIT_FAILED;
+}
+
+/* Shares of the box's longest side that may lie between neighbouring values: half a pixel of a
+ * picture of a thousand. */
+static const double coarsest = 1.0 / 2000;
+
+void warn_coarse(const tool_settings *s, const dp_extent *extent) {
+    double size = 0;
+    for (int k = 0; k < 3; k++) size = fmax(size, extent->exact_max[k] - extent->exact_min[k]);
+    if (s->quiet || !(extent->spacing > coarsest * size)) return;
+    warn("%s: so far from 0 its coordinates are %g apart as float32, and its shape is rounded to "
+         "that; export it nearer to 0, or with all digits, as OBJ or as PLY with doubles",
+         strcmp(s->model, "-") ? s->model : "standard input", extent->spacing);
 }

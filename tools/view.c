@@ -23,8 +23,8 @@ static box box_of(const tool_settings *s, const dp_extent *extent) {
     const dp_target target = make_target(s);
     box b = {.aspect = (double)target.width / target.height};
     for (int k = 0; k < 3; k++) {
-        const double half = 0.5 * ((double)extent->max[k] - extent->min[k]);
-        b.centre[k] = extent->min[k] + half;
+        const double half = 0.5 * (extent->exact_max[k] - extent->exact_min[k]);
+        b.centre[k] = extent->exact_min[k] + half;
         b.radius += half * half;
     }
     b.radius = b.radius > 0 ? sqrt(b.radius) : 1;
@@ -126,8 +126,8 @@ static dp_result fit(const tool_settings *s, const dp_extent *extent, dp_camera 
                      .height = s->ortho,
                      .aspect = box_of(s, extent).aspect,
                      .zoom = s->zoom};
-    memcpy(wanted.min, extent->min, sizeof wanted.min);
-    memcpy(wanted.max, extent->max, sizeof wanted.max);
+    memcpy(wanted.exact_min, extent->exact_min, sizeof wanted.exact_min);
+    memcpy(wanted.exact_max, extent->exact_max, sizeof wanted.exact_max);
     memcpy(wanted.up, s->up, sizeof wanted.up);
     view_direction(s, wanted.direction);
     return dp_camera_fit(camera, &wanted);

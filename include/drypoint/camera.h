@@ -45,6 +45,8 @@ typedef struct dp_fit {
     double aspect; /* width / height of the picture; 0 means 4/3 */
     double zoom;   /* 0 means 1; 2 shows everything twice as large */
     bool steady;   /* fit the box's sphere: the same size from every direction */
+    /* The box where float32 is too coarse for it (dp_extent.exact_min); all 0: min and max. */
+    double exact_min[3], exact_max[3];
 } dp_fit;
 
 /* Sets the camera so that the box fills the picture, with a margin of 4 % on the narrower side, and

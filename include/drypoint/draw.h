@@ -11,7 +11,8 @@
  *     dp_source_open("fandisk.obj", NULL, &source, &diag);
  *     dp_source_extent(source, &extent, &diag);
  *     dp_fit fit = {0};
- *     memcpy(fit.min, extent.min, sizeof fit.min), memcpy(fit.max, extent.max, sizeof fit.max);
+ *     memcpy(fit.exact_min, extent.exact_min, sizeof fit.exact_min);
+ *     memcpy(fit.exact_max, extent.exact_max, sizeof fit.exact_max);
  *     dp_camera_fit(&camera, &fit);
  *     const dp_target target = {.width = 1600, .height = 1200, .rgba = rgba};
  *     dp_draw(context, source, &camera, NULL, &target, &diag);
@@ -118,7 +119,8 @@ typedef struct dp_segment {
     dp_line line;
     float a[3], b[3]; /* both ends on the screen: x right, y down, px; third: distance along
                          the line of sight, world units */
-    float world_a[3], world_b[3];
+    double world_a[3], world_b[3]; /* world space: float32 about the source's origin, which is added
+                                      in double precision */
     uint64_t polygon;   /* of the source, counted from 0 over all its batches; a mirror comes as one
                            more after them */
     uint64_t other;     /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */

@@ -60,6 +60,10 @@ DP_API void dp_begin(dp_context *context, dp_primitive_kind kind);
 DP_API void dp_edge_flag(dp_context *context, bool flag);
 DP_API void dp_vertex3f(dp_context *context, float x, float y, float z);
 DP_API void dp_vertex3fv(dp_context *context, const float xyz[3]);
+/* In double precision: where models lie far from 0, so that float32 would be too coarse, all
+ * vertices until dp_finish are counted from an origin among them (dp_batch). */
+DP_API void dp_vertex3d(dp_context *context, double x, double y, double z);
+DP_API void dp_vertex3dv(dp_context *context, const double xyz[3]);
 DP_API void dp_end(dp_context *context);
 
 /* Draws what was recorded and forgets it; state stays. Errors of dp_draw; DP_ERR_ARGUMENT for the

@@ -76,7 +76,8 @@ typedef enum dp_mesh_file {
 } dp_mesh_file;
 
 /* Writes a source as a model file, batch by batch, and renames it when complete (as pictures).
- * Numbers have a decimal point in every locale. PLY and OBJ share a vertex only where the source's
+ * Numbers have a decimal point in every locale. Positions about an origin (dp_batch) are written in
+ * world space: PLY then has doubles and OBJ the digits, but an STL's float32 are coarse there. PLY and OBJ share a vertex only where the source's
  * indices do. PLY needs a rewindable source. `progress`: as in dp_io_picture. DP_ERR_IO,
  * DP_ERR_MEMORY, DP_ERR_ARGUMENT, and the source's own errors. */
 DP_API dp_result dp_io_write_mesh(const char *path, dp_mesh_file kind, dp_source *source,

@@ -136,9 +136,9 @@ typedef struct dp_edge_map {
  * that the eye is on; polygons behind it have no image. It is drawn as one more polygon, of group
  * DP_MIRROR_GROUP. Zero is the default: no mirror. */
 typedef struct dp_mirror {
-    float normal[3];  /* any length but zero; the plane is that of the unit normal */
-    float offset;     /* world units along the unit normal */
-    float center[3];  /* of the square, world space; moved into the plane */
+    double normal[3]; /* any length but zero; the plane is that of the unit normal */
+    double offset;    /* world units along the unit normal */
+    double center[3]; /* of the square, world space; moved into the plane */
     float size;       /* side of the square, world units; 0: no mirror */
     dp_color tint;    /* 0 means white */
     float tint_share; /* share of the tint in what is seen, 0 to 1 */

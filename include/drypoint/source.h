@@ -5,9 +5,15 @@
  * the rest of the library; nothing needs to be held in memory as a whole.
  *
  * A polygon is given by its corners, counter-clockwise seen from its front. It should be convex
- * and planar; one that is not, or has more than 4096 corners, is split when drawn, and the splitting
- * diagonals never draw a line. Polygons with fewer than three corners, no area, indices out of
- * range or coordinates that are not finite are dropped and counted (dp_stats). */
+ * and planar; one that is not, or has more than 4096 corners, is split when drawn; the splitting
+ * diagonals are no creases, but may be outlines. Polygons with fewer than three corners, no area, indices out of range or coordinates that are
+ * not finite are dropped and counted (dp_stats).
+ *
+ * Positions are float32, of seven digits: a house in coordinates of a survey (500000, 5400000) would
+ * be torn to steps of half a unit. Batches therefore have an origin in double precision, from which
+ * positions are counted; what they and cameras mean is always world space, origin + position.
+ * The library's readers choose an origin where a file's coordinates are that large against the
+ * model's size (8 times), by text or doubles of the file; models nearer to 0 have none. */
 #ifndef DRYPOINT_SOURCE_H
 #define DRYPOINT_SOURCE_H
 
@@ -50,6 +56,9 @@ typedef struct dp_batch {
     const uint32_t *colors; /* [vertex_count] 0xRRGGBBAA of the vertices, for shading, instead of
                                the group's; 0: none. Or NULL */
     bool stable;            /* the memory does not change while the source lives */
+    double origin[3]; /* world space = origin + position; 0: the same. Drawing counts all from the
+                         first batch's, so that one is best near the model, and the same in every
+                         reading; others are moved to it, in double precision */
 } dp_batch;
 
 /* An application's own source. */
@@ -159,13 +168,18 @@ DP_API void dp_source_destroy(dp_source *source);
 
 /* What dp_source_extent finds. */
 typedef struct dp_extent {
-    float min[3], max[3]; /* of the finite corners that polygons use; where there are none, min is
-                             INFINITY and max -INFINITY, which dp_camera_fit refuses */
+    float min[3], max[3]; /* world space; of the finite corners that polygons use; rounded outwards
+                             where float32 cannot hold it. Where there are none, min is INFINITY and
+                             max -INFINITY, which dp_camera_fit refuses */
     uint64_t polygons;    /* all of the source */
     uint64_t corners;
     uint64_t vertices;
-    uint64_t not_finite; /* polygons with a NaN or infinite coordinate */
-    uint64_t bad_index;  /* polygons with an index out of range */
+    uint64_t not_finite;               /* polygons with a NaN or infinite coordinate */
+    uint64_t bad_index;                /* polygons with an index out of range */
+    double exact_min[3], exact_max[3]; /* the same box, not rounded */
+    double spacing; /* world units: how far apart neighbouring float32 values lie where the source's
+                       positions are largest. Beyond some 1/2000 of the box the shape is damaged:
+                       give positions about an origin (dp_batch) */
 } dp_extent;
 
 /* Reads a source from its start to its end, wherever it is, and leaves it at its start. One that

@@ -189,9 +189,18 @@ static dp_result look(dp_camera *camera, const fitted *f) {
                              (const double[3]){f->up.x, f->up.y, f->up.z});
 }
 
+/* The box: exact_min and exact_max, or, where those are 0, min and max. */
+static void box_of(const dp_fit *fit, dp_vec3 *min, dp_vec3 *max) {
+    const double *const a = fit->exact_min, *const b = fit->exact_max;
+    const bool exact = a[0] != 0 || a[1] != 0 || a[2] != 0 || b[0] != 0 || b[1] != 0 || b[2] != 0;
+    *min = exact ? dp_v3(a[0], a[1], a[2]) : dp_v3f(fit->min);
+    *max = exact ? dp_v3(b[0], b[1], b[2]) : dp_v3f(fit->max);
+}
+
 dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit) {
     if (!camera || !fit || !finite3(fit->direction) || !finite3(fit->up)) return DP_ERR_ARGUMENT;
-    const dp_vec3 min = dp_v3f(fit->min), max = dp_v3f(fit->max);
+    dp_vec3 min, max;
+    box_of(fit, &min, &max);
     double radius = dp_length(dp_sub(max, min)) / 2;
     if (!isfinite(radius) || min.x > max.x || min.y > max.y || min.z > max.z)
         return DP_ERR_ARGUMENT; /* also the extent of a source without polygons */

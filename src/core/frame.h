@@ -29,8 +29,9 @@ static inline bool dp_needs_clipping(dp_vertex a, dp_vertex b, dp_vertex c) {
 typedef struct dp_frame {
     const dp_allocator *memory;
     dp_threads *threads;
-    uint32_t lanes; /* width of the kernels in use (base/kernels.h) */
-    dp_view view;
+    uint32_t lanes;       /* width of the kernels in use (base/kernels.h) */
+    double origin[3];     /* of the polygons' positions, world space (dp_batch) */
+    dp_view view;         /* of positions: what it calls world space begins at the origin */
     float nearly_edge_on; /* px: thinner polygons' facing is decided in space (outline.h) */
     float step_scale, step_offset; /* pixel size in depth: |d| * step_scale + step_offset */
     float touching, crack; /* pixel sizes by which planes that touch an edge may miss it; px: cracks

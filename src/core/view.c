@@ -51,6 +51,14 @@ static void invert(dp_view *view) {
     view->determinant = dp_dot(a, view->inverse[0]);
 }
 
+dp_camera dp_camera_about(const dp_camera *camera, const double origin[3]) {
+    dp_camera about = *camera;
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 3; k++)
+            if (origin[k] != 0) about.view[12 + r] += element(camera->view, r, k) * origin[k];
+    return about;
+}
+
 dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, uint32_t height,
                        dp_diag *diag) {
     const double *const p = camera->projection;

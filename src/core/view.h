@@ -43,6 +43,9 @@ typedef struct dp_clip_point {
     double x, y, z, w, distance;
 } dp_clip_point;
 
+/* The camera as it sees positions counted from an origin in world space. */
+dp_camera dp_camera_about(const dp_camera *camera, const double origin[3]);
+
 /* DP_ERR_ARGUMENT if the matrices are singular, not finite, or not a view and a perspective or
  * orthographic projection. */
 dp_result dp_view_init(dp_view *view, const dp_camera *camera, uint32_t width, uint32_t height,

@@ -427,6 +427,16 @@ void dp_forget_drawing(dp_context *c) {
     c->drawing.chained = false;
 }
 
+/* The view of positions about the source's origin. */
+static dp_result init_view(dp_frame *f, dp_source *source, const dp_camera *camera, dp_diag *diag) {
+    const uint32_t width = f->target.width, height = f->target.height;
+    dp_result result = dp_view_init(&f->view, camera, width, height, diag); /* is it one? */
+    if (!result) result = dp_source_begin(source, f->origin, diag);
+    if (result) return result;
+    const dp_camera about = dp_camera_about(camera, f->origin);
+    return dp_view_init(&f->view, &about, width, height, diag);
+}
+
 dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *camera,
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag) {
@@ -445,7 +455,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);
     dp_result result = dp_check_target(target, &f->target, diag);
-    if (!result) result = dp_view_init(&f->view, camera, target->width, target->height, diag);
+    if (!result) result = init_view(f, source, camera, diag);
     if (!result) begin_view(f);
     if (!result) result = draw(c, source, diag);
     if (result) c->drawing.count = 0;

@@ -9,6 +9,7 @@
 #include "draw/context.h"
 
 #include "base/diag.h"
+#include "mesh/wide.h"
 
 #include <drypoint/immediate.h>
 
@@ -36,6 +37,7 @@ struct dp_recording {
     uint16_t group;
 
     float *positions;
+    dp_wide wide;      /* chooses their origin */
     uint8_t *flags;    /* per vertex */
     uint32_t *corners; /* vertex */
     uint8_t *corner_flags;
@@ -63,12 +65,15 @@ static const dp_array arrays[] = {DP_ARRAY(dp_recording, positions, positions_ca
                                   DP_ARRAY(dp_recording, slots, slots_cap)};
 
 void dp_recording_free(dp_recording *recording, const dp_allocator *memory) {
+    if (recording) dp_wide_free(&recording->wide, memory);
     if (recording) dp_arrays_free(memory, recording, DP_ARRAYS(arrays));
     dp_free(memory, recording);
 }
 
 uint64_t dp_recording_bytes(const dp_recording *recording) {
-    return recording ? sizeof *recording + dp_arrays_bytes(recording, DP_ARRAYS(arrays)) : 0;
+    return recording ? sizeof *recording + dp_arrays_bytes(recording, DP_ARRAYS(arrays)) +
+                           recording->wide.rests_cap * sizeof *recording->wide.rests
+                     : 0;
 }
 
 static void remember(dp_recording *r, dp_result result, const char *message) {
@@ -333,7 +338,8 @@ void dp_edge_flag(dp_context *context, bool flag) {
     if (r) r->flag = flag;
 }
 
-void dp_vertex3f(dp_context *context, float x, float y, float z) {
+/* A vertex, and the same as float32. */
+static void add_vertex(dp_context *context, const double wide[3], const float rounded[3]) {
     dp_recording *const r = recording_of(context);
     if (!r) return;
     if (!r->open) remember(r, DP_ERR_ARGUMENT, "dp_vertex: called outside dp_begin and dp_end");
@@ -342,16 +348,25 @@ void dp_vertex3f(dp_context *context, float x, float y, float z) {
     if (r->wrong) return; /* nothing will be drawn */
     if (!dp_reserve(&context->memory, &r->positions, &r->positions_cap, 3 * (r->vertices + 1),
                     sizeof *r->positions) ||
-        !dp_reserve(&context->memory, &r->flags, &r->flags_cap, r->vertices + 1, 1)) {
+        !dp_reserve(&context->memory, &r->flags, &r->flags_cap, r->vertices + 1, 1) ||
+        !dp_wide_note(&r->wide, r->vertices, wide, rounded, &context->memory)) {
         remember_memory(r);
         return;
     }
-    float *const p = r->positions + 3 * r->vertices;
-    p[0] = x, p[1] = y, p[2] = z;
+    memcpy(r->positions + 3 * r->vertices, rounded, 3 * sizeof *rounded);
     r->flags[r->vertices] = r->flag;
     uint32_t v[4];
     const size_t n = completed(r, r->vertices++ - r->start, v);
     if (n) add_polygon(context, v, n);
+}
+
+void dp_vertex3f(dp_context *context, float x, float y, float z) {
+    add_vertex(context, (const double[3]){(double)x, (double)y, (double)z},
+               (const float[3]){x, y, z});
+}
+
+void dp_vertex3d(dp_context *context, double x, double y, double z) {
+    add_vertex(context, (const double[3]){x, y, z}, (const float[3]){(float)x, (float)y, (float)z});
 }
 
 void dp_vertex3fv(dp_context *context, const float xyz[3]) {
@@ -361,6 +376,15 @@ void dp_vertex3fv(dp_context *context, const float xyz[3]) {
         dp_vertex3f(context, xyz[0], xyz[1], xyz[2]);
     else
         remember(r, DP_ERR_ARGUMENT, "dp_vertex3fv: xyz is NULL");
+}
+
+void dp_vertex3dv(dp_context *context, const double xyz[3]) {
+    dp_recording *const r = recording_of(context);
+    if (!r) return;
+    if (xyz)
+        dp_vertex3d(context, xyz[0], xyz[1], xyz[2]);
+    else
+        remember(r, DP_ERR_ARGUMENT, "dp_vertex3dv: xyz is NULL");
 }
 
 /* A polygon of any number of corners: its vertices are the last ones. */
@@ -409,6 +433,8 @@ static dp_result draw_recorded(dp_context *context, const dp_target *target, dp_
     uint32_t styles;
     dp_result result = resolve_styles(context, &styles, diag);
     if (result) return result;
+    double origin[3];
+    dp_wide_settle(&r->wide, r->positions, r->vertices, origin, &context->memory);
     const dp_batch batch = {.positions = r->positions,
                             .vertex_count = r->vertices,
                             .indices = r->corners,
@@ -416,7 +442,8 @@ static dp_result draw_recorded(dp_context *context, const dp_target *target, dp_
                             .firsts = r->firsts,
                             .polygon_count = r->polygons,
                             .edge_flags = r->corner_flags,
-                            .groups = r->groups};
+                            .groups = r->groups,
+                            .origin = {origin[0], origin[1], origin[2]}};
     dp_source *source;
     if ((result = dp_source_from_arrays(&batch, &context->memory, &source, diag))) return result;
     result = dp_draw_groups(context, source, &r->camera, r->styles, styles, target, diag);
@@ -448,5 +475,7 @@ dp_result dp_finish(dp_context *context, const dp_target *target, dp_diag *diag)
     r->open = false;
     r->wrong = DP_OK;
     r->vertices = r->corner_count = r->polygons = r->group_count = r->slot_count = 0;
+    dp_wide_free(&r->wide, &context->memory);
+    r->wide = (dp_wide){0};
     return result;
 }

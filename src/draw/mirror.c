@@ -26,11 +26,9 @@ uint64_t dp_mirror_store_bytes(const dp_mirror_store *store) {
     return dp_normal_store_bytes(&store->normals) + dp_arrays_bytes(store, DP_ARRAYS(arrays));
 }
 
-/* The plane, its normal turned to the eye. It is of length 1 to double precision: with one of
- * floats distances from the plane, and so places in the image, would be off by as much as their own
- * rounding. */
+/* The plane, its normal turned to the eye. */
 static dp_plane_equation plane_of(const dp_mirror *m, const dp_view *view) {
-    const dp_vec3 n = dp_unit(dp_v3f(m->normal));
+    const dp_vec3 n = dp_unit(dp_v3(m->normal[0], m->normal[1], m->normal[2]));
     dp_plane_equation p = {{n.x, n.y, n.z}, m->offset};
     const double side =
         view->perspective ? dp_dot(n, view->eye) - p.offset : -dp_dot(n, view->forward);
@@ -41,8 +39,9 @@ static dp_plane_equation plane_of(const dp_mirror *m, const dp_view *view) {
 
 /* A square around the mirror's centre, facing along n. Its sides run along the axes as far as they
  * can. */
-static void make_square(const dp_mirror *m, const dp_plane_equation *plane, float corners[4][3]) {
-    const dp_vec3 n = dp_v3(plane->n[0], plane->n[1], plane->n[2]), c = dp_v3f(m->center);
+static void make_square(const dp_mirror *m, const dp_plane_equation *plane, double corners[4][3]) {
+    const dp_vec3 n = dp_v3(plane->n[0], plane->n[1], plane->n[2]);
+    const dp_vec3 c = dp_v3(m->center[0], m->center[1], m->center[2]);
     const dp_vec3 axis = fabs(n.x) > 0.9 ? dp_v3(0, 0, 1) : dp_v3(1, 0, 0);
     const dp_vec3 u = dp_unit(dp_mad(axis, n, -dp_dot(axis, n))), v = dp_cross(n, u);
     const dp_vec3 middle = dp_mad(c, n, plane->offset - dp_dot(n, c));
@@ -50,7 +49,7 @@ static void make_square(const dp_mirror *m, const dp_plane_equation *plane, floa
     for (int i = 0; i < 4; i++) {
         const dp_vec3 p =
             dp_mad(dp_mad(middle, u, signs[i][0] * 0.5 * m->size), v, signs[i][1] * 0.5 * m->size);
-        corners[i][0] = (float)p.x, corners[i][1] = (float)p.y, corners[i][2] = (float)p.z;
+        corners[i][0] = p.x, corners[i][1] = p.y, corners[i][2] = p.z;
     }
 }
 
@@ -149,7 +148,7 @@ static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *c
 dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *camera,
                            const dp_style *style, const dp_target *target, dp_diag *diag) {
     dp_view view;
-    float corners[4][3];
+    double corners[4][3];
     dp_source *with_mirror = NULL;
     if (!dp_source_rewindable(source))
         return dp_fail(diag, DP_ERR_UNSUPPORTED, "a mirror needs a source that can be read twice");
@@ -165,7 +164,7 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     c->share_to = 1;
     dp_forget_drawing(c); /* the image's is not the picture's */
     if (result) return result;
-    result = dp_add_quad_source(source, (const float(*)[3])corners, DP_MIRROR_GROUP, &c->memory,
+    result = dp_add_quad_source(source, (const double(*)[3])corners, DP_MIRROR_GROUP, &c->memory,
                                 &with_mirror, diag);
     if (result) return result;
     c->share_from = 0.5;

@@ -157,9 +157,8 @@ static dp_result resolve_shade(dp_shade *s, dp_diag *diag) {
 }
 
 static dp_result resolve_mirror(dp_mirror *m, dp_diag *diag) {
-    const double length =
-        sqrt((double)m->normal[0] * m->normal[0] + (double)m->normal[1] * m->normal[1] +
-             (double)m->normal[2] * m->normal[2]);
+    const double length = sqrt(m->normal[0] * m->normal[0] + m->normal[1] * m->normal[1] +
+                               m->normal[2] * m->normal[2]);
     if (m->size == 0) return DP_OK;
     if (!(m->size > 0) || !isfinite(m->size) || !isfinite(m->offset) ||
         !isfinite(m->center[0] + m->center[1] + m->center[2]))
@@ -168,7 +167,7 @@ static dp_result resolve_mirror(dp_mirror *m, dp_diag *diag) {
     if (!(length > 1e-18) || !isfinite(length))
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "the mirror's normal is too short, too long or not finite");
-    for (int k = 0; k < 3; k++) m->normal[k] = (float)(m->normal[k] / length);
+    for (int k = 0; k < 3; k++) m->normal[k] /= length;
     m->tint = color_or(m->tint, DP_RGB(255, 255, 255));
     if (!(m->fade >= 0) || !isfinite(m->fade))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the mirror's fade must be 0 or above");

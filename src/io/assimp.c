@@ -11,6 +11,7 @@
 #include <drypoint/io.h>
 
 #include "base/diag.h"
+#include "base/vec.h"
 #include "io/assimp_files.h"
 #include "io/color.h"
 #include "io/readers.h"
@@ -87,14 +88,32 @@ static bool add_attributes(dp_builder *builder, const struct aiMesh *mesh, unsig
     return true;
 }
 
+/* Assimp keeps float32 (in nearly all builds, also Debian's): what a file says beyond that is lost
+ * before a node's transform moves it to its place. */
+static void note_spacing(dp_builder *builder, const struct aiMesh *mesh, const transform *t) {
+    double farthest = 0, scale = 0;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D p = mesh->mVertices[i];
+        farthest = dp_max(farthest,
+                          dp_max(fabs((double)p.x), dp_max(fabs((double)p.y), fabs((double)p.z))));
+    }
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) scale = dp_max(scale, fabs(t->row[r][c]));
+    if (sizeof(ai_real) == sizeof(float) && isfinite(farthest))
+        builder->spacing = dp_max(builder->spacing, dp_float_spacing(farthest) * scale);
+}
+
 static bool add_vertices(dp_builder *builder, const struct aiMesh *mesh, const transform *t) {
     for (unsigned i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D p = mesh->mVertices[i];
-        float *const to = dp_builder_vertex(builder);
-        if (!to) return false;
-        for (int r = 0; r < 3; r++)
-            to[r] = (float)(t->row[r][0] * p.x + t->row[r][1] * p.y + t->row[r][2] * p.z +
-                            t->row[r][3]);
+        double position[3];
+        float rounded[3];
+        for (int r = 0; r < 3; r++) {
+            position[r] =
+                t->row[r][0] * p.x + t->row[r][1] * p.y + t->row[r][2] * p.z + t->row[r][3];
+            rounded[r] = (float)position[r];
+        }
+        if (!dp_builder_place(builder, position, rounded)) return false;
         if (!add_attributes(builder, mesh, i, t)) return false;
     }
     return true;
@@ -179,6 +198,7 @@ static bool add_mesh(dp_builder *builder, const struct aiScene *scene, const str
     if (!find_group(builder, node, mesh, &group) || !add_vertices(builder, mesh, t) ||
         !add_colors(builder, scene, mesh, group))
         return false;
+    note_spacing(builder, mesh, t);
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
         if (!add_face(builder, &mesh->mFaces[i], base, turned, group)) return false;
     return true;

@@ -20,6 +20,7 @@ void dp_builder_init(dp_builder *builder, const dp_allocator *allocator) {
 
 void dp_builder_destroy(dp_builder *builder) {
     dp_free(&builder->allocator, builder->positions);
+    dp_wide_free(&builder->wide, &builder->allocator);
     dp_free(&builder->allocator, builder->indices);
     dp_free(&builder->allocator, builder->firsts);
     dp_free(&builder->allocator, builder->groups);
@@ -212,6 +213,7 @@ static dp_result mesh_next(void *user, dp_batch *batch, dp_diag *diag) {
                         .texcoords = attribute_of(&built->texcoords),
                         .colors = built->vertex_colors,
                         .stable = true};
+    memcpy(batch->origin, built->origin, sizeof batch->origin);
     return DP_OK;
 }
 
@@ -279,6 +281,8 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
     mesh *const self = dp_alloc(&builder->allocator, sizeof *self);
     if (!self) return dp_builder_fail(builder, diag);
     shrink_all(builder);
+    dp_wide_settle(&builder->wide, builder->positions, builder->vertex_count, builder->origin,
+                   &builder->allocator);
     *self = (mesh){.built = *builder};
     const dp_source_callbacks callbacks = {.user = self,
                                            .next = mesh_next,
@@ -292,6 +296,7 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
         dp_free(&builder->allocator, self);
     else {
         (*out)->constant = true;
+        (*out)->spacing = self->built.spacing;
         dp_builder_init(builder, &self->built.allocator);
     }
     return result;

@@ -3,6 +3,7 @@
 #define DP_IO_BUILDER_H
 
 #include "io/groups.h"
+#include "mesh/wide.h"
 #include <drypoint/source.h>
 
 /* What corners carry besides a position. */
@@ -17,6 +18,10 @@ typedef struct dp_builder {
     dp_allocator allocator;
     float *positions; /* [vertex_count][3] */
     size_t vertex_count, vertex_capacity;
+    dp_wide wide;      /* of vertices that came in double precision */
+    double origin[3];  /* of the positions; chosen by dp_builder_finish */
+    double spacing;    /* world units: how far apart neighbouring values of the file lie, where they
+                         were too coarse for float32 positions to tell; 0: no farther than those */
     uint32_t *indices; /* [corner_count] */
     size_t corner_count, corner_capacity;
     uint32_t *firsts; /* [polygon_count + 1]; NULL while all polygons are triangles */
@@ -51,6 +56,16 @@ static inline float *dp_builder_vertex(dp_builder *builder) {
     if (builder->vertex_count == builder->vertex_capacity && !dp_builder_grow_vertices(builder))
         return NULL;
     return builder->positions + 3 * builder->vertex_count++;
+}
+
+/* Adds a vertex in double precision; `rounded` is the same as float32. False: dp_builder_fail. */
+static inline bool dp_builder_place(dp_builder *builder, const double position[3],
+                                    const float rounded[3]) {
+    float *const to = dp_builder_vertex(builder);
+    if (!to) return false;
+    for (int k = 0; k < 3; k++) to[k] = rounded[k];
+    return builder->wide.is_near || dp_wide_note(&builder->wide, builder->vertex_count - 1,
+                                                 position, rounded, &builder->allocator);
 }
 
 /* Adds a corner to the open polygon. A vertex number that no uint32_t can hold becomes UINT32_MAX,

@@ -152,7 +152,8 @@ static const uint8_t *read_windows_special(const uint8_t *text, bool negative, f
     return text;
 }
 
-static float decimal_to_float(const decimal *number, int shift) {
+/* *wide: the same before it is rounded, as well as doubles tell. */
+static inline float decimal_to_float(const decimal *number, int shift, double *wide) {
     const int exponent = number->exponent + shift;
     if (!number->mantissa) return number->negative ? -0.0f : 0.0f;
     float value;
@@ -162,11 +163,13 @@ static float decimal_to_float(const decimal *number, int shift) {
         magnitude /= power_of_ten[-exponent];
     else
         magnitude *= power_of_ten[exponent];
+    *wide = number->negative ? -magnitude : magnitude;
     if (round_to_float(magnitude, &value)) return number->negative ? -value : value;
     return slow_float(number, shift);
 }
 
-const uint8_t *dp_number_float(const uint8_t *text, float *value) {
+/* *wide is left as it is where the number has no better value than *value. */
+static inline const uint8_t *read_number(const uint8_t *text, float *value, double *wide) {
     decimal number;
     number.negative = *text == '-';
     const uint8_t *p = text + (*text == '-' || *text == '+');
@@ -180,8 +183,20 @@ const uint8_t *dp_number_float(const uint8_t *text, float *value) {
     } else if (*p == '#') {
         return read_windows_special(p + 1, number.negative, value);
     }
-    *value = decimal_to_float(&number, shift);
+    *value = decimal_to_float(&number, shift, wide);
     return p;
+}
+
+const uint8_t *dp_number_float(const uint8_t *text, float *value) {
+    double unused;
+    return read_number(text, value, &unused);
+}
+
+const uint8_t *dp_number_wide(const uint8_t *text, float *value, double *wide) {
+    *wide = NAN;
+    const uint8_t *const end = read_number(text, value, wide);
+    if (isnan(*wide) && end) *wide = (double)*value;
+    return end;
 }
 
 const uint8_t *dp_number_int(const uint8_t *text, int64_t *value) {

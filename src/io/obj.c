@@ -45,16 +45,15 @@ static bool read_color(obj *self) {
 }
 
 static dp_result read_vertex(obj *self) {
-    float position[3];
+    float rounded[3];
+    double position[3];
     for (int k = 0; k < 3; k++) {
         dp_text_blank(self->stream);
-        if (!dp_text_float(self->stream, &position[k]))
+        if (!dp_text_wide(self->stream, &rounded[k], &position[k]))
             return dp_text_expected(self->stream, self->diag, "a vertex's %c", 'x' + k);
     }
-    float *const to = dp_builder_vertex(self->builder);
-    if (!to) return dp_builder_fail(self->builder, self->diag);
-    memcpy(to, position, sizeof position);
-    if (dp_text_blank(self->stream) && !read_color(self))
+    if (!dp_builder_place(self->builder, position, rounded) ||
+        (dp_text_blank(self->stream) && !read_color(self)))
         return dp_builder_fail(self->builder, self->diag);
     return DP_OK;
 }

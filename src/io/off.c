@@ -99,14 +99,15 @@ static bool read_color(off *self) {
 }
 
 static dp_result read_vertex(off *self, int64_t vertex) {
-    float *const to = dp_builder_vertex(self->builder);
-    if (!to) return dp_builder_fail(self->builder, self->diag);
+    float rounded[3];
+    double position[3];
     for (int k = 0; k < 3; k++) {
         next_word(self->stream);
-        if (!dp_text_float(self->stream, &to[k]))
+        if (!dp_text_wide(self->stream, &rounded[k], &position[k]))
             return expected(self, "a coordinate of vertex", vertex, self->vertices);
     }
-    if (self->colors && !read_color(self)) return dp_builder_fail(self->builder, self->diag);
+    if (!dp_builder_place(self->builder, position, rounded) || (self->colors && !read_color(self)))
+        return dp_builder_fail(self->builder, self->diag);
     dp_text_skip_line(self->stream);
     return DP_OK;
 }

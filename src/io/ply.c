@@ -57,36 +57,42 @@ static inline bool take_bits(ply *self, dp_ply_type type, uint64_t *bits) {
     return true;
 }
 
-static inline float float_of_bits(uint64_t bits, dp_ply_type type) {
+static inline double double_of_bits(uint64_t bits, dp_ply_type type) {
     double wide;
     float value;
     const uint32_t low = (uint32_t)bits;
     switch (type) {
     case DP_PLY_INT8:
-        return (float)(int8_t)bits;
+        return (int8_t)bits;
     case DP_PLY_INT16:
-        return (float)(int16_t)bits;
+        return (int16_t)bits;
     case DP_PLY_INT32:
-        return (float)(int32_t)low;
+        return (int32_t)low;
     case DP_PLY_FLOAT32:
-        return memcpy(&value, &low, sizeof low), value;
+        return memcpy(&value, &low, sizeof low), (double)value;
     case DP_PLY_FLOAT64:
-        return memcpy(&wide, &bits, sizeof bits), (float)wide;
+        return memcpy(&wide, &bits, sizeof bits), wide;
     case DP_PLY_UINT8:
     case DP_PLY_UINT16:
     case DP_PLY_UINT32:
         break;
     }
-    return (float)low;
+    return low;
+}
+
+static inline bool next_wide(ply *self, dp_ply_type type, float *value, double *wide) {
+    if (self->header.encoding == DP_PLY_ASCII)
+        return dp_text_space(self->stream) && dp_text_wide(self->stream, value, wide);
+    uint64_t bits;
+    if (!take_bits(self, type, &bits)) return false;
+    *wide = double_of_bits(bits, type);
+    *value = (float)*wide;
+    return true;
 }
 
 static bool next_float(ply *self, dp_ply_type type, float *value) {
-    if (self->header.encoding == DP_PLY_ASCII)
-        return dp_text_space(self->stream) && dp_text_float(self->stream, value);
-    uint64_t bits;
-    if (!take_bits(self, type, &bits)) return false;
-    *value = float_of_bits(bits, type);
-    return true;
+    double unused;
+    return next_wide(self, type, value, &unused);
 }
 
 /* Vertex numbers and list lengths may be of any type, but not fractions. */
@@ -105,7 +111,7 @@ static inline int64_t int_of_bits(uint64_t bits, dp_ply_type type) {
     case DP_PLY_INT32:
         return (int32_t)(uint32_t)bits;
     case DP_PLY_FLOAT32:
-        return int_of_double((double)float_of_bits(bits, type));
+        return int_of_double(double_of_bits(bits, type));
     case DP_PLY_FLOAT64:
         return memcpy(&wide, &bits, sizeof bits), int_of_double(wide);
     case DP_PLY_UINT8:
@@ -229,12 +235,26 @@ static dp_result read_list(ply *self, const dp_ply_property *property) {
     return DP_OK;
 }
 
-/* What a vertex may have besides its position: normal, texture coordinates, colour. Faces may have a
- * colour. */
+/* What an item may have besides a position: a vertex's normal, texture coordinates, colour. Faces may
+ * have a colour. */
 enum { NORMAL_AT = 0, TEXCOORD_AT = 3, COLOR_AT = 5, MORE = 8 };
 enum { COLOR_ROLES = 7u << DP_PLY_RED };
 
-static dp_result read_item(ply *self, float *position, float more[MORE]) {
+/* What an item holds. */
+typedef struct ply_item {
+    float rounded[3]; /* its position as float32 */
+    double position[3];
+    float more[MORE];
+} ply_item;
+
+static bool read_value(ply *self, const dp_ply_property *property, ply_item *v) {
+    if (property->role >= DP_PLY_NX)
+        return next_float(self, property->type, &v->more[property->role - DP_PLY_NX]);
+    const int axis = property->role - DP_PLY_X;
+    return next_wide(self, property->type, &v->rounded[axis], &v->position[axis]);
+}
+
+static dp_result read_item(ply *self, ply_item *item) {
     const dp_ply_property *property = self->header.properties + self->element->first;
     const dp_ply_property *const end = property + self->element->properties;
     for (; property < end; property++) {
@@ -243,9 +263,7 @@ static dp_result read_item(ply *self, float *position, float more[MORE]) {
             if (result) return result;
         } else if (property->role == DP_PLY_SKIP) {
             if (!skip_scalars(self, property->type, 1)) return expected(self, "a value");
-        } else if (!next_float(self, property->type,
-                               property->role <= DP_PLY_Z ? &position[property->role - DP_PLY_X]
-                                                          : &more[property->role - DP_PLY_NX])) {
+        } else if (!read_value(self, property, item)) {
             return expected(self, "a coordinate");
         }
     }
@@ -314,20 +332,38 @@ static bool keep_more_of_face(ply *self, const float more[MORE]) {
            dp_builder_polygon_color(self->builder, color_of(self, more + COLOR_AT));
 }
 
+/* Are coordinates float32 in the file? They have nothing to lose then, and have lost it already
+ * where the model lies far from 0 (dp_extent.spacing). */
+static bool is_single(const ply *self) {
+    const dp_ply_property *const properties = self->header.properties + self->element->first;
+    for (size_t i = 0; i < self->element->properties; i++)
+        if (!properties[i].list && properties[i].role >= DP_PLY_X &&
+            properties[i].role <= DP_PLY_Z && properties[i].type != DP_PLY_FLOAT32)
+            return false;
+    return self->header.encoding != DP_PLY_ASCII;
+}
+
+static bool keep_position(ply *self, const ply_item *v, bool single) {
+    if (!single) return dp_builder_place(self->builder, v->position, v->rounded);
+    float *const to = dp_builder_vertex(self->builder);
+    if (to) memcpy(to, v->rounded, sizeof v->rounded);
+    return to;
+}
+
 static dp_result read_element(ply *self, const dp_ply_element *element) {
     self->element = element;
     if (!element->properties) return DP_OK; /* items of no bytes, however many */
     if (!expect_items(self)) return dp_builder_fail(self->builder, self->diag);
     dp_result result = DP_OK;
-    float none[3], more[MORE];
+    ply_item v = {0};
+    const bool is_vertex = element->kind == DP_PLY_VERTEX, single = is_single(self);
     bool (*const keep_more)(ply *, const float *) =
-        element->kind == DP_PLY_VERTEX ? keep_more_of_vertex : keep_more_of_face;
+        is_vertex ? keep_more_of_vertex : keep_more_of_face;
     const bool has_more = element->roles >> DP_PLY_NX & 255;
     for (self->item = 0; self->item < element->count && !result; self->item++) {
-        float *const to = element->kind == DP_PLY_VERTEX ? dp_builder_vertex(self->builder) : none;
-        if (!to) return dp_builder_fail(self->builder, self->diag);
-        result = read_item(self, to, more);
-        if (!result && has_more && !keep_more(self, more))
+        result = read_item(self, &v);
+        if (!result && ((is_vertex && !keep_position(self, &v, single)) ||
+                        (has_more && !keep_more(self, v.more))))
             result = dp_builder_fail(self->builder, self->diag);
     }
     return result;

@@ -14,6 +14,7 @@
 #include "base/print.h"
 #include "io/text.h"
 #include "mesh/source.h"
+#include "mesh/wide.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -41,6 +42,9 @@ typedef struct stl {
     uint32_t announced;    /* binary: triangles, by the header */
     uint64_t read;         /* triangles since the start */
     float (*positions)[9]; /* [BATCH] */
+    dp_wide wide;          /* ASCII: of the first batch, which chooses … */
+    bool settled;          /* … whether there is an origin, */
+    double origin[3];      /* once and for all readings */
     uint16_t *groups;      /* [BATCH] */
     dp_groups names;
     uint16_t group;
@@ -127,17 +131,29 @@ static bool next_is(stl *self, const char *word) {
     return dp_text_space(self->stream) && dp_text_match(self->stream, word);
 }
 
-static dp_result read_corner(stl *self, float position[3]) {
+static dp_result out_of_memory(stl *self) {
+    return dp_fail(&self->diag, DP_ERR_MEMORY, "out of memory for a batch of triangles");
+}
+
+/* `vertex`: its number in the batch. */
+static dp_result read_corner(stl *self, size_t vertex) {
+    float *const to = self->positions[0] + 3 * vertex;
+    double wide[3];
     if (!next_is(self, "vertex")) return expected(self, "`vertex`");
     for (int k = 0; k < 3; k++) {
         dp_text_space(self->stream);
-        if (!dp_text_float(self->stream, &position[k])) return expected(self, "a coordinate");
+        if (!dp_text_wide(self->stream, &to[k], &wide[k])) return expected(self, "a coordinate");
     }
+    if (!self->settled && !dp_wide_note(&self->wide, vertex, wide, to, &self->allocator))
+        return out_of_memory(self);
+    for (int k = 0; k < 3; k++)
+        if (self->origin[k] != 0)
+            to[k] = dp_wide_place(to[k], dp_wide_rest(wide[k], to[k]), self->origin[k]);
     return DP_OK;
 }
 
 /* Reads what follows `facet`: normal x y z, outer loop, three corners, endloop, endfacet. */
-static dp_result read_facet(stl *self, float position[9]) {
+static dp_result read_facet(stl *self, size_t facet) {
     if (!next_is(self, "normal")) return expected(self, "`normal`");
     for (int k = 0; k < 3; k++) {
         dp_text_space(self->stream);
@@ -145,8 +161,8 @@ static dp_result read_facet(stl *self, float position[9]) {
     }
     if (!next_is(self, "outer")) return expected(self, "`outer loop`");
     if (!next_is(self, "loop")) return expected(self, "`loop`");
-    for (int c = 0; c < 3; c++) {
-        const dp_result result = read_corner(self, position + 3 * c);
+    for (size_t c = 0; c < 3; c++) {
+        const dp_result result = read_corner(self, 3 * facet + c);
         if (result) return result;
     }
     if (!next_is(self, "endloop")) return expected(self, "`endloop` after three vertices");
@@ -180,7 +196,7 @@ static dp_result read_ascii(stl *self, size_t *count) {
         dp_result result = DP_OK;
         if (!dp_text_space(self->stream)) return check_end(self);
         if (self->started && dp_text_match(self->stream, "facet")) {
-            result = read_facet(self, self->positions[*count]);
+            result = read_facet(self, *count);
             self->groups[*count] = self->group;
             *count += !result;
             self->read += !result;
@@ -215,11 +231,16 @@ static dp_result stl_next(void *user, dp_batch *batch, dp_diag *diag) {
         *diag = self->diag;
         return self->result;
     }
+    if (!self->binary && !self->settled) {
+        dp_wide_settle(&self->wide, self->positions[0], 3 * count, self->origin, &self->allocator);
+        self->settled = true;
+    }
     *batch = (dp_batch){.positions = self->positions[0],
                         .vertex_count = 3 * count,
                         .corner_count = 3 * count,
                         .polygon_count = count,
                         .groups = any_group(self->groups, count) ? self->groups : NULL};
+    memcpy(batch->origin, self->origin, sizeof batch->origin);
     return DP_OK;
 }
 
@@ -284,6 +305,7 @@ static const char *stl_remark(void *user) {
 static void release(stl *self) {
     const dp_allocator memory = self->allocator;
     dp_groups_destroy(&self->names);
+    dp_wide_free(&self->wide, &memory);
     dp_free(&memory, self->positions);
     dp_free(&memory, self->groups);
     dp_free(&memory, self);

@@ -97,6 +97,10 @@ bool dp_text_float(dp_stream *stream, float *value) {
     return take(stream, dp_number_float(stream->cursor, value));
 }
 
+bool dp_text_wide(dp_stream *stream, float *value, double *wide) {
+    return take(stream, dp_number_wide(stream->cursor, value, wide));
+}
+
 bool dp_text_int_slow(dp_stream *stream, int64_t *value) {
     return take(stream, dp_number_int(stream->cursor, value));
 }

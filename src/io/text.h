@@ -32,6 +32,8 @@ void dp_text_skip_word(dp_stream *stream);
 
 /* Reads the number at the cursor. False, with the cursor unmoved, if the word is not a number. */
 bool dp_text_float(dp_stream *stream, float *value);
+/* The same, and the number in double precision (dp_number_wide). */
+bool dp_text_wide(dp_stream *stream, float *value, double *wide);
 bool dp_text_int_slow(dp_stream *stream, int64_t *value);
 static inline bool dp_text_int(dp_stream *stream, int64_t *value) {
     const uint8_t *p = stream->cursor;

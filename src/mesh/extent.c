@@ -8,6 +8,7 @@
 #include "base/diag.h"
 #include "base/hostile.h"
 #include "base/threads.h"
+#include "mesh/wide.h"
 
 #include <math.h>
 #include <string.h>
@@ -119,8 +120,11 @@ static void add_up(const seen *workers, uint32_t count, dp_extent *extent) {
         float lo = INFINITY, hi = -INFINITY;
         for (uint32_t i = 0; i < count; i++)
             lo = fminf(lo, workers[i].min[k]), hi = fmaxf(hi, workers[i].max[k]);
-        extent->min[k] = lo, extent->max[k] = hi;
+        extent->exact_min[k] = (double)lo, extent->exact_max[k] = (double)hi;
+        const double farthest = fmax(fabs((double)lo), fabs((double)hi));
+        if (lo <= hi) extent->spacing = fmax(extent->spacing, dp_float_spacing(farthest));
     }
+    dp_extent_round(extent);
     for (uint32_t i = 0; i < count; i++) extent->not_finite += workers[i].not_finite;
 }
 

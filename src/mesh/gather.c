@@ -1,12 +1,14 @@
 /* Reads a source into one set of convex polygons.
  *
  * One stable batch of sound polygons is used in place: nothing is copied. Everything else is
- * appended to a store that the context keeps from frame to frame. Diagonals of split polygons have
+ * appended to a store that the context keeps from frame to frame, positions about the first batch's
+ * origin. Diagonals of split polygons have
  * edge flag 0, so that they never draw. */
 #include "mesh/polygons.h"
 
 #include "base/diag.h"
 #include "base/hostile.h"
+#include "mesh/source.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,6 +21,7 @@ typedef struct gatherer {
     bool has_firsts, has_flags, has_groups, has_source, has_colors;
     uint64_t handed_out; /* polygons of earlier batches */
     size_t only;         /* polygons of a source of one batch; 0: not known */
+    double origin[3];    /* of the first batch; positions of others are moved to it */
 } gatherer;
 
 /* Polygons between two reports. */
@@ -228,6 +231,16 @@ static bool append_colors(gatherer *g, const dp_batch *batch) {
     return true;
 }
 
+static void append_positions(const gatherer *g, const dp_batch *batch, float *to) {
+    double shift[3];
+    const bool moved = dp_batch_shift(batch, g->origin, shift);
+    for (size_t v = 0; v < batch->vertex_count; v++, to += 3) {
+        const float *const p = batch_position(batch, (uint32_t)v);
+        memcpy(to, p, 3 * sizeof *to);
+        for (int k = 0; moved && k < 3; k++) to[k] = (float)((double)p[k] + shift[k]);
+    }
+}
+
 static dp_result append_batch(gatherer *g, const dp_batch *batch) {
     dp_polygon_store *const s = g->store;
     const size_t base = s->vertices;
@@ -242,9 +255,7 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
         !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory) ||
         !append_colors(g, batch))
         return out_of_memory(g);
-    for (size_t v = 0; v < batch->vertex_count; v++)
-        memcpy(s->positions + 3 * (base + v), batch_position(batch, (uint32_t)v),
-               3 * sizeof(float));
+    append_positions(g, batch, s->positions + 3 * base);
     s->vertices += batch->vertex_count;
     if (batch->groups) g->has_groups = true;
     for (size_t i = 0; i < batch->polygon_count; i++) {
@@ -288,6 +299,7 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
     dp_result result = dp_source_next(source, &batch, g->diag);
     if (result) return result;
     const bool stable = batch.stable && batch.polygon_count;
+    memcpy(g->origin, batch.origin, sizeof g->origin);
     if (stable) {
         const dp_batch first = batch;
         if ((result = dp_source_next(source, &next, g->diag))) return result;
@@ -312,10 +324,8 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
 
 dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocator *allocator,
                     dp_polygons *out, dp_stats *stats, dp_diag *diag) {
-    if (dp_source_rewindable(source)) {
-        const dp_result result = dp_source_rewind(source, diag);
-        if (result) return result;
-    }
+    const dp_result begun = dp_source_begun(source, diag);
+    if (begun) return begun;
     store->vertices = store->corner_count = store->polygons = 0;
     store->is_beyond = false;
     store->normals.count = store->texcoords.count = 0;

@@ -69,7 +69,8 @@ typedef struct dp_polygon_store {
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator);
 uint64_t dp_polygon_store_bytes(const dp_polygon_store *store);
 
-/* Reads the source to its end (from its start if it can be rewound), splits polygons that are not
+/* Reads the source to its end (from its start if it can be rewound), moves all positions to the
+ * first batch's origin, splits polygons that are not
  * convex and planar, and fills *out. Counts polygons, triangles, split and dropped_corners in
  * *stats. DP_ERR_LIMIT beyond 2^30 polygons, or, with store->is_beyond, beyond store->limit bytes,
  * of which borrowed arrays take none. */

@@ -1,5 +1,8 @@
 /* A source's mirror image, batch by batch, and a source with a quadrilateral after it.
  *
+ * A batch with an origin is reflected about it, and has the origin's image for its origin, so that
+ * positions stay as small as they are.
+ *
  * A reflected batch has all vertices of the batch, reflected, and then those where polygons were
  * cut; each polygon's corners are in reverse order. Polygons that are cut are taken to be convex.
  *
@@ -21,7 +24,9 @@ typedef struct corner {
 
 typedef struct reflection {
     dp_source *source;
-    dp_plane_equation plane;
+    dp_plane_equation plane;        /* world space */
+    dp_plane_equation turn, border; /* the same about the batch's origin, and about its image's */
+    double origin[3];               /* of the reflected batch */
     dp_allocator memory;
     float *positions, *normals;
     uint32_t *indices, *firsts, *normal_indices, *texcoord_indices;
@@ -134,7 +139,7 @@ static bool add_polygon(reflection *r, const dp_batch *b, size_t i) {
                        .texcoord = dp_attribute_number(&b->texcoords, c, v)};
         wrong += to->vertex == UINT32_MAX;
         if (to->vertex != UINT32_MAX)
-            to->side = -side_of(&r->plane, position(r, v)); /* its image lies beyond */
+            to->side = -side_of(&r->border, position(r, v)); /* its image lies beyond */
         inside += to->side >= 0;
         before += to->side > 0;
     }
@@ -148,15 +153,31 @@ static bool add_polygon(reflection *r, const dp_batch *b, size_t i) {
     return true;
 }
 
+static double along(const dp_plane_equation *plane, const double p[3]) {
+    return plane->n[0] * p[0] + plane->n[1] * p[1] + plane->n[2] * p[2];
+}
+
+/* Without an origin, positions are world space. */
+static void place_planes(reflection *r, const double origin[3]) {
+    r->turn = r->border = r->plane;
+    memset(r->origin, 0, sizeof r->origin);
+    if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return;
+    const double twice = 2 * (along(&r->plane, origin) - r->plane.offset);
+    for (int k = 0; k < 3; k++) r->origin[k] = origin[k] - twice * r->plane.n[k];
+    r->turn.offset = 0;
+    r->border.offset = r->plane.offset - along(&r->plane, r->origin);
+}
+
 static bool reflect_batch(reflection *r, const dp_batch *b) {
     if (!reserve_batch(r, b)) return false;
+    place_planes(r, b->origin);
     for (size_t v = 0; v < b->vertex_count; v++)
         reflect_point(
-            &r->plane,
+            &r->turn,
             (const float *)(const void *)((const char *)b->positions + v * b->position_stride),
             r->positions + 3 * v);
     for (size_t i = 0; b->normals.values && i < b->normals.count; i++)
-        reflect_direction(&r->plane, dp_attribute_value(&b->normals, (uint32_t)i),
+        reflect_direction(&r->turn, dp_attribute_value(&b->normals, (uint32_t)i),
                           r->normals + 3 * i);
     r->colored = b->colors != NULL;
     if (r->colored) memcpy(r->colors, b->colors, b->vertex_count * sizeof *r->colors);
@@ -186,6 +207,7 @@ static dp_result reflection_next(void *user, dp_batch *out, dp_diag *diag) {
                       .edge_flags = r->flags,
                       .colors = r->colored ? r->colors : NULL,
                       .groups = b.groups ? r->groups : NULL};
+    memcpy(out->origin, r->origin, sizeof out->origin);
     if (b.normals.values)
         out->normals = (dp_attribute){
             .values = r->normals, .count = b.normals.count, .indices = r->normal_indices};
@@ -244,7 +266,9 @@ dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane,
 typedef struct with_quad {
     dp_source *source;
     dp_allocator memory;
-    float corners[4][3];
+    double corners[4][3]; /* world space */
+    double origin[3];     /* of the source's last batch */
+    float positions[4][3];
     uint16_t group[1];
     bool ended, done;
 } with_quad;
@@ -254,17 +278,21 @@ static dp_result with_quad_next(void *user, dp_batch *out, dp_diag *diag) {
     with_quad *const q = user;
     if (!q->ended) {
         const dp_result result = dp_source_next(q->source, out, diag);
+        if (!result && out->polygon_count) memcpy(q->origin, out->origin, sizeof q->origin);
         if (result || out->polygon_count) return result;
         q->ended = true;
     }
     *out = (dp_batch){0};
+    for (int i = 0; i < 12; i++)
+        q->positions[i / 3][i % 3] = (float)(q->corners[i / 3][i % 3] - q->origin[i % 3]);
     if (!q->done)
-        *out = (dp_batch){.positions = q->corners[0],
+        *out = (dp_batch){.positions = q->positions[0],
                           .vertex_count = 4,
                           .corner_count = 4,
                           .firsts = firsts,
                           .polygon_count = 1,
-                          .groups = q->group};
+                          .groups = q->group,
+                          .origin = {q->origin[0], q->origin[1], q->origin[2]}};
     q->done = true;
     return DP_OK;
 }
@@ -285,7 +313,7 @@ static void with_quad_destroy(void *user) {
     dp_free(&memory, q);
 }
 
-dp_result dp_add_quad_source(dp_source *source, const float corners[4][3], uint16_t group,
+dp_result dp_add_quad_source(dp_source *source, const double corners[4][3], uint16_t group,
                              const dp_allocator *memory, dp_source **out, dp_diag *diag) {
     with_quad *const q = dp_alloc_zeroed(memory, sizeof *q);
     if (!q) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");

@@ -16,8 +16,8 @@ typedef struct dp_plane_equation {
 dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane,
                             const dp_allocator *memory, dp_source **out, dp_diag *diag);
 
-/* `source`, then one quadrilateral of a group. Borrows `source`; the caller destroys *out. */
-dp_result dp_add_quad_source(dp_source *source, const float corners[4][3], uint16_t group,
+/* `source`, then one quadrilateral of a group, corners in world space. Borrows `source`; the caller destroys *out. */
+dp_result dp_add_quad_source(dp_source *source, const double corners[4][3], uint16_t group,
                              const dp_allocator *memory, dp_source **out, dp_diag *diag);
 
 #endif

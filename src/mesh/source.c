@@ -6,6 +6,7 @@
 
 #include "base/diag.h"
 #include "base/vec.h"
+#include "mesh/wide.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -120,6 +121,9 @@ static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
                        batch->vertex_count, batch->position_stride);
     const dp_result misplaced = dp_check_alignment(batch, diag);
     if (misplaced) return misplaced;
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(batch->origin[k]))
+            return dp_fail(diag, DP_ERR_ARGUMENT, "a batch's origin is not finite");
     if (!batch->firsts && batch->corner_count / 3 < batch->polygon_count)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "a batch of %zu triangles needs three times as many corners; "
@@ -133,10 +137,7 @@ static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
     return DP_OK;
 }
 
-dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag) {
-    if (!source || !batch) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_next: NULL argument");
-    dp_diag unused;
-    if (!diag) diag = &unused;
+static dp_result next_batch(dp_source *source, dp_batch *batch, dp_diag *diag) {
     *batch = (dp_batch){0};
     const dp_result result = source->callbacks.next(source->callbacks.user, batch, diag);
     if (result) {
@@ -149,12 +150,38 @@ dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag) {
     return check_table(batch, diag);
 }
 
+dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag) {
+    if (!source || !batch) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_next: NULL argument");
+    dp_diag unused;
+    if (!source->holds) return next_batch(source, batch, diag ? diag : &unused);
+    *batch = source->held;
+    source->holds = false;
+    return DP_OK;
+}
+
 dp_result dp_source_rewind(dp_source *source, dp_diag *diag) {
     dp_diag unused;
     if (!diag) diag = &unused;
     if (!source || !source->callbacks.rewind)
         return dp_fail(diag, DP_ERR_UNSUPPORTED, "this polygon source can be read only once");
+    source->holds = false;
     return source->callbacks.rewind(source->callbacks.user, diag);
+}
+
+dp_result dp_source_begin(dp_source *source, double origin[3], dp_diag *diag) {
+    dp_diag unused;
+    dp_result result = dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
+    memset(origin, 0, 3 * sizeof *origin);
+    if (result || source->records.read) return result; /* records have none */
+    if (!source->holds) result = next_batch(source, &source->held, diag ? diag : &unused);
+    if (result) return result;
+    source->holds = true;
+    memcpy(origin, source->held.origin, 3 * sizeof *origin);
+    return DP_OK;
+}
+
+dp_result dp_source_begun(dp_source *source, dp_diag *diag) {
+    return dp_source_rewindable(source) && !source->holds ? dp_source_rewind(source, diag) : DP_OK;
 }
 
 bool dp_source_rewindable(const dp_source *source) { return source && source->callbacks.rewind; }
@@ -195,7 +222,14 @@ static const float *corner(const dp_batch *batch, size_t c) {
                                          v * batch->position_stride);
 }
 
-static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *extent) {
+/* A batch's box, in its own positions. */
+typedef struct box {
+    float min[3], max[3];
+} box;
+
+static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void extend(const dp_batch *batch, size_t first, size_t last, box *b, dp_extent *extent) {
     for (size_t c = first; c < last; c++) {
         const float *const p = corner(batch, c);
         if (!p) {
@@ -211,9 +245,32 @@ static void extend(const dp_batch *batch, size_t first, size_t last, dp_extent *
     for (size_t c = first; c < last; c++) {
         const float *const p = corner(batch, c);
         for (int k = 0; k < 3; k++) {
-            extent->min[k] = dp_minf(p[k], extent->min[k]);
-            extent->max[k] = dp_maxf(p[k], extent->max[k]);
+            b->min[k] = dp_minf(p[k], b->min[k]);
+            b->max[k] = dp_maxf(p[k], b->max[k]);
         }
+    }
+}
+
+static void add_box(const box *b, const double origin[3], dp_extent *extent) {
+    if (b->min[0] > b->max[0]) return;
+    for (int k = 0; k < 3; k++) {
+        const double min = (double)b->min[k], max = (double)b->max[k];
+        extent->exact_min[k] = dp_min(origin[k] + min, extent->exact_min[k]);
+        extent->exact_max[k] = dp_max(origin[k] + max, extent->exact_max[k]);
+        extent->spacing = dp_max(extent->spacing, dp_float_spacing(dp_max(fabs(min), fabs(max))));
+    }
+}
+
+/* The float32 next to a value that is no larger; for the other side, negate both. */
+static float below(double value) {
+    const float near = (float)value;
+    return (double)near > value ? nextafterf(near, -INFINITY) : near;
+}
+
+void dp_extent_round(dp_extent *extent) {
+    for (int k = 0; k < 3; k++) {
+        extent->min[k] = below(extent->exact_min[k]);
+        extent->max[k] = -below(-extent->exact_max[k]);
     }
 }
 
@@ -225,22 +282,26 @@ dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) 
         const dp_result result = dp_source_rewind(source, diag);
         if (result) return result;
     }
-    dp_extent sum = {
-        {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0, 0, 0, 0};
+    dp_extent sum = {.exact_min = {INFINITY, INFINITY, INFINITY},
+                     .exact_max = {-INFINITY, -INFINITY, -INFINITY},
+                     .spacing = source->spacing};
     for (;;) {
         dp_batch batch;
         const dp_result result = dp_source_next(source, &batch, diag);
         if (result) return result;
         if (!batch.polygon_count) break;
+        box b = empty_box;
         for (size_t i = 0; i < batch.polygon_count; i++) {
             const size_t first = batch.firsts ? batch.firsts[i] : 3 * i;
             const size_t last = batch.firsts ? batch.firsts[i + 1] : 3 * i + 3;
-            extend(&batch, first, last, &sum);
+            extend(&batch, first, last, &b, &sum);
             sum.corners += last - first;
         }
+        add_box(&b, batch.origin, &sum);
         sum.polygons += batch.polygon_count;
         sum.vertices += batch.vertex_count;
     }
+    dp_extent_round(&sum);
     *extent = sum;
     return dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
 }

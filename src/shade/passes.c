@@ -90,6 +90,21 @@ static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
     return true;
 }
 
+/* Where world space begins elsewhere than positions do. A float of the exponent e is a power of two,
+ * 2^(e - 127). */
+static void anchor_strokes(dp_shade_store *s, const double origin[3]) {
+    if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return;
+    const double a = (double)DP_HATCH_COSINE, b = (double)DP_HATCH_SINE;
+    for (int k = 0; k < 3; k++)
+        for (int e = 0; e < 256; e++) {
+            const double u = ldexp(origin[(k + 1) % 3], e - 127),
+                         v = ldexp(origin[(k + 2) % 3], e - 127);
+            s->anchor[k][0][e] = (float)fmod(a * u + b * v, s->setup.strokes.width);
+            s->anchor[k][1][e] = (float)fmod(a * v - b * u, s->setup.strokes.height);
+        }
+    s->setup.anchor = (const dp_hatch_anchor *)&s->anchor;
+}
+
 /* Do strokes stick to the surface along the model's texture coordinates? */
 static bool wants_texcoords(const dp_shade_store *s) {
     const dp_shade *const shade = &s->setup.shade;
@@ -140,6 +155,7 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
         (s->colored && smooth &&
          !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, dp_times(4, pixels), 1)))
         return false;
+    anchor_strokes(s, frame->origin);
     s->shown = smooth ? s->smooth : s->color;
     return true;
 }

@@ -24,6 +24,14 @@ typedef struct dp_strokes_texture {
     uint32_t width, height;
 } dp_strokes_texture;
 
+/* By how many texels strokes are moved, along u and v, so that they stick to world space and not to
+ * the origin of positions: by axis of the surface, u or v, and exponent of the scale, as a float has
+ * it. */
+typedef float dp_hatch_anchor[3][2][256];
+/* Strokes on surfaces are turned, so that no axis lies along them. */
+#define DP_HATCH_COSINE 0.8f
+#define DP_HATCH_SINE   0.6f
+
 /* Steps of half a turn. */
 enum { DP_TURNS = 18 };
 /* A direction on the screen, without sign: the step below it (high byte), and how much of the next
@@ -40,7 +48,8 @@ typedef struct dp_shading_setup {
     dp_shade shade; /* resolved; light of length 1 */
     const dp_gbuffer *g;
     dp_strokes_texture strokes;
-    const uint8_t *shades; /* toon: [shade_count][4] */
+    const dp_hatch_anchor *anchor; /* hatch, halftone; NULL: world space is that of positions */
+    const uint8_t *shades;         /* toon: [shade_count][4] */
     uint32_t shade_count;
     float ink[3];
 
@@ -117,6 +126,7 @@ typedef struct dp_shade_store {
     size_t color_cap, smooth_cap, inked_cap;
     uint8_t *hatching, *halftone; /* built-in textures, made when first used */
     size_t hatching_cap, halftone_cap;
+    dp_hatch_anchor anchor;
     dp_pencil_store pencil;
     const dp_shaders *shaders; /* for this processor */
     bool active;               /* this frame has a G-buffer */

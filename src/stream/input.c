@@ -24,10 +24,8 @@ dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
                         const dp_allocator *memory, dp_stats *stats, dp_diag *diag) {
     *input =
         (dp_input){.source = source, .memory = memory, .stats = stats, .part = chunks * DP_CHUNK};
-    if (dp_source_rewindable(source)) {
-        const dp_result result = dp_source_rewind(source, diag);
-        if (result) return result;
-    }
+    const dp_result begun = dp_source_begun(source, diag);
+    if (begun) return begun;
     if (source->records.read) return DP_OK;
     if (dp_reserve(memory, &input->corners, &input->corners_cap, input->part,
                    sizeof *input->corners) &&
@@ -58,6 +56,8 @@ static void put(dp_input *input, const float *a, const float *b, const float *c,
     memcpy(out, a, 3 * sizeof(float));
     memcpy(out + 3, b, 3 * sizeof(float));
     memcpy(out + 6, c, 3 * sizeof(float));
+    for (int i = 0; input->moved && i < 9; i++)
+        out[i] = (float)((double)out[i] + input->shift[i % 3]);
     input->flags[input->count] = (uint8_t)flags;
     input->polygons[input->count++] = (uint32_t)(input->handed_out + polygon);
 }
@@ -137,6 +137,9 @@ static dp_result next_of_batches(dp_input *input, dp_diag *diag) {
             input->taken = 0;
             result = dp_source_next(input->source, &input->batch, diag);
             if (result || !input->batch.polygon_count) return result;
+            if (!input->handed_out)
+                memcpy(input->origin, input->batch.origin, sizeof input->origin);
+            input->moved = dp_batch_shift(&input->batch, input->origin, input->shift);
             input->stats->polygons += input->batch.polygon_count;
         }
         if (!take_polygon(input, input->taken, &result, diag)) return result;

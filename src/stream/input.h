@@ -17,6 +17,9 @@ typedef struct dp_input {
 
     /* Sources without records: the current batch, and the part's triangles copied from batches. */
     dp_batch batch;
+    double origin[3];    /* of the first batch, from which all triangles are counted */
+    double shift[3];     /* added to the batch's positions … */
+    bool moved;          /* … if it has another origin */
     size_t taken;        /* polygons of the batch that were copied */
     uint64_t handed_out; /* polygons of earlier batches */
     float (*corners)[9]; /* [part] */

@@ -150,11 +150,11 @@ static void take_plane(const dp_segment_batch *made, uint32_t i, int k, const dp
     for (int c = 0; c < 3; c++) plane[c] = made->plane[k][c][i];
 }
 
-static dp_point take_end(const dp_segment_batch *made, uint32_t i, int k, float screen[3],
-                         float world[3]) {
+static dp_point take_end(const dp_frame *frame, const dp_segment_batch *made, uint32_t i, int k,
+                         float screen[3], double world[3]) {
     const dp_point p = {made->screen[k][0][i], made->screen[k][1][i], made->screen[k][2][i]};
     screen[0] = p.x, screen[1] = p.y, screen[2] = made->distance[k][i];
-    for (int c = 0; c < 3; c++) world[c] = made->world[k][c][i];
+    for (int c = 0; c < 3; c++) world[c] = frame->origin[c] + (double)made->world[k][c][i];
     return p;
 }
 
@@ -188,7 +188,8 @@ static bool leaves_picture(const dp_view *view, const float end[3], const float 
 }
 
 /* Why a piece ends where it does. A spine that the near or far plane has cut ends there. */
-static void take_line_end(const dp_frame *frame, const dp_piece *piece, int k, dp_segment *out) {
+static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, uint32_t i,
+                          const dp_piece *piece, int k, dp_segment *out) {
     const int32_t hider = (int32_t)piece->hider[k];
     const bool leaves = hider == DP_HIDER_UNKNOWN &&
                         leaves_picture(&frame->view, k ? out->b : out->a, k ? out->a : out->b);
@@ -196,7 +197,7 @@ static void take_line_end(const dp_frame *frame, const dp_piece *piece, int k, d
     if (hider == DP_HIDER_PICTURE || leaves) {
         out->end[k] = DP_END_PICTURE;
     } else if (hider == DP_HIDER_NONE) {
-        const float *const world = k ? out->world_b : out->world_a;
+        const float world[3] = {made->world[k][0][i], made->world[k][1][i], made->world[k][2][i]};
         out->end[k] = lies_on_plane(&frame->view, world) ? DP_END_PICTURE
                       : piece->edge == DP_CROSSING       ? DP_END_CROSSING
                                                          : DP_END_VERTEX;
@@ -218,9 +219,9 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
     segment->reversed = false;
     segment->width = line->width;
     segment->color = line->color;
-    stroke->a = take_end(made, i, 0, segment->a, segment->world_a);
-    stroke->b = take_end(made, i, 1, segment->b, segment->world_b);
-    for (int k = 0; k < 2; k++) take_line_end(frame, piece, k, segment);
+    stroke->a = take_end(frame, made, i, 0, segment->a, segment->world_a);
+    stroke->b = take_end(frame, made, i, 1, segment->b, segment->world_b);
+    for (int k = 0; k < 2; k++) take_line_end(frame, made, i, piece, k, segment);
     stroke->half_width = line->width / 2;
     stroke->color = line->color;
     stroke->line = piece->line;

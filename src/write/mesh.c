@@ -10,7 +10,9 @@
  *
  * Invariant: every format holds the same polygons: those with at least three corners whose vertices
  * exist and are finite. A vertex that is not finite is written as 0 0 0, so that numbers stay
- * right. Text has nine digits, which give back the same float.
+ * right. Text has nine digits, which give back the same float. Positions about an origin are written
+ * in world space: as doubles to PLY, with sixteen digits to text, and as float32, which loses what
+ * that cannot hold, to STL.
  *
  * Not handled: normals, colours, groups, edge flags; welding beyond the source's indices. STL:
  * larger polygons become fans of triangles, which is right for convex ones. */
@@ -33,6 +35,7 @@ typedef struct writer {
     void *user;
     uint64_t vertices, polygons, triangles; /* of the whole source, once counted */
     uint32_t most_corners;                  /* of one polygon */
+    bool wide;                              /* PLY: some positions are about an origin */
     uint64_t done;                          /* polygons handled so far, over all readings */
     int readings;                           /* number that write, for progress; 0 while counting */
 } writer;
@@ -64,6 +67,24 @@ static bool usable(const dp_batch *batch, size_t first, size_t last) {
         if (v >= batch->vertex_count || !finite(position(batch, v))) return false;
     }
     return true;
+}
+
+static bool has_origin(const dp_batch *batch) {
+    return batch->origin[0] != 0 || batch->origin[1] != 0 || batch->origin[2] != 0;
+}
+
+/* A vertex in world space. */
+static void place(const dp_batch *batch, size_t v, double world[3]) {
+    const float *const p = position(batch, v);
+    for (int k = 0; k < 3; k++) world[k] = batch->origin[k] + (double)p[k];
+}
+
+/* The same; 0 0 0 where it is not finite. */
+static void place_shown(const dp_batch *batch, size_t v, double world[3]) {
+    if (finite(position(batch, v)))
+        place(batch, v, world);
+    else
+        memset(world, 0, 3 * sizeof *world);
 }
 
 static dp_result put(writer *w, const void *bytes, size_t size) {
@@ -102,6 +123,7 @@ static dp_result count_batch(writer *w, const dp_batch *batch, uint64_t base) {
         if (last - first > w->most_corners) w->most_corners = (uint32_t)(last - first);
     }
     w->vertices = base + batch->vertex_count;
+    w->wide |= has_origin(batch);
     return DP_OK;
 }
 
@@ -122,6 +144,12 @@ static void put_u32(uint8_t *to, uint32_t value) {
     for (int k = 0; k < 4; k++) to[k] = (uint8_t)(value >> 8 * k);
 }
 
+static void put_f64(uint8_t *to, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (int k = 0; k < 8; k++) to[k] = (uint8_t)(bits >> 8 * k);
+}
+
 static void put_f32(uint8_t *to, float value) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -130,41 +158,45 @@ static void put_f32(uint8_t *to, float value) {
 
 static dp_result ply_header(writer *w) {
     char text[400];
+    const char *const type = w->wide ? "double" : "float";
     const int n =
         snprintf(text, sizeof text,
                  "ply\nformat %s 1.0\ncomment written by Drypoint %s\n"
-                 "element vertex %llu\nproperty float x\nproperty float y\n"
-                 "property float z\nelement face %llu\n"
+                 "element vertex %llu\nproperty %s x\nproperty %s y\n"
+                 "property %s z\nelement face %llu\n"
                  "property list %s %s vertex_indices\nend_header\n",
                  w->kind == DP_MESH_FILE_PLY ? "binary_little_endian" : "ascii", dp_version(),
-                 (unsigned long long)w->vertices, (unsigned long long)w->polygons,
+                 (unsigned long long)w->vertices, type, type, type, (unsigned long long)w->polygons,
                  w->most_corners > MOST_IN_BYTE ? "uint" : "uchar",
                  w->vertices > INT32_MAX ? "uint" : "int");
     return put_text(w, text, n);
 }
 
-static dp_result text_vertex(writer *w, const char *prefix, const float p[3]) {
+static dp_result text_vertex(writer *w, const char *prefix, const dp_batch *batch, size_t v) {
     char text[16 + 3 * DP_NUMBER_TEXT], number[3][DP_NUMBER_TEXT];
-    for (int k = 0; k < 3; k++) dp_print_number(number[k], p[k], 9);
+    double p[3];
+    place_shown(batch, v, p);
+    for (int k = 0; k < 3; k++) dp_print_number(number[k], p[k], batch->origin[k] != 0 ? 16 : 9);
     return put_text(
         w, text,
         snprintf(text, sizeof text, "%s%s %s %s\n", prefix, number[0], number[1], number[2]));
-}
-
-static const float *shown(const dp_batch *batch, size_t v) {
-    static const float origin[3] = {0};
-    const float *const p = position(batch, v);
-    return finite(p) ? p : origin;
 }
 
 static dp_result ply_vertices(writer *w, const dp_batch *batch, uint64_t base) {
     dp_result result = DP_OK;
     (void)base;
     for (size_t v = 0; v < batch->vertex_count && !result; v++) {
-        const float *const p = shown(batch, v);
-        uint8_t bytes[12];
-        for (int k = 0; k < 3; k++) put_f32(bytes + 4 * k, p[k]);
-        result = w->kind == DP_MESH_FILE_PLY ? put(w, bytes, sizeof bytes) : text_vertex(w, "", p);
+        double p[3];
+        uint8_t bytes[24];
+        const size_t size = w->wide ? 8 : 4;
+        place_shown(batch, v, p);
+        for (size_t k = 0; k < 3; k++)
+            if (w->wide)
+                put_f64(bytes + size * k, p[k]);
+            else
+                put_f32(bytes + size * k, (float)p[k]);
+        result =
+            w->kind == DP_MESH_FILE_PLY ? put(w, bytes, 3 * size) : text_vertex(w, "", batch, v);
     }
     return result;
 }
@@ -233,13 +265,17 @@ static void normal_of(const float a[3], const float b[3], const float c[3], floa
     for (int k = 0; k < 3; k++) normal[k] = length > 0 ? (float)(n[k] / length) : 0;
 }
 
-static dp_result stl_triangle(writer *w, const float *const corner[3]) {
+static dp_result stl_triangle(writer *w, const dp_batch *batch, const uint32_t corner[3]) {
     uint8_t bytes[50] = {0};
     float normal[3];
-    normal_of(corner[0], corner[1], corner[2], normal);
+    normal_of(position(batch, corner[0]), position(batch, corner[1]), position(batch, corner[2]),
+              normal);
     for (int k = 0; k < 3; k++) put_f32(bytes + 4 * k, normal[k]);
-    for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++) put_f32(bytes + 12 + 12 * c + 4 * k, corner[c][k]);
+    for (int c = 0; c < 3; c++) {
+        double p[3];
+        place(batch, corner[c], p);
+        for (int k = 0; k < 3; k++) put_f32(bytes + 12 + 12 * c + 4 * k, (float)p[k]);
+    }
     return put(w, bytes, sizeof bytes);
 }
 
@@ -250,9 +286,9 @@ static dp_result stl_triangles(writer *w, const dp_batch *batch, uint64_t base) 
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
         if (!usable(batch, first, last)) continue;
         for (size_t c = first + 1; c + 1 < last && !result; c++)
-            result = stl_triangle(w, (const float *[3]){position(batch, index_of(batch, first)),
-                                                        position(batch, index_of(batch, c)),
-                                                        position(batch, index_of(batch, c + 1))});
+            result = stl_triangle(w, batch,
+                                  (const uint32_t[3]){index_of(batch, first), index_of(batch, c),
+                                                      index_of(batch, c + 1)});
     }
     return result;
 }
@@ -297,7 +333,7 @@ static dp_result write_stl(writer *w) {
 static dp_result obj_batch(writer *w, const dp_batch *batch, uint64_t base) {
     dp_result result = DP_OK;
     for (size_t v = 0; v < batch->vertex_count && !result; v++)
-        result = text_vertex(w, "v ", shown(batch, v));
+        result = text_vertex(w, "v ", batch, v);
     for (size_t i = 0; i < batch->polygon_count && !result; i++) {
         const size_t first = first_of(batch, i), last = first_of(batch, i + 1);
         if (usable(batch, first, last)) result = text_polygon(w, batch, base + 1, first, last, "f");

@@ -225,7 +225,8 @@ static void check_mirror(dp_shading shading, bool edges, const float normal[3],
                    .size = 300}};
     dp_style style;
     assert_int_equal(dp_style_resolve(&wanted, &style, NULL), DP_OK);
-    const dp_vec3 n = dp_unit(dp_v3f(style.mirror.normal));
+    const double *const along = style.mirror.normal;
+    const dp_vec3 n = dp_v3(along[0], along[1], along[2]);
     make_rooms(&s);
     add_ball(&s, 10, 20, -20, 18);
     add_ball(&s, 5, -20, 32, 13);

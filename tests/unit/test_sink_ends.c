@@ -27,6 +27,12 @@ static point cross(point a, point b) {
 }
 static double length_of(point a) { return sqrt(dot(a, a)); }
 
+/* Where a segment begins (0) or ends (1). */
+static point end_of(const dp_segment *s, int k) {
+    const double *const p = k ? s->world_b : s->world_a;
+    return (point){p[0], p[1], p[2]};
+}
+
 /* Where the point is seen, px from the picture's middle, y up; third: towards the eye. */
 static point seen_at(point p, bool flat) {
     const double focal = flat ? 1 : SCENE_HEIGHT / 2.0 / tan(25 * 3.14159265358979323846 / 180);
@@ -50,7 +56,7 @@ static double outside(const point corner[3], double x, double y) {
 /* The hider covers a point within two pixels of the sample point behind a hidden end, an eighth of a
  * pixel on, and is nearer. Sample points are lifted by a tenth of a pixel, which planes seen edge-on magnify. */
 static void check_hider(const dp_segment *s, int k, bool flat) {
-    const point end = at(k ? s->world_b : s->world_a), other = at(k ? s->world_a : s->world_b);
+    const point end = end_of(s, k), other = end_of(s, !k);
     const double px = hypot((double)s->b[0] - (double)s->a[0], (double)s->b[1] - (double)s->a[1]);
     const point beyond = along(end, minus(end, other), 0.125 / px), spot = seen_at(beyond, flat);
     point corner[3], on_screen[3];
@@ -79,8 +85,7 @@ static void check_picture_end(const dp_segment *s, int k) {
 /* An end that is a vertex is the one that the edge begins or ends with. */
 static void check_vertex_end(const dp_segment *s, int k) {
     const size_t corner = (s->edge + (size_t)k) % 3;
-    const point from =
-        minus(at(k ? s->world_b : s->world_a), at(made.positions[3 * s->polygon + corner]));
+    const point from = minus(end_of(s, k), at(made.positions[3 * s->polygon + corner]));
     assert_true(s->edge < 3);
     assert_true(length_of(from) < 1e-3);
 }
