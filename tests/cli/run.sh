@@ -196,6 +196,85 @@ info_table() {
     says out '"dropped_index": 1'
     says out '"dropped_area": 1'
 }
+# away X Y Z <OBJ: the model moved, all digits kept.
+away() {
+    awk -v x="$1" -v y="$2" -v z="$3" '$1 == "v" { printf "v %.3f %.3f %.3f\n", $2 + x, $3 + y, $4 + z; next } { print }'
+}
+# as_stl <OBJ: triangles as ASCII STL.
+as_stl() {
+    awk 'BEGIN { print "solid house" } END { print "endsolid house" } $1 == "v" { v[++n] = $2 " " $3 " " $4 }
+        $1 == "f" { for (i = 3; i < NF; i++) printf "facet normal 0 0 0\nouter loop\nvertex %s\nvertex %s\nvertex %s\nendloop\nendfacet\n",
+            v[$2], v[$i], v[$(i + 1)] }'
+}
+# A house in survey coordinates, where float32 has steps of half a metre: the picture of the same house at 0.
+far_from_zero() {
+    local view='--up 0,0,1 --size 320x240' x=692345 y=5334567 z=512 count
+    cat >house.obj <<'EOF'
+v 0.125 0 0
+v 6.375 0 0
+v 6.375 4.625 0
+v 0.125 4.625 0
+v 0.125 0 3.125
+v 6.375 0 3.125
+v 6.375 4.625 3.125
+v 0.125 4.625 3.125
+v 0.125 2.25 4.875
+v 6.375 2.25 4.875
+f 4 3 2 1
+f 1 2 6 5
+f 3 4 8 7
+f 2 3 7 10 6
+f 4 1 5 9 8
+f 5 6 10 9
+f 7 8 9 10
+EOF
+    away $x $y $z <house.obj >far.obj
+    as_stl <house.obj >house.stl
+    as_stl <far.obj >far.stl
+    for kind in obj stl; do
+        run 0 house.$kind $view --azimuth 30 --elevation 25 --ortho 0 -o near.png
+        run 0 far.$kind $view --azimuth 30 --elevation 25 --ortho 0 -o far.png
+        silent err
+        cmp -s near.png far.png || fail "$kind: fitted pictures differ"
+        run 0 house.$kind $view --eye 12,-9,7 --target 3,2,1 -o near.png
+        run 0 far.$kind $view --eye 692357,5334558,519 --target 692348,5334569,513 -o far.png --stats=json
+        silent err
+        says out '"dropped": 0,'
+        cmp -s near.png far.png || fail "$kind: placed pictures differ"
+    done
+    cat far.stl | "$program" - $view --eye 692357,5334558,519 --target 692348,5334569,513 -o piped.png 2>err || fail "piped"
+    cmp -s far.png piped.png || fail "differs from a pipe"
+    cat house.stl | "$program" - $view --eye 12,-9,7 --target 3,2,1 --passes 1 -o near.png || fail "once"
+    cat far.stl | "$program" - $view --eye 692357,5334558,519 --target 692348,5334569,513 --passes 1 -o far.png ||
+        fail "far, once"
+    cmp -s near.png far.png || fail "read once, pictures differ"
+    run 0 house.obj $view --mirror 0,0,1 --elevation 20 -o near.png
+    run 0 far.obj $view --mirror 0,0,1 --elevation 20 -o far.png
+    cmp -s near.png far.png || fail "mirrors differ"
+    run 0 info far.obj
+    silent err
+    says out 'bounds from                      692345.125 5334567 512'
+    says out 'bounds to                        692351.375 5334571.625 516.875'
+    run 0 info far.obj --json
+    says out '"min": [692345.125, 5334567, 512], "max": [692351.375, 5334571.625, 516.875]'
+}
+# float32 in the file itself: nothing brings the digits back, and that is said.
+coarse_files_are_told() {
+    {
+        printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n'
+        printf 'property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n'
+        printf '\x80\xcb\xa4\x4a\x00\x00\x00\x00\x00\x00\x00\x00' # 5400000 0 0
+        printf '\x84\xcb\xa4\x4a\x00\x00\x00\x00\x00\x00\x00\x00' # 5400002 0 0
+        printf '\x80\xcb\xa4\x4a\x00\x00\x80\x3f\x00\x00\x00\x00' # 5400000 1 0
+        printf '\x03\x00\x00\x00\x00\x01\x00\x00\x00\x02\x00\x00\x00'
+    } >coarse.ply
+    run 0 coarse.ply $small --view front -o out.png
+    says err 'warning: coarse.ply: so far from 0 its coordinates are 0.5 apart as float32'
+    run 0 coarse.ply $small --view front --quiet -o out.png
+    silent err
+    run 0 info coarse.ply
+    says err 'are 0.5 apart'
+}
 stats() {
     run 0 shape:cube $small --stats -o out.png
     says err 'polygons'
@@ -850,8 +929,7 @@ absurd_thresholds() {
     done
 }
 
-tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option
-    views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps
+tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
