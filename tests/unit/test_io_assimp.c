@@ -4,6 +4,8 @@
 
 #include <drypoint/io.h>
 
+#include <math.h>
+
 /* AC3D: a square moved by (10, 0, 0), the same one mirrored, and a line. */
 #define QUAD                                                                                       \
     "numvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF 0x10\nmat 0\nrefs 4\n0 0 0\n1 0 0\n"   \
@@ -42,6 +44,45 @@ static void scenes_are_transformed_and_named(void **state) {
     assert_contains(text, "(0 1 0)(-1 1 0)(-1 0 0)(0 0 0)@mirrored");
     const char *const end = strrchr(text, '@');
     assert_true(end && !strstr(text, "line"));
+}
+
+static void extent_of(const char *ending, const char *scene, dp_extent *extent) {
+    const char *const path = write_file(ending, scene, strlen(scene));
+    dp_source *source = NULL;
+    assert_int_equal(dp_io_open(path, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_source_extent(source, extent, NULL), DP_OK);
+    dp_source_destroy(source);
+    unlink(path);
+}
+
+/* glTF: a triangle at 0 that a node moves far away. */
+static const char moved_far[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}],"
+    "\"nodes\": [{\"mesh\": 0, \"translation\": [0, 5334567, 0]}],"
+    "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}],"
+    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\","
+    "\"min\": [0, 0, 0], \"max\": [0.25, 0.7, 0]}],"
+    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}],"
+    "\"buffers\": [{\"byteLength\": 36, \"uri\": \"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPgAAAAAAAAAAAAAAADMzMz8AAAAA\"}]}";
+
+/* AC3D: the same with the place in its coordinates. */
+static const char made_far[] =
+    "AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
+    "OBJECT world\nkids 1\nOBJECT poly\nname \"far\"\nnumvert 3\n0 5334567 0\n"
+    "0.25 5334567 0\n0 5334567.7 0\nnumsurf 1\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n"
+    "kids 0\n";
+
+/* A transform to far away costs no digits; what Assimp itself has rounded is told. */
+static void far_scenes_keep_what_assimp_keeps(void **state) {
+    dp_extent extent;
+    (void)state;
+    extent_of(".gltf", moved_far, &extent);
+    assert_true(extent.spacing < 1e-6);
+    assert_true(extent.exact_min[1] == 5334567);
+    assert_true(fabs(extent.exact_max[1] - 5334567.7) < 1e-6);
+    extent_of(".ac", made_far, &extent);
+    assert_true(extent.spacing == 0.5);
 }
 
 static void materials_are_colours(void **state) {
@@ -232,6 +273,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(own_formats_come_through_own_readers),
         cmocka_unit_test(scenes_are_transformed_and_named),
+        cmocka_unit_test(far_scenes_keep_what_assimp_keeps),
         cmocka_unit_test(materials_are_colours),
         cmocka_unit_test(thumbnails_are_left_alone),
         cmocka_unit_test(what_assimp_refuses_is_said_in_one_line),

@@ -18,10 +18,23 @@ static float parse(const char *text) {
     return value;
 }
 
+/* The same float, and the number to two units of a double, or nothing better than the float. */
+static void assert_wide(const char *text, float expected) {
+    float value = -12345;
+    double wide = -12345;
+    assert_non_null(dp_number_wide((const uint8_t *)text, &value, &wide));
+    assert_memory_equal(&value, &expected, sizeof value);
+    const double exact = strtod(text, NULL);
+    if (wide == (double)value && (wide == 0 || fabs(wide) < 1e-40 || fabs(wide) > 1e38)) return;
+    if (!(fabs(wide - exact) <= fabs(exact) * 0x1p-51))
+        fail_msg("%s: %a instead of %a", text, wide, exact);
+}
+
 static void assert_as_strtof(const char *text) {
     const float value = parse(text), expected = strtof(text, NULL);
     if (memcmp(&value, &expected, sizeof value) != 0)
         fail_msg("%s: %a instead of %a", text, (double)value, (double)expected);
+    assert_wide(text, expected);
 }
 
 static void chosen_floats_are_exact(void **state) {

@@ -35,10 +35,14 @@ static void make_house(void) {
         {{34.3f, 8.1f, -22.2f}, {-34.3f, 8.1f, -22.2f}, {-34.3f, 27.7f, 0}, {34.3f, 27.7f, 0}},
         {{-34.3f, 8.1f, -22.2f}, {-34.3f, 8.1f, 22.2f}, {-34.3f, 27.7f, 0}, {-34.3f, 27.7f, 0}},
         {{34.3f, 8.1f, 22.2f}, {34.3f, 8.1f, -22.2f}, {34.3f, 27.7f, 0}, {34.3f, 27.7f, 0}},
-        {{-34.3f, 8.1f, -22.2f}, {34.3f, 8.1f, -22.2f}, {34.3f, 8.1f, 22.2f}, {-34.3f, 8.1f, 22.2f}},
+        {{-34.3f, 8.1f, -22.2f},
+         {34.3f, 8.1f, -22.2f},
+         {34.3f, 8.1f, 22.2f},
+         {-34.3f, 8.1f, 22.2f}},
     };
     memset(&house, 0, sizeof house);
-    scene_box(&house, (const float[3]){-30.7f, -25.3f, -20.9f}, (const float[3]){30.7f, 8.1f, 20.9f});
+    scene_box(&house, (const float[3]){-30.7f, -25.3f, -20.9f},
+              (const float[3]){30.7f, 8.1f, 20.9f});
     for (int i = 0; i < 5; i++) scene_polygon(&house, i == 2 || i == 3 ? 3 : 4, roof[i]);
     scene_box(&house, (const float[3]){11.1f, 4.4f, -3.3f}, (const float[3]){18.8f, 39.9f, 3.3f});
 }
@@ -99,8 +103,7 @@ static void put(const char *format, ...) __attribute__((format(printf, 1, 2)));
 static void put(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    file_size +=
-        (size_t)vsnprintf(file + file_size, sizeof file - file_size, format, arguments);
+    file_size += (size_t)vsnprintf(file + file_size, sizeof file - file_size, format, arguments);
     va_end(arguments);
     assert_true(file_size < sizeof file);
 }
@@ -188,7 +191,7 @@ static void write_stl(const double at[3]) {
 static const struct {
     const char *name;
     void (*write)(const double at[3]);
-} formats[] = {{"x.obj", write_obj},        {"x.off", write_off},
+} formats[] = {{"x.obj", write_obj},           {"x.off", write_off},
                {"ascii.ply", write_ascii_ply}, {"little.ply", write_little_ply},
                {"big.ply", write_big_ply},     {"x.stl", write_stl}};
 enum { FORMATS = sizeof formats / sizeof *formats };
@@ -418,9 +421,8 @@ static void batches_are_moved_to_one_origin(void **state) {
     (void)state;
     draw_expected(NULL);
     for (int way = 0; way < WAYS; way++) {
-        const dp_source_callbacks callbacks = {.user = &p,
-                                               .next = parts_next,
-                                               .rewind = way == IN_PARTS_ONCE ? NULL : parts_rewind};
+        const dp_source_callbacks callbacks = {
+            .user = &p, .next = parts_next, .rewind = way == IN_PARTS_ONCE ? NULL : parts_rewind};
         context->limit = way == FROM_MEMORY ? limit : 1;
         for (p.step = 1; p.step < 9; p.step += 3) {
             dp_source *source;
@@ -542,7 +544,10 @@ static void an_origin_changes_nothing(void **state) {
          .shade = {.shading = DP_SHADING_HALFTONE, .object_space = true, .stroke_scale = 3}},
         {.ink = DP_INK_QUADS, .edges = DP_EDGES_ADJACENCY},
         {.shade = {.shading = DP_SHADING_PENCIL}},
-        {.mirror = {.normal = {0, 1, 0.25}, .offset = -46, .center = {35, -50, 0}, .size = 90,
+        {.mirror = {.normal = {0, 1, 0.25},
+                    .offset = -46,
+                    .center = {35, -50, 0},
+                    .size = 90,
                     .fade = 60}},
     };
     (void)state;
