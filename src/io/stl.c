@@ -135,16 +135,16 @@ static dp_result out_of_memory(stl *self) {
     return dp_fail(&self->diag, DP_ERR_MEMORY, "out of memory for a batch of triangles");
 }
 
-/* `vertex`: its number in the batch. */
-static dp_result read_corner(stl *self, size_t vertex) {
-    float *const to = self->positions[0] + 3 * vertex;
+static dp_result read_corner(stl *self, size_t facet, size_t corner) {
+    float *const to = self->positions[facet] + 3 * corner;
     double wide[3];
     if (!next_is(self, "vertex")) return expected(self, "`vertex`");
     for (int k = 0; k < 3; k++) {
         dp_text_space(self->stream);
         if (!dp_text_wide(self->stream, &to[k], &wide[k])) return expected(self, "a coordinate");
     }
-    if (!self->settled && !dp_wide_note(&self->wide, vertex, wide, to, &self->allocator))
+    if (!self->settled &&
+        !dp_wide_note(&self->wide, 3 * facet + corner, wide, to, &self->allocator))
         return out_of_memory(self);
     for (int k = 0; k < 3; k++)
         if (self->origin[k] != 0)
@@ -162,7 +162,7 @@ static dp_result read_facet(stl *self, size_t facet) {
     if (!next_is(self, "outer")) return expected(self, "`outer loop`");
     if (!next_is(self, "loop")) return expected(self, "`loop`");
     for (size_t c = 0; c < 3; c++) {
-        const dp_result result = read_corner(self, 3 * facet + c);
+        const dp_result result = read_corner(self, facet, c);
         if (result) return result;
     }
     if (!next_is(self, "endloop")) return expected(self, "`endloop` after three vertices");
