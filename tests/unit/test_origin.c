@@ -292,6 +292,47 @@ static void every_reader_keeps_the_digits(void **state) {
     }
 }
 
+/* An allocator of which only the first calls succeed. */
+static size_t calls_left;
+
+static void *scarce_alloc(size_t size, void *user) {
+    (void)user;
+    return calls_left && calls_left-- ? malloc(size) : NULL;
+}
+static void *scarce_realloc(void *block, size_t size, void *user) {
+    (void)user;
+    return calls_left && calls_left-- ? realloc(block, size) : NULL;
+}
+static void scarce_free(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+/* Every allocation may fail, also those of what float32 cuts off. */
+static void readers_say_when_memory_is_out(void **state) {
+    const dp_allocator scarce = {
+        .alloc = scarce_alloc, .realloc = scarce_realloc, .free = scarce_free};
+    const dp_file_options options = {.allocator = &scarce};
+    (void)state;
+    for (int i = 0; i < FORMATS; i++) {
+        dp_result result = DP_ERR_MEMORY;
+        file_size = 0;
+        formats[i].write(away);
+        const dp_memory_file memory = {.data = file, .size = file_size, .name = formats[i].name};
+        for (size_t calls = 0; result; calls++) {
+            dp_source *source = NULL;
+            dp_batch batch;
+            dp_diag diag = {0};
+            calls_left = calls;
+            result = dp_source_open_memory(&memory, &options, &source, &diag);
+            if (!result) result = dp_source_next(source, &batch, &diag);
+            if (result) assert_int_equal(result, DP_ERR_MEMORY);
+            assert_true(calls < 100 && (result || calls > 3));
+            dp_source_destroy(source);
+        }
+    }
+}
+
 /* Readings of ASCII STL give the same bits, though only the first one chooses the origin. */
 static void readings_are_alike(void **state) {
     dp_source *const source = open_file("x.stl", write_stl, away);
@@ -623,6 +664,7 @@ int main(void) {
         cmocka_unit_test(models_near_zero_stay_as_they_are),
         cmocka_unit_test(far_models_get_an_origin_among_them),
         cmocka_unit_test(every_reader_keeps_the_digits),
+        cmocka_unit_test(readers_say_when_memory_is_out),
         cmocka_unit_test(readings_are_alike),
         cmocka_unit_test(what_the_file_has_lost_is_told),
         cmocka_unit_test(the_box_is_in_world_space),
