@@ -16,6 +16,7 @@ typedef struct kept {
     size_t positions_room, indices_room, firsts_room, flags_room;
     size_t vertices, corners, polygons;
     double origin[3]; /* of the first batch */
+    double spacing;
     bool flagged, handed_out;
     char remark[160]; /* of the source, or "" */
 } kept;
@@ -45,6 +46,7 @@ static bool make_room(kept *k, const dp_batch *b) {
 static bool add(kept *k, const dp_batch *b) {
     if (!make_room(k, b)) return false;
     if (!k->polygons) memcpy(k->origin, b->origin, sizeof k->origin);
+    if (b->spacing > k->spacing) k->spacing = b->spacing;
     for (size_t v = 0; v < b->vertex_count; v++) {
         float *const p = k->positions[k->vertices + v];
         memcpy(p, (const char *)b->positions + v * b->position_stride, sizeof *k->positions);
@@ -81,7 +83,8 @@ static dp_result kept_next(void *user, dp_batch *batch, dp_diag *diag) {
                             .polygon_count = k->polygons,
                             .edge_flags = k->flagged ? k->flags : NULL,
                             .stable = true,
-                            .origin = {k->origin[0], k->origin[1], k->origin[2]}};
+                            .origin = {k->origin[0], k->origin[1], k->origin[2]},
+                            .spacing = k->spacing};
     k->handed_out = true;
     return DP_OK;
 }

@@ -59,6 +59,8 @@ typedef struct dp_batch {
     double origin[3]; /* world space = origin + position; 0: the same. Drawing counts all from the
                          first batch's, so that one is best near the model, and the same in every
                          reading; others are moved to it, in double precision */
+    double spacing;   /* world units: how far apart neighbouring values of what positions were made
+                         from lay; 0: no farther than those of positions */
 } dp_batch;
 
 /* An application's own source. */

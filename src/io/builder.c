@@ -212,7 +212,8 @@ static dp_result mesh_next(void *user, dp_batch *batch, dp_diag *diag) {
                         .normals = attribute_of(&built->normals),
                         .texcoords = attribute_of(&built->texcoords),
                         .colors = built->vertex_colors,
-                        .stable = true};
+                        .stable = true,
+                        .spacing = built->spacing};
     memcpy(batch->origin, built->origin, sizeof batch->origin);
     return DP_OK;
 }
@@ -296,7 +297,6 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
         dp_free(&builder->allocator, self);
     else {
         (*out)->constant = true;
-        (*out)->spacing = self->built.spacing;
         dp_builder_init(builder, &self->built.allocator);
     }
     return result;

@@ -283,8 +283,7 @@ dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) 
         if (result) return result;
     }
     dp_extent sum = {.exact_min = {INFINITY, INFINITY, INFINITY},
-                     .exact_max = {-INFINITY, -INFINITY, -INFINITY},
-                     .spacing = source->spacing};
+                     .exact_max = {-INFINITY, -INFINITY, -INFINITY}};
     for (;;) {
         dp_batch batch;
         const dp_result result = dp_source_next(source, &batch, diag);
@@ -298,6 +297,7 @@ dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) 
             sum.corners += last - first;
         }
         add_box(&b, batch.origin, &sum);
+        sum.spacing = dp_max(sum.spacing, batch.spacing);
         sum.polygons += batch.polygon_count;
         sum.vertices += batch.vertex_count;
     }

@@ -23,7 +23,6 @@ struct dp_source {
     dp_records records; /* read NULL: only batch by batch */
     bool constant;      /* its batches never change (an application's arrays may) */
     uint64_t key;       /* fingerprint of a constant source (mesh/normals.c); 0: not computed yet */
-    double spacing;     /* dp_extent.spacing that positions do not tell; 0: none */
     bool holds;         /* dp_source_next is to return this batch, read ahead by dp_source_begin */
     dp_batch held;
 };

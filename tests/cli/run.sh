@@ -274,6 +274,13 @@ coarse_files_are_told() {
     silent err
     run 0 info coarse.ply
     says err 'are 0.5 apart'
+    {
+        printf 'AC3Db\nMATERIAL "m" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids 1\n'
+        printf 'OBJECT poly\nname "far"\nnumvert 3\n0 5334567 0\n0.25 5334567 0\n0 5334567.7 0\nnumsurf 1\n'
+        printf 'SURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n'
+    } >coarse.ac # through Assimp, in a process of its own
+    run 0 info coarse.ac
+    says err 'are 0.5 apart'
 }
 stats() {
     run 0 shape:cube $small --stats -o out.png

@@ -502,6 +502,11 @@ static void origins_must_be_finite(void **state) {
     dp_diag diag = {0};
     dp_extent extent;
     (void)state;
+    batch.spacing = 3; /* what an application knows of its own positions */
+    assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_source_extent(source, &extent, &diag), DP_OK);
+    assert_true(extent.spacing == 3);
+    dp_source_destroy(source);
     batch.origin[1] = INFINITY;
     assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
     assert_int_equal(dp_source_extent(source, &extent, &diag), DP_ERR_ARGUMENT);
