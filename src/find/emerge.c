@@ -33,6 +33,9 @@ static const float OFF = 0.25f;
  * the source counts. */
 static const float NEARER = 1e-3f;
 
+/* Pixel sizes: more than any two polygons at one edge differ by. */
+static const float BEYOND = 1e5f;
+
 /* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, … */
 static const double ALONG_NEAR = (double)DP_ALONG_NEAR;
 static double along_far(const dp_finder *w) { return 1.2 * (double)dp_look_far(&w->tile); }
@@ -241,14 +244,18 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const float gap = dp_plane_at(p, at->x, at->y) - at->d, slope = p->dx * at->ox + p->dy * at->oy,
                 rounding = fabsf(dp_depth_steps(w->tile.frame, at->d, NEARER));
+    /* Where cracks are not to be expected, what lies beyond one counts only if nothing else is there. */
+    const float beyond =
+        w->tile.frame->precision > 0 ? 0 : fabsf(dp_depth_steps(w->tile.frame, at->d, BEYOND));
     uint32_t near = sides & 3;
     const uint32_t far = sides >> 2;
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     for (int side = 0; side < 2; side++) {
-        const float d = gap + OFF * (side ? slope : -slope);
-        if (!(near >> side & 1) && !(!near && far >> side & 1 && here.edge != UINT32_MAX)) continue;
+        const bool is_near = near >> side & 1;
+        const float d = gap + OFF * (side ? slope : -slope) - (is_near ? 0 : beyond);
+        if (!is_near && !(!near && far >> side & 1 && here.edge != UINT32_MAX)) continue;
         keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
-        keep_furthest(b, side, index, d);
+        if (is_near || !(beyond > 0)) keep_furthest(b, side, index, d);
     }
     if (here.edge == UINT32_MAX) return;
     if (p->id < w->tile.polygons[b->first.polygon].id) b->first = here;
