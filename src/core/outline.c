@@ -89,13 +89,21 @@ dp_vec3 dp_polygon_normal(const dp_frame *frame, uint32_t polygon) {
 /* px: a thinner polygon covers nothing, and its area on the screen is rounding error. */
 static const double EDGE_ON = 1.0 / 4096;
 
-/* Compares the sine of the angle at which the plane is seen; within rounding of zero it is
- * edge-on. */
-bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
+/* The sine of the angle at which the plane is seen; negative if the polygon faces the eye. */
+static double sine_of(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
     const dp_vec3 at = corner_position(polygons, dp_first_corner(polygons, polygon));
-    return dp_dot(dp_polygon_normal(frame, polygon), dp_view_vector(&frame->view, at)) < -1e-12;
+    return dp_dot(dp_polygon_normal(frame, polygon), dp_view_vector(&frame->view, at));
 }
+
+/* Within rounding of zero it is edge-on. */
+bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon) {
+    return sine_of(frame, polygon) < -1e-12;
+}
+
+/* A polygon that covers nothing, and is not merely small, is seen edge-on. Whether it faces the eye
+ * by a billionth of a degree must not matter: it does not. */
+static const double SEEN_EDGE_ON = 1e-3; /* sine */
 
 typedef struct extent {
     double area;  /* twice the area on the screen; negative for a front face: y points down */
@@ -123,7 +131,8 @@ dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_ou
     const extent e = extent_of(outline);
     if (fabs(e.area) > (double)frame->nearly_edge_on * e.reach)
         return (dp_facing){e.area < 0, false};
-    return (dp_facing){dp_polygon_faces_eye(frame, polygon), is_edge_on(e)};
+    const bool edge_on = is_edge_on(e);
+    return (dp_facing){sine_of(frame, polygon) < (edge_on ? -SEEN_EDGE_ON : -1e-12), edge_on};
 }
 
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {

@@ -4,8 +4,8 @@
  *    for each STEP-th sample point of the edge, on either side of it on the screen
  *        for each polygon that has won a sample beside the point, on this side
  *            it is not the polygon expected there, nor in its plane,
- *            its plane passes through the edge there,
- *            and it reaches the edge:                  the edge is disputed
+ *            its plane passes through the edge there, and it reaches the edge;
+ *            or it covers the edge from just above:    the edge is disputed
  *
  * Such edges are left to emergence, which looks at every polygon and every sample point. Invariant:
  * an edge is disputed too where all samples beside it are another tile's. Not handled: what is so
@@ -43,13 +43,14 @@ static bool goes_on(const dp_tile *t, float x, float y, float d, const place *he
     return fabsf(dp_plane_at(p, x, y) - d) <= dp_touching(t, p, here->at.d);
 }
 
-/* Does polygon `index` lie in the edge there, and reach it? */
+/* Does polygon `index` lie in the edge there, and reach it; or just over it? */
 static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
     const dp_tile_polygon *const p = &t->polygons[index];
+    const float gap = dp_plane_at(p, here->at.x, here->at.y) - here->at.d,
+                tolerance = dp_touching(t, p, here->at.d);
+    if (gap < -tolerance || gap > dp_maxf(tolerance, dp_over(t, p, here->at.d))) return false;
     if (t->frame->precision > 0 && dp_is_sliver(t->frame, p->id)) return false;
-    return fabsf(dp_plane_at(p, here->at.x, here->at.y) - here->at.d) <=
-               dp_touching(t, p, here->at.d) &&
-           reaches(t, p, here);
+    return gap > tolerance ? dp_tile_covers(t, p, here->at.x, here->at.y) : reaches(t, p, here);
 }
 
 /* Depths of a point and of a sample beside it differ by no more pixel sizes, where a plane passes

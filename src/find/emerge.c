@@ -9,7 +9,7 @@
  *            on both sides                  fold: ridge, valley or flat (core/fold.c)
  *            on one side                    silhouette if several planes meet there, else border
  *        of several polygons with an edge here only one makes the line         find_owner
- *        and none if the table has made it
+ *        and none if the table has made it, or a surface lies just over it
  *    runs of points with the same line and polygons become candidates
  *
  * An edge with one polygon is a border, or its neighbours share no corner with it: T-junctions,
@@ -249,6 +249,10 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
         w->tile.frame->precision > 0 ? 0 : fabsf(dp_depth_steps(w->tile.frame, at->d, BEYOND));
     uint32_t near = sides & 3;
     const uint32_t far = sides >> 2;
+    if (gap > dp_touching(&w->tile, p, at->d)) {
+        b->is_hidden |= near == 3;
+        return;
+    }
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     for (int side = 0; side < 2; side++) {
         const bool is_near = near >> side & 1;
@@ -380,7 +384,8 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     if (left != right) here.behind = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
-    if (here.sides[0] == here.sides[1] || b->is_drawn || !is_own_edge(w, e, here.owner))
+    if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
+        !is_own_edge(w, e, here.owner))
         here = NOTHING;
     if (has_same_sides(&here, before)) return false;
     *f = here;
@@ -395,6 +400,7 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
 static void add_run(dp_finder *w, const emerging *e, const finding *f, uint32_t k0, uint32_t k1) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     if (f->line < 0 || k0 >= k1) return;
+    if (f->line == DP_LINE_BORDER && k1 - k0 == 1 && e->spine.n > SHORT) return; /* a dot */
     const uint32_t owner = f->owner.polygon, id = w->tile.polygons[owner].id;
     if (!(dp_polygon_style(w->tile.frame, id)->lines & (1u << f->line))) return;
     const uint32_t first = dp_first_corner(polygons, id), n = dp_corner_count(polygons, id);

@@ -21,6 +21,17 @@ static inline float dp_touching(const dp_tile *w, const dp_tile_polygon *p, floa
     return w->frame->touching * (dp_depth_steps(w->frame, d, 1) + fabsf(p->dx) + fabsf(p->dy));
 }
 
+/* A surface that lies over a point, but by less than lines are lifted off theirs, hides it too:
+ * within this many pixel sizes in front of it, where it is not seen so steeply that rounding, or the
+ * bulge of a fine mesh, decides. */
+#define DP_OVER          0.3f
+#define DP_OVER_STEEPEST 8 /* pixel sizes per px */
+
+static inline float dp_over(const dp_tile *w, const dp_tile_polygon *p, float d) {
+    const float step = fabsf(dp_depth_steps(w->frame, d, 1)), slope = fabsf(p->dx) + fabsf(p->dy);
+    return slope <= DP_OVER_STEEPEST * step ? DP_OVER * (step + slope) : 0;
+}
+
 /* A sample point of an edge. */
 typedef struct dp_lookout {
     float x, y, d; /* px, tile space; depth */
@@ -61,8 +72,9 @@ typedef struct dp_beheld {
     uint32_t furthest[2];              /* of these */
     float nearest_d[2], furthest_d[2]; /* how near they lie a little way off */
     dp_unpaired_edge
-        first;     /* of those with an edge along here, the one that comes first in the source */
-    bool is_drawn; /* one of them has made a line of it already */
+        first;      /* of those with an edge along here, the one that comes first in the source */
+    bool is_hidden; /* a surface lies just over the point */
+    bool is_drawn;  /* one of them has made a line of it already */
 } dp_beheld;
 
 typedef struct dp_emergence {
