@@ -23,6 +23,7 @@ static const float BESIDE = 0.5f, LEAST = 0.02f;
 typedef struct place {
     dp_lookout at;     /* a point of the edge, and the side */
     uint32_t expected; /* polygon; UINT32_MAX: none */
+    dp_unpaired_edge own;
 } place;
 
 /* A polygon beside the one that is expected must lie over that right at the edge. */
@@ -50,7 +51,13 @@ static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
                 tolerance = dp_touching(t, p, here->at.d);
     if (gap < -tolerance || gap > dp_maxf(tolerance, dp_over(t, p, here->at.d))) return false;
     if (t->frame->precision > 0 && dp_is_sliver(t->frame, p->id)) return false;
-    return gap > tolerance ? dp_tile_covers(t, p, here->at.x, here->at.y) : reaches(t, p, here);
+    if (gap > tolerance)
+        return dp_tile_covers(t, p, here->at.x, here->at.y) &&
+               !dp_are_neighbours(t, p, &t->polygons[here->own.polygon]);
+    const uint32_t shared = dp_shared_ends(t, p, here->own);
+    return shared < 2 && reaches(t, p, here) &&
+           (dp_holds_edge(t, p, &here->at, shared > 0) ||
+            dp_edge_along(t, p, &here->at, (double)dp_look_far(t)) != UINT32_MAX);
 }
 
 /* Depths of a point and of a sample beside it differ by no more pixel sizes, where a plane passes
@@ -80,22 +87,60 @@ static bool is_disputed_at(const dp_tile *t, const place *here, const uint32_t s
     return !looked;
 }
 
-bool dp_is_disputed(const dp_finder *w, const dp_spine *s, const uint32_t sides[2]) {
+bool dp_is_disputed(const dp_finder *w, dp_unpaired_edge own, const dp_spine *s,
+                    const uint32_t sides[2]) {
     const dp_tile *const t = &w->tile;
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
     uint32_t k0, k1;
     if (!(length > 0) || w->lines.streamed || !dp_spine_range(s, t->tile_x, t->tile_y, 0, &k0, &k1))
         return false;
-    const float right[2] = {(float)(-ey / length), (float)(ex / length)};
+    const float right[2] = {(float)(-ey / length), (float)(ex / length)},
+                along = (float)((s->b.d - s->a.d) / length);
     for (uint32_t k = k1 - k0 > 2 ? k0 + 1 : k0; k < k1; k += STEP) {
         const dp_pointd p = dp_point_mix(s->a, s->b, (k + 0.5) / s->n);
         for (int side = 0; side < 2; side++) {
             const float sign = side ? 1 : -1;
             const place here = {{(float)(p.x - t->tile_x), (float)(p.y - t->tile_y), (float)p.d,
-                                 sign * right[0], sign * right[1]},
-                                sides[side]};
+                                 sign * right[0], sign * right[1], sign * along},
+                                sides[side],
+                                own};
             if (is_disputed_at(t, &here, sides)) return true;
         }
     }
     return false;
+}
+
+/* ------- which side of a surface is seen ------- */
+
+/* Back faces less front faces among the samples of the pixel at (x, y). */
+static int32_t backs_at(const dp_tile *t, float x, float y) {
+    int32_t sum = 0;
+    if (!(x >= 0 && y >= 0 && x < DP_TILE && y < DP_TILE)) return 0;
+    const uint32_t *const winner =
+        t->winner + dp_pixel_lane(&t->sampling, (uint32_t)x, (uint32_t)y);
+    for (uint32_t i = 0; i < t->sampling.samples; i++)
+        if (winner[i] != UINT32_MAX)
+            sum += t->polygons[winner[i]].flags & DP_POLYGON_FRONT ? -1 : 1;
+    return sum;
+}
+
+/* px from the edge, whose pixels are asked: a fold of a fine mesh, below what is seen, is not to
+ * decide. */
+static const float AROUND[] = {0.5f, 1.5f, 2.5f};
+
+bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
+    const dp_tile *const t = &w->tile;
+    const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
+    uint32_t k0, k1;
+    int32_t sum = 0;
+    if (!(length > 0) || !dp_spine_range(s, t->tile_x, t->tile_y, 1, &k0, &k1)) return false;
+    const float ox = (float)((right ? -ey : ey) / length),
+                oy = (float)((right ? ex : -ex) / length);
+    for (uint32_t k = k1 - k0 > 2 ? k0 + 1 : k0; k < k1; k += STEP) {
+        const dp_pointd p = dp_point_mix(s->a, s->b, (k + 0.5) / s->n);
+        const float x = (float)(p.x - t->tile_x), y = (float)(p.y - t->tile_y);
+        for (size_t i = 0; i < sizeof AROUND / sizeof *AROUND; i++)
+            sum += backs_at(t, x + AROUND[i] * ox, y + AROUND[i] * oy);
+    }
+    return sum > 0;
 }

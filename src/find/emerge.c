@@ -21,7 +21,7 @@
  * Data structure: sample points sorted by cell. Invariant: neither winding nor the order of polygons
  * matters. Not handled: cracks wider than FAR px on the screen (they become two borders). */
 #include "core/fold.h"
-#include "find/finder.h"
+#include "find/fan.h"
 #include "find/kernels.h"
 
 #include <string.h>
@@ -109,7 +109,8 @@ static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
     const double ex = e->spine.b.x - e->spine.a.x, ey = e->spine.b.y - e->spine.a.y,
                  length = dp_hypot(ex, ey);
     const float ox = length > 0 ? (float)(-ey / length) : 1,
-                oy = length > 0 ? (float)(ex / length) : 0;
+                oy = length > 0 ? (float)(ex / length) : 0,
+                along = length > 0 ? (float)((e->spine.b.d - e->spine.a.d) / length) : 0;
     for (uint32_t k = e->k0; k < e->k1; k += e->step) {
         const double middle = k + (k + e->step <= e->k1 ? e->step : 1) / 2.0;
         const dp_pointd p = dp_point_mix(e->spine.a, e->spine.b, middle / e->spine.n);
@@ -117,8 +118,12 @@ static bool place_points(dp_finder *w, const emerging *e, uint32_t *count) {
                                                   .first = e->unpaired,
                                                   .nearest = {NO_EDGE, NO_EDGE},
                                                   .furthest = {UINT32_MAX, UINT32_MAX}};
-        w->emergence.placed[(*count)++] = (dp_lookout){
-            (float)(p.x - w->tile.tile_x), (float)(p.y - w->tile.tile_y), (float)p.d, ox, oy};
+        w->emergence.placed[(*count)++] = (dp_lookout){(float)(p.x - w->tile.tile_x),
+                                                       (float)(p.y - w->tile.tile_y),
+                                                       (float)p.d,
+                                                       ox,
+                                                       oy,
+                                                       along};
     }
     return true;
 }
@@ -217,8 +222,17 @@ static void keep_nearest(const dp_finder *w, dp_unpaired_edge *nearest, float *n
     *nearest = here, *nearest_d = d;
 }
 
-static void keep_furthest(dp_beheld *b, int side, uint32_t index, float d) {
-    if (b->furthest[side] != UINT32_MAX && !(d < b->furthest_d[side])) return;
+static bool face_alike(const dp_finder *w, uint32_t a, uint32_t b) {
+    return !((w->tile.polygons[a].flags ^ w->tile.polygons[b].flags) & DP_POLYGON_FRONT);
+}
+
+/* Of two in one plane, the one that faces another way than the nearest. */
+static void keep_furthest(const dp_finder *w, dp_beheld *b, int side, uint32_t index, float d,
+                          float rounding) {
+    const uint32_t near = b->nearest[side].polygon, had = b->furthest[side];
+    const bool other = had != UINT32_MAX && d <= b->furthest_d[side] + rounding &&
+                       face_alike(w, near, had) && !face_alike(w, near, index);
+    if (had != UINT32_MAX && !(d < b->furthest_d[side] - rounding) && !other) return;
     b->furthest[side] = index, b->furthest_d[side] = d;
 }
 
@@ -250,16 +264,20 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     uint32_t near = sides & 3;
     const uint32_t far = sides >> 2;
     if (gap > dp_touching(&w->tile, p, at->d)) {
-        b->is_hidden |= near == 3;
+        b->is_hidden |=
+            near == 3 && !dp_are_neighbours(&w->tile, p, &w->tile.polygons[b->own.polygon]);
         return;
     }
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
+    if (here.edge == UINT32_MAX &&
+        !dp_holds_edge(&w->tile, p, at, dp_shared_ends(&w->tile, p, b->own) > 0))
+        return;
     for (int side = 0; side < 2; side++) {
         const bool is_near = near >> side & 1;
         const float d = gap + OFF * (side ? slope : -slope) - (is_near ? 0 : beyond);
         if (!is_near && !(!near && far >> side & 1 && here.edge != UINT32_MAX)) continue;
         keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
-        if (is_near || !(beyond > 0)) keep_furthest(b, side, index, d);
+        if (is_near || !(beyond > 0)) keep_furthest(w, b, side, index, d, rounding);
     }
     if (here.edge == UINT32_MAX) return;
     if (p->id < w->tile.polygons[b->first.polygon].id) b->first = here;
@@ -327,7 +345,8 @@ static void judge_outline(const dp_finder *w, const dp_sight *sight, int side, f
     const dp_beside near = beside(w, sight, f->sides[side]);
     const dp_beside far =
         f->behind == f->sides[side] || f->behind == UINT32_MAX ? near : beside(w, sight, f->behind);
-    const bool is_border = dp_is_one_plane(&near, &far);
+    const bool is_border =
+        f->behind == UINT32_MAX || dp_is_one_side(&w->tile, f->sides[side], f->behind, &near, &far);
     f->line = is_border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE;
     f->normal = is_border ? near.normal : dp_outline_normal(sight, &near, &far, side);
 }
@@ -373,6 +392,14 @@ static bool has_same_sides(const finding *a, const finding *b) {
            a->owner.polygon == b->owner.polygon && a->owner.edge == b->owner.edge;
 }
 
+/* A back face counts as nearer than a front face only where back faces are seen (fan.c). */
+static bool trusts_winding(const dp_finder *w, const emerging *e, const dp_beheld *b, bool right) {
+    const dp_tile_polygon *const near = &w->tile.polygons[b->nearest[right].polygon],
+                                 *const far = &w->tile.polygons[b->furthest[right]];
+    return dp_may_be_folded(near) && far->flags & DP_POLYGON_FRONT &&
+           !(w->tile.sees_backs && dp_shows_back_beside(w, &e->spine, right));
+}
+
 /* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */
 static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
                   finding *f) {
@@ -382,6 +409,8 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
     here.owner = find_owner(w, b);
     if (left != right) here.behind = b->furthest[right];
+    if (left != right && trusts_winding(w, e, b, right))
+        here.behind = here.sides[right], here.sides[right] = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||

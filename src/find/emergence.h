@@ -22,10 +22,10 @@ static inline float dp_touching(const dp_tile *w, const dp_tile_polygon *p, floa
 }
 
 /* A surface that lies over a point, but by less than lines are lifted off theirs, hides it too:
- * within this many pixel sizes in front of it, where it is not seen so steeply that rounding, or the
- * bulge of a fine mesh, decides. */
+ * within this many pixel sizes in front of it, where it is not seen so steeply that rounding
+ * decides, and is no neighbour of the edge's polygon: the bulges of a fine mesh do not count. */
 #define DP_OVER          0.3f
-#define DP_OVER_STEEPEST 8 /* pixel sizes per px */
+#define DP_OVER_STEEPEST 3 /* pixel sizes per px */
 
 static inline float dp_over(const dp_tile *w, const dp_tile_polygon *p, float d) {
     const float step = fabsf(dp_depth_steps(w->frame, d, 1)), slope = fabsf(p->dx) + fabsf(p->dy);
@@ -36,7 +36,44 @@ static inline float dp_over(const dp_tile *w, const dp_tile_polygon *p, float d)
 typedef struct dp_lookout {
     float x, y, d; /* px, tile space; depth */
     float ox, oy;  /* px: unit vector to one side of the edge on the screen */
+    float along;   /* change of depth per px along the edge, which has that side to its right */
 } dp_lookout;
+
+/* Does the polygon's plane hold the edge, not only the point? Of triangles that merely share a corner
+ * with it, as those around a vertex of a fine mesh do, all pass through it near that corner; they
+ * are told by the last hundredths of a degree. */
+static inline bool dp_holds_edge(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at,
+                                 bool shares_corner) {
+    const float turn = p->dx * at->oy - p->dy * at->ox - at->along,
+                scale = fabsf(dp_depth_steps(w->frame, at->d, 1)) + fabsf(p->dx) + fabsf(p->dy);
+    const float most = w->frame->precision > 0 ? 0.1f : shares_corner ? 2e-3f : 0.05f;
+    return fabsf(turn) <= most * scale;
+}
+
+/* By keys of positions: how many of an edge's ends are corners of the polygon, or 2 only where it has
+ * the edge; whether two polygons have a corner in common. */
+static inline uint32_t dp_shared_ends(const dp_tile *w, const dp_tile_polygon *p,
+                                      dp_unpaired_edge edge) {
+    const dp_tile_polygon *const q = &w->polygons[edge.polygon];
+    const dp_vertex *const v = w->points + p->point, *const u = w->points + q->point;
+    if ((p->flags | q->flags) & DP_POLYGON_CLIPPED) return 0;
+    const uint32_t a = u[edge.edge].key, b = u[edge.edge + 1 == q->points ? 0 : edge.edge + 1].key;
+    uint32_t most = 0, last = v[p->points - 1u].key;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const uint32_t key = v[i].key, shared = (key == a || key == b) + (last == a || last == b);
+        most = shared > most ? shared : most;
+        last = key;
+    }
+    return most;
+}
+static inline bool dp_are_neighbours(const dp_tile *w, const dp_tile_polygon *p,
+                                     const dp_tile_polygon *q) {
+    const dp_vertex *const v = w->points + p->point, *const u = w->points + q->point;
+    for (uint32_t i = 0; i < p->points; i++)
+        for (uint32_t k = 0; k < q->points; k++)
+            if (v[i].key == u[k].key) return true;
+    return false;
+}
 
 /* px: so near by another polygon's edge is the same line. */
 #define DP_ALONG_NEAR (2 * DP_LOOK_NEAR)

@@ -6,7 +6,7 @@
  *        its normal turned to the eye; how steeply it recedes from the edge     core/fold.c
  *    on either side the polygon that recedes least hides the others
  *    one on each side   the line that two polygons would make: ridge, valley or none
- *    all on one side    an outline: silhouette if they lie in several planes, else border
+ *    all on one side    an outline: border if they lie in one plane and face one way, else silhouette
  *
  * Invariant: neither winding nor doubled faces matter. Not handled: polygons that touch the edge
  * but do not have it (emerge.c). */
@@ -32,7 +32,7 @@ bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
 void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
                  const dp_vec3 normals[2], const uint32_t sides[2]) {
     const uint32_t id = w->tile.polygons[e->a].id;
-    if (dp_is_disputed(w, spine, sides)) {
+    if (dp_is_disputed(w, (dp_unpaired_edge){e->a, e->edge_a}, spine, sides)) {
         dp_leave_to_emerge(w, e->a, e->edge_a);
     } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line) &&
                dp_note_drawn(w, e->a, e->edge_a) &&
@@ -124,9 +124,34 @@ static void add(dp_finder *w, const fan *f, dp_line line, dp_half_edge across, d
     dp_add_line(w, &e, line, &spine, NULL, sides);
 }
 
-static void add_outline(dp_finder *w, const fan *f, bool right) {
-    const side *const s = &f->sides[right];
-    const bool own = s->nearest.polygon == f->owner, border = dp_is_one_plane(&s->near, &s->far);
+/* Is a back face seen beside the fan's edge, on this side? */
+static bool shows_back(const dp_finder *w, const fan *f, bool right) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    dp_spine spine;
+    return dp_spine_ends(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, f->va)),
+                         dp_v3f(dp_vertex_position(polygons, f->vb)), &spine) &&
+           dp_shows_back_beside(w, &spine, right);
+}
+
+/* Of a front face and a back face, wound alike, the front one is the nearest where the surface is
+ * seen from its front; it may not seem so where a fine mesh is folded below what is seen. */
+static void trust_winding(const dp_finder *w, const dp_edge_entry *e, fan *f, bool right) {
+    side *const s = &f->sides[right];
+    const uint32_t front = DP_POLYGON_FRONT;
+    if (e->more || !e->opposed || !dp_may_be_folded(&w->tile.polygons[s->nearest.polygon]) ||
+        !(w->tile.polygons[s->furthest.polygon].flags & front) || shows_back(w, f, right))
+        return;
+    const side had = *s;
+    s->nearest = had.furthest, s->near = had.far;
+    s->furthest = had.nearest, s->far = had.near;
+}
+
+static void add_outline(dp_finder *w, const dp_edge_entry *e, fan *f, bool right) {
+    side *const s = &f->sides[right];
+    const bool border =
+        dp_is_one_side(&w->tile, s->nearest.polygon, s->furthest.polygon, &s->near, &s->far);
+    if (!border) trust_winding(w, e, f, right);
+    const bool own = s->nearest.polygon == f->owner;
     const dp_half_edge none = {UINT32_MAX, 0}, behind = border ? none : s->furthest;
     add(w, f, border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, own ? behind : s->nearest,
         border ? s->near.normal : dp_outline_normal(&f->sight, &s->near, &s->far, right));
@@ -156,6 +181,6 @@ void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     if (left && right) {
         if (!dp_edge_is_diagonal(w, e)) add_fold(w, &f);
     } else if (left || right) {
-        add_outline(w, &f, right);
+        add_outline(w, e, &f, right);
     }
 }
