@@ -48,7 +48,11 @@ static uint8_t facing_of_triangle(const dp_frame *frame, uint32_t polygon) {
                 cy = v[2].y - v[0].y;
     const float area = bx * cy - by * cx;
     const float reach = dp_maxf(dp_maxf(fabsf(bx), fabsf(by)), dp_maxf(fabsf(cx), fabsf(cy)));
-    if (!(fabsf(area) > frame->nearly_edge_on * reach)) return 0xff;
+    if (!(fabsf(area) > frame->nearly_edge_on * reach)) {
+        const bool edge_on = dp_area_is_edge_on((double)area, (double)reach);
+        if (!edge_on || dp_polygon_has_no_area(frame, polygon)) return 0xff;
+        return dp_facing_in_space(frame, polygon, true).front ? DP_FACING_FRONT : 0;
+    }
     return area < 0 ? DP_FACING_FRONT : 0;
 }
 

@@ -123,16 +123,21 @@ static extent extent_of(const dp_outline *outline) {
     return e;
 }
 
-static bool is_edge_on(extent e) { return fabs(e.area) <= EDGE_ON * e.reach; }
+static bool is_edge_on(extent e) { return dp_area_is_edge_on(e.area, e.reach); }
 
 bool dp_outline_is_edge_on(const dp_outline *outline) { return is_edge_on(extent_of(outline)); }
+
+dp_facing dp_facing_in_space(const dp_frame *frame, uint32_t polygon, bool edge_on) {
+    return (dp_facing){sine_of(frame, polygon) < (edge_on ? -SEEN_EDGE_ON : -1e-12), edge_on};
+}
+
+bool dp_area_is_edge_on(double area, double reach) { return fabs(area) <= EDGE_ON * reach; }
 
 dp_facing dp_outline_facing(const dp_frame *frame, uint32_t polygon, const dp_outline *outline) {
     const extent e = extent_of(outline);
     if (fabs(e.area) > (double)frame->nearly_edge_on * e.reach)
         return (dp_facing){e.area < 0, false};
-    const bool edge_on = is_edge_on(e);
-    return (dp_facing){sine_of(frame, polygon) < (edge_on ? -SEEN_EDGE_ON : -1e-12), edge_on};
+    return dp_facing_in_space(frame, polygon, is_edge_on(e));
 }
 
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon) {

@@ -56,4 +56,9 @@ bool dp_polygon_faces_eye(const dp_frame *frame, uint32_t polygon);
 /* Do all corners lie on one line in space? */
 bool dp_polygon_has_no_area(const dp_frame *frame, uint32_t polygon);
 
+/* Does a polygon of this area (px², twice) and reach (px, along an axis) cover nothing? Which way it
+ * faces in space then: one that is seen edge-on does not face the eye, whichever way it leans. */
+bool dp_area_is_edge_on(double area, double reach);
+dp_facing dp_facing_in_space(const dp_frame *frame, uint32_t polygon, bool edge_on);
+
 #endif

@@ -400,6 +400,13 @@ static bool trusts_winding(const dp_finder *w, const emerging *e, const dp_behel
            !(w->tile.sees_backs && dp_shows_back_beside(w, &e->spine, right));
 }
 
+/* Do all polygons on that side face away, where no back face is seen? */
+static bool are_hidden_backs(const dp_finder *w, const dp_beheld *b, bool right) {
+    const uint32_t near = w->tile.polygons[b->nearest[right].polygon].flags,
+                   far = w->tile.polygons[b->furthest[right]].flags;
+    return !w->tile.sees_backs && !((near | far) & DP_POLYGON_FRONT);
+}
+
 /* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */
 static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
                   finding *f) {
@@ -413,8 +420,9 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
         here.behind = here.sides[right], here.sides[right] = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
+    const bool outline = left != right;
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
-        !is_own_edge(w, e, here.owner))
+        !is_own_edge(w, e, here.owner) || (outline && are_hidden_backs(w, b, right)))
         here = NOTHING;
     if (has_same_sides(&here, before)) return false;
     *f = here;

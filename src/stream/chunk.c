@@ -21,7 +21,8 @@ static bool slow_facing(const dp_view *view, dp_vec3 a, dp_vec3 b, dp_vec3 c, fl
     if (dp_length(n) <= 1e-12 * size) return false; /* as dp_polygon_has_no_area */
     const dp_vec3 unit = dp_unit(n);
     const double sine = dp_dot(unit, dp_view_vector(view, a));
-    *state = sine < -1e-6 ? DP_TRIANGLE_FRONT : sine > 1e-6 ? DP_TRIANGLE_BACK : 0;
+    /* between: seen edge-on, or too small to tell (core/outline.c) */
+    *state = sine < -1.1e-3 ? DP_TRIANGLE_FRONT : sine > 1e-6 ? DP_TRIANGLE_BACK : 0;
     normal[0] = (float)unit.x, normal[1] = (float)unit.y, normal[2] = (float)unit.z, normal[3] = 1;
     return true;
 }

@@ -30,7 +30,7 @@ static const struct least {
     double recall, precision;                 /* of any scene */
     unsigned recalls_below, precisions_below; /* how many may be below `good` */
     unsigned lengths;                         /* how many may have segments of another length */
-} least = {0.840, 0.921, 116, 57, 147};
+} least = {0.999, 0.995, 0, 0, 13};
 
 static unsigned failures;
 
