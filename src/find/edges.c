@@ -145,22 +145,22 @@ static void leave_all(dp_finder *w) {
                        n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
             if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(&w->tile, p, e))
-                dp_leave_to_emerge(w, i, e);
+                dp_leave_to_emerge(w, i, e, UINT32_MAX);
     }
 }
 
 static void leave_all_of(dp_finder *w, const dp_edge_entry *e) {
-    dp_leave_to_emerge(w, e->a, e->edge_a);
-    dp_leave_to_emerge(w, e->b, e->edge_b);
+    dp_leave_to_emerge(w, e->a, e->edge_a, UINT32_MAX);
+    dp_leave_to_emerge(w, e->b, e->edge_b, UINT32_MAX);
     for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
         const dp_half_edge at = dp_half_edge_of(w, w->table.meetings[i - 1].number);
-        dp_leave_to_emerge(w, at.polygon, at.edge);
+        dp_leave_to_emerge(w, at.polygon, at.edge, UINT32_MAX);
     }
 }
 
 static void resolve(dp_finder *w, const dp_edge_entry *e) {
     if (e->b == UINT32_MAX) {
-        if (!dp_edge_is_diagonal(w, e)) dp_leave_to_emerge(w, e->a, e->edge_a);
+        if (!dp_edge_is_diagonal(w, e)) dp_leave_to_emerge(w, e->a, e->edge_a, UINT32_MAX);
     } else if (!is_shared(w, e)) {
         leave_all_of(w, e);
     } else if (is_plain_pair(w, e)) {

@@ -57,11 +57,12 @@ typedef struct dp_emerging {
     dp_sight sight;
 } emerging;
 
-void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge) {
+void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge, uint32_t partner) {
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.unpaired, emergence.unpaired_cap,
                          w->emergence.unpaired_count + 1u))
         return;
-    w->emergence.unpaired[w->emergence.unpaired_count++] = (dp_unpaired_edge){polygon, edge};
+    w->emergence.unpaired[w->emergence.unpaired_count++] =
+        (dp_unpaired_edge){polygon, edge, partner == UINT32_MAX ? 0 : partner + 1};
 }
 
 /* Sample points in and beside the tile are consecutive, as the tile is convex. False: there are
@@ -242,7 +243,7 @@ static dp_unpaired_edge edge_here(const dp_finder *w, uint32_t index, const dp_l
                                   uint32_t *near, uint32_t far) {
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const bool overlaps = *near == 3 && (far == 1 || far == 2), beyond = !*near && far != 3;
-    dp_unpaired_edge here = {index, UINT32_MAX};
+    dp_unpaired_edge here = {index, UINT32_MAX, 0};
     if (overlaps || beyond)
         here.edge = dp_edge_along(&w->tile, p, at, along_far(w));
     else if (*near != 3 && *near)
@@ -292,7 +293,7 @@ bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn, emergence.drawn_cap,
                          w->emergence.drawn_count + 1u))
         return false;
-    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge};
+    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge, 0};
     return true;
 }
 
@@ -416,6 +417,10 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
     here.owner = find_owner(w, b);
     if (left != right) here.behind = b->furthest[right];
+    /* a partner seen edge-on covers nothing, but it is there */
+    if (here.behind == e->unpaired.polygon && here.sides[right] == here.behind &&
+        e->unpaired.partner)
+        here.behind = e->unpaired.partner - 1;
     if (left != right && trusts_winding(w, e, b, right))
         here.behind = here.sides[right], here.sides[right] = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */

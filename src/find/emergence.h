@@ -8,6 +8,7 @@
 /* An edge of which the table does not know everything. */
 typedef struct dp_unpaired_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
+    uint32_t partner;       /* 1 + another tile polygon that has it; 0: none is known */
 } dp_unpaired_edge;
 
 /* How far from the edge a polygon is looked for, px: NEAR, close enough to hit the smallest

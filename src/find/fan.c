@@ -32,8 +32,8 @@ bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
 void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
                  const dp_vec3 normals[2], const uint32_t sides[2]) {
     const uint32_t id = w->tile.polygons[e->a].id;
-    if (dp_is_disputed(w, (dp_unpaired_edge){e->a, e->edge_a}, spine, sides)) {
-        dp_leave_to_emerge(w, e->a, e->edge_a);
+    if (dp_is_disputed(w, (dp_unpaired_edge){e->a, e->edge_a, 0}, spine, sides)) {
+        dp_leave_to_emerge(w, e->a, e->edge_a, e->b);
     } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line) &&
                dp_note_drawn(w, e->a, e->edge_a) &&
                (e->b == UINT32_MAX || dp_note_drawn(w, e->b, e->edge_b))) {
@@ -77,6 +77,10 @@ static bool runs_forward(const dp_finder *w, const fan *f, dp_half_edge at) {
     return from == f->va || (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]);
 }
 
+static bool face_alike(const dp_finder *w, uint32_t a, uint32_t b) {
+    return !((w->tile.polygons[a].flags ^ w->tile.polygons[b].flags) & DP_POLYGON_FRONT);
+}
+
 /* Of polygons in one plane the first in the source counts as the nearest. */
 static void offer(const dp_finder *w, fan *f, dp_half_edge at) {
     const dp_tile_polygon *const p = &w->tile.polygons[at.polygon];
@@ -89,7 +93,11 @@ static void offer(const dp_finder *w, fan *f, dp_half_edge at) {
     if (s->nearest.polygon == UINT32_MAX ||
         (same ? p->id < w->tile.polygons[s->nearest.polygon].id : recedes < sign * s->near.recedes))
         s->nearest = at, s->near = beside;
-    if (s->furthest.polygon == UINT32_MAX || recedes > sign * s->far.recedes)
+    /* of two in one plane, that which faces another way than the nearest: the other side */
+    const bool level = s->furthest.polygon != UINT32_MAX && dp_is_one_plane(&beside, &s->far);
+    if (s->furthest.polygon == UINT32_MAX ||
+        (level ? face_alike(w, s->nearest.polygon, s->furthest.polygon)
+               : recedes > sign * s->far.recedes))
         s->furthest = at, s->far = beside;
 }
 

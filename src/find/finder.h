@@ -50,8 +50,9 @@ static inline uint32_t dp_seen_beside(const uint32_t sides[2], uint32_t polygon)
 /* Notes that a line is made along this edge of a tile polygon; false: out of memory (emerge.c). */
 bool dp_note_drawn(dp_finder *finder, uint32_t polygon, uint32_t edge);
 
-/* Leaves the edge of a tile polygon that starts at this corner to emerge. */
-void dp_leave_to_emerge(dp_finder *finder, uint32_t polygon, uint32_t edge);
+/* Leaves the edge of a tile polygon that starts at this corner to emerge. `partner`: another one that
+ * has it, or UINT32_MAX. */
+void dp_leave_to_emerge(dp_finder *finder, uint32_t polygon, uint32_t edge, uint32_t partner);
 
 /* Appends a polygon's half-edges to the list, which has room for them (edge_table.c). */
 void dp_edge_list_polygon(dp_finder *finder, uint32_t polygon);

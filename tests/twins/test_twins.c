@@ -37,7 +37,7 @@ static const struct allowance {
 } allowances[] = {
     {"reverse-all", 0, 4},
     {"reverse-some", 0, 2},
-    {"double-all", 0, 0},
+    {"double-all", 0, 1},
     {"double-some", 0, 0},
     {"collinear", 0, 10},
     {"fan", 0, 1},
@@ -53,7 +53,7 @@ static const struct allowance {
     {"streamed", 0, 4},
     {"table-off", 0, 12},
     {"adjacency", SEEDS, SEEDS}, /* reported only: it knows but exact neighbours */
-    {"mixed", 1, 33},
+    {"mixed", 2, 33},
     {"mixed-streamed", 8, 36},
 };
 

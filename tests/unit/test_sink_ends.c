@@ -129,7 +129,7 @@ static void ends_are_what_they_say(void **state) {
                       t.known, t.picture, t.vertices, t.crossings);
         assert_true(t.hidden > 500 && t.picture > 50 && t.vertices > 500 && t.crossings > 100);
         /* not where tiles meet, and hostile ones meet often */
-        assert_true(t.known >= t.hidden - t.hidden / DP_TUNED(50, 20));
+        assert_true(t.known >= t.hidden - t.hidden / DP_TUNED(12, 8));
     }
 }
 
