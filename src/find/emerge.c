@@ -429,6 +429,10 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
         !is_own_edge(w, e, here.owner) || (outline && are_hidden_backs(w, b, right)))
         here = NOTHING;
+    /* as the table would have it, so that tiles agree */
+    const uint32_t own = e->unpaired.polygon;
+    if (here.sides[0] == own || here.sides[1] == own || here.behind == own)
+        here.owner = e->unpaired;
     if (has_same_sides(&here, before)) return false;
     *f = here;
     if (f->sides[0] != UINT32_MAX && f->sides[1] != UINT32_MAX)

@@ -42,7 +42,7 @@ static const golden whole[] = {
     {"cube", "cube", .style = {COLORS}},
     {"cube-ortho", "cube", .camera = {.orthographic = true}},
     {"cube-near", "cube", .camera = {.direction = {0.4, 0.3, 1}, .zoom = 1.4}},
-    {"crossing", "boxes", .style = {COLORS}},
+    {"crossing", "boxes", .style = {COLORS}, .fragile = true},
     {"open", .make = make_open, .style = {COLORS}, FLAT},
     {"valleys", .make = make_valleys, .style = {COLORS}, FLAT},
     {"gaps", .make = make_gaps, .style = {.stroke = {.taper = 60}}, FLAT},

@@ -111,7 +111,7 @@ static void expect_same_as_memory(dp_source *source, how h, const char *what) {
     if (memcmp(memory_picture.normal, stream_picture.normal, sizeof memory_picture.normal))
         fail_msg("%s: other normals", what);
     const long more = (long)stream_picture.segments - (long)memory_picture.segments;
-    if (labs(more) > 2 + (long)memory_picture.segments / 20)
+    if (labs(more) > 2 + (long)memory_picture.segments / 10)
         fail_msg("%s: %zu segments, %zu streamed", what, memory_picture.segments,
                  stream_picture.segments);
     assert_int_equal(memory_picture.stats.polygons, stream_picture.stats.polygons);
