@@ -44,7 +44,7 @@ static double along_far(const dp_finder *w) { return 1.2 * (double)dp_look_far(&
 static const double PARALLEL = 0.1;
 
 #define NO_EDGE                                                                                    \
-    { UINT32_MAX, UINT32_MAX }
+    { UINT32_MAX, UINT32_MAX, 0 }
 
 typedef struct dp_emerging {
     dp_unpaired_edge unpaired;
