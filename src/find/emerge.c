@@ -418,9 +418,9 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     here.owner = find_owner(w, b);
     if (left != right) here.behind = b->furthest[right];
     /* a partner seen edge-on covers nothing, but it is there */
-    if (here.behind == e->unpaired.polygon && here.sides[right] == here.behind &&
-        e->unpaired.partner)
-        here.behind = e->unpaired.partner - 1;
+    if (left != right && here.behind == here.sides[right] && e->unpaired.partner)
+        here.behind =
+            here.behind == e->unpaired.polygon ? e->unpaired.partner - 1 : e->unpaired.polygon;
     if (left != right && trusts_winding(w, e, b, right))
         here.behind = here.sides[right], here.sides[right] = b->furthest[right];
     /* else a sheet seen edge-on: both its borders are one line */
