@@ -255,7 +255,7 @@ static dp_result append_batch(gatherer *g, const dp_batch *batch) {
         !dp_attribute_add_values(&s->texcoords, &batch->texcoords, 2, s->corner_count, g->memory) ||
         !append_colors(g, batch))
         return out_of_memory(g);
-    append_positions(g, batch, s->positions + 3 * base);
+    if (batch->vertex_count) append_positions(g, batch, s->positions + 3 * base);
     s->vertices += batch->vertex_count;
     if (batch->groups) g->has_groups = true;
     for (size_t i = 0; i < batch->polygon_count; i++) {
