@@ -102,8 +102,8 @@ typedef struct dp_lookouts {
 
 enum { DP_LOOK_ROOM = 16 };
 
-/* What has been found at one sample point. Tile polygons and their edges; UINT32_MAX: none. Index 0: to the left of
- * the edge, 1: to the right. */
+/* What has been found at one sample point. Tile polygons and their edges; UINT32_MAX: none.
+ * Index 0: to the left of the edge, 1: to the right. */
 typedef struct dp_beheld {
     dp_unpaired_edge own;              /* the edge that is looked at */
     dp_unpaired_edge nearest[2];       /* of those that reach the edge, with its edge along here */
@@ -132,8 +132,8 @@ uint64_t dp_emergence_bytes(const dp_emergence *emergence);
 
 struct dp_finder;
 
-/* Tells point `point` that tile polygon `index`, whose plane passes through it with `gap` towards
- * the eye, covers what lies to its left and right: bits DP_LOOK_… (emerge.c). */
+/* Tells sample point `lookout` that tile polygon `index`, whose plane passes through it, covers
+ * what lies to its left and right: `sides`, bits DP_LOOK_… (emerge.c). */
 enum { DP_LOOK_LEFT = 1, DP_LOOK_RIGHT = 2, DP_LOOK_FAR_LEFT = 4, DP_LOOK_FAR_RIGHT = 8 };
 void dp_behold(struct dp_finder *finder, uint32_t lookout, uint32_t index, uint32_t sides);
 
