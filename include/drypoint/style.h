@@ -77,6 +77,28 @@ typedef struct dp_line_style {
     dp_color color; /* 0 means black */
 } dp_line_style;
 
+/* How lines look that something hides (docs/vector.md). Strokes only. */
+typedef enum dp_hidden_look {
+    DP_HIDDEN_NONE = 0, /* not drawn, not looked for */
+    DP_HIDDEN_DASHED,   /* 12 widths drawn, 3 not (ISO 128-2) */
+    DP_HIDDEN_DOTTED,   /* dots, 3 widths apart */
+    DP_HIDDEN_THIN,     /* whole, but narrow */
+    DP_HIDDEN_SOLID     /* whole, and as wide as visible ones */
+} dp_hidden_look;
+
+enum { DP_LEVELS = 8 /* the most that are told apart */ };
+
+/* Hidden lines. A line's level says how many front-facing surfaces lie between it and the eye, and
+ * is 1 at least where anything hides it; `levels` or more count as `levels`. */
+typedef struct dp_hidden {
+    dp_hidden_look look;
+    uint32_t levels; /* 1 to DP_LEVELS; 0 means 1: hidden by anything */
+    bool smooth;     /* also folds so slight that drawing offices leave them out (docs/lines.md) */
+    /* By level - 1 and class. width: 0 means half the visible line's, or the same if solid; color: 0
+     * means the visible line's. */
+    dp_line_style line[DP_LEVELS][DP_LINE_COUNT];
+} dp_hidden;
+
 /* Zero is the default: `dp_style style = {0};` draws every class, 2 px wide, black on white. */
 typedef struct dp_style {
     uint32_t lines;                    /* set of classes; 0 means DP_ALL_LINES; or DP_NO_LINES */
@@ -100,6 +122,9 @@ typedef struct dp_style {
     dp_color paper;       /* 0 means white */
     dp_color surface;     /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
     bool cull_back_faces; /* do not paint back faces as surface (closed models lose nothing) */
+    dp_hidden hidden;     /* strokes: lines that something hides; default: none */
+    bool exact_ends;      /* strokes: where something hides a line, its end is solved, not taken
+                             between two sample points; not where the source is streamed */
     bool edge_table_off;  /* strokes: do not resolve edges in the tile's table; all lines emerge */
     dp_shade shade;       /* shading of surfaces */
     dp_edge_map edge_map; /* default: off */

@@ -37,7 +37,7 @@ struct dp_context {
 
     size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
     dp_polygon_store polygons;
-    dp_drawing drawing;      /* the lines of the last picture */
+    dp_lines drawing;        /* the lines of the last picture */
     bool drawn;              /* there is one */
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */

@@ -486,7 +486,7 @@ dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camer
 /* Makes the chains when they are first asked for; statistics count their memory from then on. */
 static bool chain_drawing(dp_context *c) {
     if (c->drawing.chained) return true;
-    const bool done = dp_chain_drawing(&c->frame, &c->drawing);
+    const bool done = dp_chain_lines(&c->frame, &c->drawing);
     c->stats.bytes = dp_context_bytes(c);
     return done;
 }

@@ -3,6 +3,7 @@
 
 #include "base/diag.h"
 #include "base/print.h"
+#include "base/vec.h"
 
 #include <math.h>
 
@@ -203,6 +204,28 @@ static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
     return result;
 }
 
+/* Lines that something hides: narrower than the visible ones, in their colour. */
+static dp_result resolve_hidden(dp_style *style, dp_diag *diag) {
+    dp_hidden *const h = &style->hidden;
+    if ((unsigned)h->look > DP_HIDDEN_SOLID)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the look of hidden lines is not one of its values");
+    if (!h->levels) h->levels = 1;
+    if (h->levels > DP_LEVELS)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u levels of hidden lines; there are 1 to %d",
+                       h->levels, DP_LEVELS);
+    for (int level = 0; level < DP_LEVELS; level++)
+        for (int i = 0; i < DP_LINE_COUNT; i++) {
+            dp_line_style *const line = &h->line[level][i];
+            if (line->width == 0)
+                line->width = h->look == DP_HIDDEN_SOLID ? style->line[i].width
+                                                         : dp_maxf(style->line[i].width / 2, 0.5f);
+            line->color = color_or(line->color, style->line[i].color);
+            const dp_result result = resolve_line(line, (dp_line)i, diag);
+            if (result) return result;
+        }
+    return DP_OK;
+}
+
 dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag) {
     if (!resolved) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_style_resolve: resolved is NULL");
     dp_style full = style ? *style : (dp_style){0};
@@ -215,7 +238,8 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
         const dp_result result = resolve_line(&full.line[i], (dp_line)i, diag);
         if (result) return result;
     }
-    dp_result result = resolve_angle(&full.ridge_angle, 150, "ridge", diag);
+    dp_result result = resolve_hidden(&full, diag);
+    if (!result) result = resolve_angle(&full.ridge_angle, 150, "ridge", diag);
     if (!result) result = resolve_angle(&full.valley_angle, 210, "valley", diag);
     if (!result) result = resolve_stroke(&full.stroke, diag);
     if (!result) result = resolve_passes(&full, diag);

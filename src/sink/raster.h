@@ -4,7 +4,7 @@
 #define DP_SINK_RASTER_H
 
 #include "core/bin.h"
-#include "strokes/drawing.h"
+#include "strokes/lines.h"
 #include <drypoint/sink.h>
 
 /* A worker's scratch for one tile. */
@@ -32,7 +32,7 @@ uint64_t dp_raster_bytes(const dp_raster *raster);
 /* A drawing that is being inked. */
 typedef struct dp_inking {
     const dp_frame *frame;
-    const dp_drawing *drawing;
+    const dp_lines *drawing;
     dp_raster *raster;
     /* Runs a task for every tile; tells progress (draw/draw.c). */
     dp_result (*for_tiles)(void *user, dp_task *task, void *arg, dp_diag *diag);

@@ -6,7 +6,7 @@
 
 typedef struct handing {
     const dp_frame *frame;
-    const dp_drawing *drawing;
+    const dp_lines *drawing;
     const dp_sink *sink;
     const dp_segment **order; /* the segments of one chain */
     dp_diag *diag;
@@ -87,7 +87,7 @@ static dp_result hand_over(handing *h) {
     return result ? result : last;
 }
 
-dp_result dp_hand_over(const dp_frame *frame, const dp_drawing *drawing, const dp_sink *sink,
+dp_result dp_hand_over(const dp_frame *frame, const dp_lines *drawing, const dp_sink *sink,
                        dp_diag *diag) {
     dp_diag unused;
     dp_diag *const why = diag ? diag : &unused;

@@ -2,12 +2,12 @@
 #ifndef DP_SINK_SINK_H
 #define DP_SINK_SINK_H
 
-#include "strokes/drawing.h"
+#include "strokes/lines.h"
 #include <drypoint/sink.h>
 
 /* Calls the sink's functions in their order (drypoint/sink.h). A sink that takes layers or strokes,
- * or looks at how many there are, needs a drawing that is chained (dp_chain_drawing). */
-dp_result dp_hand_over(const dp_frame *frame, const dp_drawing *drawing, const dp_sink *sink,
+ * or looks at how many there are, needs a drawing that is chained (dp_chain_lines). */
+dp_result dp_hand_over(const dp_frame *frame, const dp_lines *drawing, const dp_sink *sink,
                        dp_diag *diag);
 
 /* A sink that writes a drawing as text. */

@@ -10,7 +10,7 @@
  * tile has kept the spine's ends and normals (segment geometry); they are computed again only
  * where it has not. Invariant: the order (tile by tile, then the joined ones by polygon) does not
  * depend on threads. */
-#include "strokes/drawing.h"
+#include "strokes/lines.h"
 #include "strokes/segment_batch.h"
 
 #include "base/hostile.h"
@@ -23,16 +23,16 @@
 enum { BLOCK = DP_TUNED(128, 7) };
 
 static const dp_array arrays[] = {
-    DP_ARRAY(dp_drawing, pieces, pieces_cap), DP_ARRAY(dp_drawing, segments, segments_cap),
-    DP_ARRAY(dp_drawing, strokes, strokes_cap), DP_ARRAY(dp_drawing, sides, sides_cap)};
+    DP_ARRAY(dp_lines, pieces, pieces_cap), DP_ARRAY(dp_lines, segments, segments_cap),
+    DP_ARRAY(dp_lines, strokes, strokes_cap), DP_ARRAY(dp_lines, sides, sides_cap)};
 
-void dp_drawing_free(dp_drawing *drawing, const dp_allocator *memory) {
+void dp_lines_free(dp_lines *drawing, const dp_allocator *memory) {
     dp_arrays_free(memory, drawing, DP_ARRAYS(arrays));
     dp_chain_store_free(&drawing->chains, memory);
     dp_stylized_store_free(&drawing->stylized, memory);
 }
 
-uint64_t dp_drawing_bytes(const dp_drawing *drawing) {
+uint64_t dp_lines_bytes(const dp_lines *drawing) {
     return dp_arrays_bytes(drawing, DP_ARRAYS(arrays)) + dp_chain_store_bytes(&drawing->chains) +
            dp_stylized_store_bytes(&drawing->stylized);
 }
@@ -55,7 +55,7 @@ static bool continues(const dp_piece *p, const dp_piece *q) {
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
-static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_drawing *store,
+static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_lines *store,
                         size_t *count) {
     const uint32_t tiles = frame->tiles_x * frame->tiles_y;
     size_t total = 0, closed = 0, open;
@@ -126,7 +126,7 @@ static uint64_t source_number(const dp_frame *frame, uint32_t polygon) {
 typedef struct job {
     const dp_frame *frame;
     const dp_found *found;
-    dp_drawing *store;
+    dp_lines *store;
 } job;
 
 static void put_geometry(const job *j, const dp_piece *piece, dp_segment_batch *out, uint32_t i) {
@@ -230,7 +230,7 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
 
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
-    dp_drawing *const store = j->store;
+    dp_lines *const store = j->store;
     const size_t first = (size_t)index * BLOCK, count = j->store->count;
     const size_t end = first + BLOCK < count ? first + BLOCK : count;
     dp_segment_batch batch = {0};
@@ -245,7 +245,7 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
-bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_drawing *store) {
+bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *store) {
     size_t count;
     if (!join_pieces(frame, found, store, &count)) return false;
     if (count > UINT32_MAX ||

@@ -10,7 +10,7 @@
  * polygon at which the chain begins: it depends neither on threads nor on the rest of the
  * picture. Extruded silhouettes (Hermosilla and Vázquez 2010, 2.3) lie outside their chain and are
  * not moved. */
-#include "strokes/drawing.h"
+#include "strokes/lines.h"
 
 #include "features/silhouette_edge.h"
 #include "core/outline.h"
@@ -72,7 +72,7 @@ static float noise(float t, uint32_t seed) {
 
 typedef struct stylizer {
     const dp_frame *frame;
-    const dp_drawing *drawing;
+    const dp_lines *drawing;
     dp_stylized_store *store;
     const dp_stroke_style *style;
     bool outside;            /* the line that is being drawn lies beside its spine */
@@ -434,13 +434,13 @@ static bool find_lights(stylizer *h) {
     return true;
 }
 
-bool dp_stylize(const dp_frame *frame, dp_drawing *drawing) {
+bool dp_stylize(const dp_frame *frame, dp_lines *drawing) {
     dp_stylized_store *const store = &drawing->stylized;
     stylizer h = {
         .frame = frame, .drawing = drawing, .store = store, .style = &frame->styles[0].stroke};
     store->count = 0;
     if (!drawing->stylizes) return true;
-    if (!dp_chain_drawing(frame, drawing) || !find_lights(&h)) return false;
+    if (!dp_chain_lines(frame, drawing) || !find_lights(&h)) return false;
     find_distances(&h);
     uint32_t id = 0;
     for (uint32_t c = 0; c < drawing->chains.chain_count; c++)

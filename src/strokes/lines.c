@@ -6,7 +6,7 @@
  *
  * The order of segments, and with it that of chains, depends neither on tiles nor on threads. Plain
  * ink needs no chains; so they are made when somebody asks for them, once a picture. */
-#include "strokes/drawing.h"
+#include "strokes/lines.h"
 
 #include "base/sort.h"
 #include "features/silhouette_edge.h"
@@ -18,7 +18,7 @@ static const float TURN = -0.7f; /* chains do not go on at turns above 135 degre
 static int by_edge(const void *left, const void *right) { return dp_piece_order(left, right); }
 
 /* Puts segments and strokes into the order of the pieces, whose `geometry` says where they were. */
-static void follow_pieces(dp_drawing *d) {
+static void follow_pieces(dp_lines *d) {
     for (size_t start = 0; start < d->count; start++) {
         if (d->pieces[start].geometry == start) continue;
         const dp_segment segment = d->segments[start];
@@ -34,14 +34,14 @@ static void follow_pieces(dp_drawing *d) {
     }
 }
 
-static void sort_segments(dp_drawing *d) {
+static void sort_segments(dp_lines *d) {
     for (size_t i = 0; i < d->count; i++) d->pieces[i].geometry = (uint32_t)i;
     if (d->count) dp_sort(d->pieces, d->count, sizeof *d->pieces, by_edge);
     follow_pieces(d);
 }
 
 /* Which side of an extruded line is outside, for chains to keep to. */
-static int8_t side_of(const dp_frame *frame, const dp_drawing *d, size_t i) {
+static int8_t side_of(const dp_frame *frame, const dp_lines *d, size_t i) {
     const dp_stroke *const k = &d->strokes[i];
     double out[2] = {0, 0};
     if (!(1u << k->line & DP_OUTLINES)) return 0;
@@ -50,7 +50,7 @@ static int8_t side_of(const dp_frame *frame, const dp_drawing *d, size_t i) {
     return (k->b.x - k->a.x) * out[1] - (k->b.y - k->a.y) * out[0] < 0 ? -1 : 1;
 }
 
-static bool find_sides(const dp_frame *frame, dp_drawing *d) {
+static bool find_sides(const dp_frame *frame, dp_lines *d) {
     const bool any = dp_lies_outside(frame);
     if (!dp_reserve(frame->memory, &d->sides, &d->sides_cap, d->count, sizeof *d->sides))
         return false;
@@ -59,7 +59,7 @@ static bool find_sides(const dp_frame *frame, dp_drawing *d) {
 }
 
 /* Depth d of the nearest end of any segment. */
-static double nearest_depth(const dp_drawing *d) {
+static double nearest_depth(const dp_lines *d) {
     double nearest = (double)DP_DEPTH_EMPTY;
     for (size_t i = 0; i < d->count; i++)
         nearest = dp_max(nearest, (double)dp_maxf(d->strokes[i].a.d, d->strokes[i].b.d));
@@ -72,7 +72,7 @@ static float gap_outside(const dp_frame *f) {
 }
 
 /* Plain strokes are chained where their ends are equal, and nowhere else. */
-static dp_chain_rule rule_of(const dp_frame *frame, const dp_drawing *d) {
+static dp_chain_rule rule_of(const dp_frame *frame, const dp_lines *d) {
     if (!d->stylizes) return (dp_chain_rule){.sharpest = TURN};
     return (dp_chain_rule){.sharpest = TURN,
                            .side = d->sides,
@@ -81,7 +81,7 @@ static dp_chain_rule rule_of(const dp_frame *frame, const dp_drawing *d) {
                            .step = (float)dp_depth_step(&frame->view, nearest_depth(d), 30)};
 }
 
-static void number_segments(dp_drawing *d) {
+static void number_segments(dp_lines *d) {
     for (uint32_t c = 0; c < d->chains.chain_count; c++) {
         const dp_chain *const chain = &d->chains.chains[c];
         for (uint32_t i = 0; i < chain->count; i++) {
@@ -92,7 +92,7 @@ static void number_segments(dp_drawing *d) {
     }
 }
 
-bool dp_chain_drawing(const dp_frame *frame, dp_drawing *d) {
+bool dp_chain_lines(const dp_frame *frame, dp_lines *d) {
     if (d->chained) return true;
     sort_segments(d);
     if (d->stylizes && !find_sides(frame, d)) return false;

@@ -3,13 +3,13 @@
  *     pieces → segments, and a stroke each → chains → stylized strokes, if a style asks for them
  *
  * Sinks take it from here (src/sink/). */
-#ifndef DP_STROKES_DRAWING_H
-#define DP_STROKES_DRAWING_H
+#ifndef DP_STROKES_LINES_H
+#define DP_STROKES_LINES_H
 
 #include "core/piece.h"
 #include "strokes/stylized.h"
 
-typedef struct dp_drawing {
+typedef struct dp_lines {
     dp_piece *pieces;     /* joined; what each segment is made of */
     dp_segment *segments; /* the public contract (draw.h) */
     dp_stroke *strokes;   /* one per segment */
@@ -24,24 +24,24 @@ typedef struct dp_drawing {
     int8_t *sides; /* by segment, for stylized strokes: as in dp_chain_rule */
     size_t sides_cap;
     dp_stylized_store stylized;
-} dp_drawing;
+} dp_lines;
 
-void dp_drawing_free(dp_drawing *drawing, const dp_allocator *memory);
-uint64_t dp_drawing_bytes(const dp_drawing *drawing);
+void dp_lines_free(dp_lines *drawing, const dp_allocator *memory);
+uint64_t dp_lines_bytes(const dp_lines *drawing);
 
 /* Joins the tiles' pieces and makes segments and strokes of them (segments.c). `found`: by worker.
  * False when memory is out. */
-bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_drawing *drawing);
+bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *drawing);
 
 /* The order of pieces by polygon, edge and sample points, for sorting. */
 int dp_piece_order(const dp_piece *left, const dp_piece *right);
 
 /* Puts segments into an order that does not depend on tiles, joins them to chains and numbers them,
- * once a picture: who asks for it pays for it, as plain ink does not need it (drawing.c). False when
+ * once a picture: who asks for it pays for it, as plain ink does not need it (lines.c). False when
  * memory is out. */
-bool dp_chain_drawing(const dp_frame *frame, dp_drawing *drawing);
+bool dp_chain_lines(const dp_frame *frame, dp_lines *drawing);
 
 /* Makes the stylized strokes of the chains (stylize.c). False when memory is out. */
-bool dp_stylize(const dp_frame *frame, dp_drawing *drawing);
+bool dp_stylize(const dp_frame *frame, dp_lines *drawing);
 
 #endif
