@@ -21,8 +21,9 @@ strokes  base mesh texture core features
 gbuffer  base mesh core raster
 shade    base mesh texture core raster gbuffer
 sink     base mesh texture core raster strokes
+vector   base mesh texture core strokes sink
 stream   base mesh core features raster find
-draw     base mesh texture core features raster find printed strokes gbuffer shade sink stream
+draw     base mesh texture core features raster find printed strokes gbuffer shade sink stream vector
 '
 find . -name '*.[ch]' -o -name '*.inc' | sed 's|^\./||' | sort | xargs awk -v rules="$rules" '
 BEGIN {

@@ -13,7 +13,8 @@
 
 /* A picture is a PNG; any other ending is taken for a mistake. */
 static bool check_ending(const char *path) {
-    if (output_in_place(path) || output_has_ending(path, ".png")) return true;
+    if (output_in_place(path) || output_has_ending(path, ".png") || output_has_ending(path, ".svg"))
+        return true;
     return wrong_usage("-o %s: pictures are written as PNG; name it %.*s.png", path,
                        output_stem(path), path);
 }
@@ -85,7 +86,23 @@ static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
     return 0;
 }
 
+static int write_page(const tool_settings *s, const drawing *d) {
+    dp_diag diag = {0};
+    dp_drawing *lines = NULL;
+    dp_result result = dp_drawing_create(d->context, NULL, &lines, &diag);
+    if (!result) {
+        const dp_view_on_page view = {.drawing = lines};
+        const dp_page page = {.views = &view, .view_count = 1};
+        interrupt_hold();
+        result = dp_io_write_page(s->output, &page, DP_FORMAT_SVG, &diag);
+        interrupt_release();
+    }
+    dp_drawing_destroy(lines);
+    return result ? report_failure(NULL, &diag) : 0;
+}
+
 static int write_picture(const tool_settings *s, const drawing *d) {
+    if (output_has_ending(s->output, ".svg")) return write_page(s, d);
     const dp_io_picture picture = {.rgba = d->target.rgba,
                                    .width = d->target.width,
                                    .height = d->target.height,

@@ -6,6 +6,7 @@
 #include <drypoint/base.h>
 #include <drypoint/camera.h>
 #include <drypoint/draw.h>
+#include <drypoint/drawing.h>
 #include <drypoint/immediate.h>
 #include <drypoint/shade.h>
 #include <drypoint/shapes.h>

@@ -5,6 +5,7 @@
 #ifndef DRYPOINT_IO_H
 #define DRYPOINT_IO_H
 
+#include <drypoint/drawing.h>
 #include <drypoint/sink.h>
 #include <drypoint/source.h>
 #include <drypoint/strokes.h>
@@ -50,6 +51,11 @@ DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *pict
 /* Writes the lines of the last dp_draw as text (dp_trace), with the same care; "-" is standard
  * output. DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
 DP_API dp_result dp_io_write_trace(const char *path, dp_context *context, dp_diag *diag);
+
+/* Writes a page of drawings with the same care: PDF is compressed, and the grounds of an SVG's views
+ * become PNGs in it. "-" is standard output. DP_ERR_IO, and as dp_page_write. */
+DP_API dp_result dp_io_write_page(const char *path, const dp_page *page, dp_format format,
+                                  dp_diag *diag);
 
 /* Makes a stroke texture of a PNG of any kind, at most 8192 px wide and high, as
  * dp_texture_create does. The caller destroys *out. DP_ERR_IO, DP_ERR_FORMAT,

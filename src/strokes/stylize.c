@@ -23,7 +23,7 @@ static const float SWELL = 0.4f;   /* px of width per px of an extruded outline'
 static const float CORE = 0.6f; /* px, half the width of the edges themselves under extruded ink */
 static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
 
-typedef struct dp_path_point {
+typedef struct dp_stylized_point {
     float x, y, d;
     float arc;        /* px from the chain's start */
     uint32_t segment; /* that follows */

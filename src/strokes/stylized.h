@@ -22,7 +22,7 @@ typedef struct dp_stylized {
 
 typedef struct dp_stylized_store {
     dp_stylized *stylized;
-    struct dp_path_point *points; /* stylize.c: of one chain */
+    struct dp_stylized_point *points; /* stylize.c: of one chain */
     float *lights;
     size_t stylized_cap, points_cap, lights_cap, count;
 } dp_stylized_store;
