@@ -2,6 +2,7 @@
  * time. Loading and the first frame, in which the context's memory grows, are not counted. */
 #include "commands.h"
 #include "look.h"
+#include "page.h"
 #include "report.h"
 
 #include <stdlib.h>
@@ -64,17 +65,19 @@ static int measure(const tool_settings *s, bench *b) {
                                   .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
     dp_style style = make_style(s);
     dp_extent extent;
-    dp_camera camera;
+    page_plan plan;
     dp_diag diag = {0};
+    dp_camera *const camera = &plan.views[0].camera;
     int code = measure_model(s, b->source, &extent);
     if (!code) look_mirror(s, &extent, &style);
-    if (!code) code = make_camera(s, &extent, &camera);
-    if (!code) look_deepen(&style, &extent, &camera);
+    if (!code) code = page_make(s, b->source, &extent, &plan);
+    if (!code && !page_widths(s, &plan, &style)) code = EXIT_USAGE;
+    if (!code) look_deepen(&style, &extent, camera);
     if (!code) code = make_stroke(s, &style, &b->texture);
     if (!code) code = look_make(s, b->source, &b->look, &style);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
-    return draw_frames(b, &camera, &style, s->model);
+    return draw_frames(b, camera, &style, s->model);
 }
 
 static int run(const tool_settings *s, bench *b) {

@@ -18,8 +18,10 @@ int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent);
 /* Warns if the model lies so far from 0 that its float32 coordinates no longer tell its shape. */
 void warn_coarse(const tool_settings *s, const dp_extent *extent);
 
-/* The camera of the settings, for a model of that extent. 0, or the exit code after a message. */
-int make_camera(const tool_settings *s, const dp_extent *extent, dp_camera *camera);
+/* The camera of the settings, for a model of that extent and a picture of that width / height. 0,
+ * or the exit code after a message. */
+int make_camera(const tool_settings *s, const dp_extent *extent, double aspect, dp_camera *camera);
+/* All but the lines' widths, which the page says (page.h). */
 dp_style make_style(const tool_settings *s);
 /* Fills style->stroke; the caller destroys *texture. 0, or the exit code after a message. */
 int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture);

@@ -1,7 +1,14 @@
-/* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before all is drawn. */
+/* drypoint MODEL -o OUT.png: reads, draws, writes. Nothing is written before all is drawn.
+ *
+ * A run has one plan (page.h): views, each with its camera and its place on the page. Each view is
+ * drawn once, into its rectangle of the picture and into paths; only a ground under paths takes a
+ * drawing of its own. */
 #include "commands.h"
+#include "files.h"
 #include "look.h"
 #include "output.h"
+#include "page_ink.h"
+#include "paths.h"
 #include "planes.h"
 #include "progress.h"
 #include "report.h"
@@ -11,38 +18,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A picture is a PNG; any other ending is taken for a mistake. */
-static bool check_ending(const char *path) {
-    if (output_in_place(path) || output_has_ending(path, ".png") || output_has_ending(path, ".svg"))
-        return true;
-    return wrong_usage("-o %s: pictures are written as PNG; name it %.*s.png", path,
-                       output_stem(path), path);
-}
-
-/* Every output has a file of its own, and none is the model. */
-static bool check_outputs(const tool_settings *s) {
-    const char *paths[OUTPUT_COUNT + 2] = {s->model};
-    size_t count = 1;
-    if (s->output) paths[count++] = s->output;
-    for (int k = 0; k < OUTPUT_COUNT; k++)
-        if (s->outputs[k]) paths[count++] = s->outputs[k];
-    for (size_t i = 1; i < count; i++)
-        for (size_t k = 0; k < i; k++) {
-            if (k == 0 && !strcmp(paths[0], "-")) continue; /* standard input */
-            if (!output_same(paths[i], paths[k])) continue;
-            return k ? wrong_usage("two outputs go to %s; name another file", paths[i])
-                     : wrong_usage("%s is the model; name another file for the output", paths[i]);
-        }
-    return true;
-}
-
 typedef struct drawing {
     dp_source *source;
     dp_context *context;
     dp_texture *texture;
-    dp_target target;
-    dp_stats stats;
+    dp_style style;
+    dp_target target; /* planes of the only view; rgba is the whole page */
     look_data look;
+    page_plan plan;
+    bool pixels, paths; /* what is wanted */
+    view_paths views[SHEET_MOST];
+    dp_stats stats[SHEET_MOST];
 } drawing;
 
 /* Warns of what a source is to be remarked on; NULL: nothing. */
@@ -50,70 +36,129 @@ static void warn_source(const char *remark) {
     if (remark) warn("%s", remark);
 }
 
-/* Draws into a new picture, which the caller frees. */
-static int draw(const tool_settings *s, drawing *d, const dp_extent *extent) {
-    dp_camera camera;
-    dp_extent seen = *extent;
-    dp_style style = make_style(s);
-    look_mirror(s, &seen, &style);
-    const int wrong = make_camera(s, &seen, &camera);
-    if (wrong) return wrong;
-    look_deepen(&style, &seen, &camera);
-    const dp_context_desc desc = {
-        .threads = s->threads, .progress = progress_report, .memory = (size_t)s->memory};
-    const int wrong_stroke = make_stroke(s, &style, &d->texture);
-    if (wrong_stroke) return wrong_stroke;
-    dp_diag diag = {0};
-    d->target = make_target(s);
-    int code = look_make(s, d->source, &d->look, &style);
-    if (!code) code = planes_prepare(s, &d->target);
-    if (code) return code;
-    if (!s->quiet && style.shade.model_colors) warn_source(dp_source_color_remark(d->source));
-    if (!s->quiet) warn_strokeless(s, &style);
-    d->target.rgba = calloc((size_t)d->target.width * d->target.height, 4);
+/* ---- preparing ---- */
+
+static int make_page(const tool_settings *s, drawing *d) {
+    const page_plan *const plan = &d->plan;
+    d->target.width = plan->width, d->target.height = plan->height;
+    if (!d->pixels) return 0;
+    d->target.rgba = calloc((size_t)plan->width * plan->height, 4);
     if (!d->target.rgba) {
-        wrong_usage("out of memory for %u x %u pixels; give a smaller --size", d->target.width,
-                    d->target.height);
+        wrong_usage("out of memory for %u x %u pixels; give a smaller %s", plan->width,
+                    plan->height, plan->paged ? "--dpi" : "--size");
         return EXIT_FAILED;
     }
-    if (dp_context_create(&desc, &d->context, &diag)) return report_failure(NULL, &diag);
-    progress_begin("drawing", s->quiet);
-    const dp_result result = dp_draw(d->context, d->source, &camera, &style, &d->target, &diag);
-    progress_end();
-    if (result == DP_ERR_ARGUMENT) return report_failure(NULL, &diag);
-    if (result) return report_failure(s->model, &diag);
-    dp_stats_of(d->context, &d->stats);
+    if (plan->paged) ink_paper(&d->target, s->style.paper);
     return 0;
 }
 
-static int write_page(const tool_settings *s, const drawing *d) {
+/* Everything but the drawing itself; fills in what all views share. */
+static int prepare(const tool_settings *s, drawing *d, const dp_extent *extent) {
+    const dp_context_desc desc = {
+        .threads = s->threads, .progress = progress_report, .memory = (size_t)s->memory};
+    dp_extent seen = *extent;
     dp_diag diag = {0};
-    dp_drawing *lines = NULL;
-    dp_result result = dp_drawing_create(d->context, NULL, &lines, &diag);
-    if (!result) {
-        const dp_view_on_page view = {.drawing = lines};
-        const dp_page page = {.views = &view, .view_count = 1};
-        interrupt_hold();
-        result = dp_io_write_page(s->output, &page, DP_FORMAT_SVG, &diag);
-        interrupt_release();
-    }
-    dp_drawing_destroy(lines);
-    return result ? report_failure(NULL, &diag) : 0;
+    d->pixels = files_have_pixels(s), d->paths = files_have_paths(s);
+    d->style = make_style(s);
+    d->style.exact_ends = d->paths;
+    look_mirror(s, &seen, &d->style);
+    int code = page_make(s, d->source, &seen, &d->plan);
+    if (code) return code;
+    if (!page_widths(s, &d->plan, &d->style)) return EXIT_USAGE;
+    for (int k = 0; k < d->plan.view_count; k++)
+        look_deepen(&d->style, &seen, &d->plan.views[k].camera);
+    code = make_stroke(s, &d->style, &d->texture);
+    if (code) return code;
+    code = look_make(s, d->source, &d->look, &d->style);
+    d->target.samples = make_target(s).samples;
+    d->target.width = d->plan.views[0].width, d->target.height = d->plan.views[0].height;
+    if (!code) code = planes_prepare(s, &d->target);
+    if (!code) code = make_page(s, d);
+    if (code) return code;
+    if (!s->quiet && d->style.shade.model_colors) warn_source(dp_source_color_remark(d->source));
+    if (!s->quiet && d->pixels) warn_strokeless(s, &d->style);
+    if (d->paths) paths_warn(s, &d->style);
+    return dp_context_create(&desc, &d->context, &diag) ? report_failure(NULL, &diag) : 0;
 }
 
-static int write_picture(const tool_settings *s, const drawing *d) {
-    if (output_has_ending(s->output, ".svg")) return write_page(s, d);
+/* ---- drawing ---- */
+
+static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
+                     const dp_target *target) {
+    dp_diag diag = {0};
+    progress_begin("drawing", s->quiet);
+    const dp_result result = dp_draw(d->context, d->source, &v->camera, style, target, &diag);
+    progress_end();
+    if (!result) return 0;
+    return report_failure(result == DP_ERR_ARGUMENT ? NULL : s->model, &diag);
+}
+
+/* The surface under the lines of view k, without paper: the page has it. */
+static int draw_ground(const tool_settings *s, drawing *d, int k) {
+    const page_view *const v = &d->plan.views[k];
+    dp_style style = d->style;
+    style.lines = DP_NO_LINES;
+    style.paper = DP_COLOR_NONE;
+    style.hidden.look = DP_HIDDEN_NONE;
+    d->views[k].ground = calloc((size_t)v->width * v->height, 4);
+    if (!d->views[k].ground) {
+        wrong_usage("out of memory for the ground; leave out --ground");
+        return EXIT_FAILED;
+    }
+    const dp_target target = {.width = v->width,
+                              .height = v->height,
+                              .samples = d->target.samples,
+                              .rgba = d->views[k].ground};
+    return draw_into(s, d, v, &style, &target);
+}
+
+static int draw_lines(const tool_settings *s, drawing *d, int k) {
+    const page_view *const v = &d->plan.views[k];
+    const size_t stride = (size_t)4 * d->plan.width;
+    dp_target target = d->target;
+    dp_style style = d->style;
+    target.width = v->width, target.height = v->height;
+    if (target.rgba) target.rgba += v->y * stride + (size_t)4 * v->x, target.rgba_stride = stride;
+    if (v->bare) style.hidden.look = DP_HIDDEN_NONE;
+    int code = draw_into(s, d, v, &style, &target);
+    if (!code) dp_stats_of(d->context, &d->stats[k]);
+    if (!code && d->paths) code = paths_make(s, &d->plan, d->context, &d->views[k].lines);
+    return code;
+}
+
+/* The ground first: the context's last drawing is that of the lines, which the trace is of. */
+static int draw_views(const tool_settings *s, drawing *d) {
+    int code = 0;
+    for (int k = 0; k < d->plan.view_count && !code; k++) {
+        if (d->paths && s->ground == GROUND_PNG) code = draw_ground(s, d, k);
+        if (!code) code = draw_lines(s, d, k);
+    }
+    return code;
+}
+
+/* ---- writing ---- */
+
+static int write_picture(const tool_settings *s, const drawing *d, const char *path) {
     const dp_io_picture picture = {.rgba = d->target.rgba,
-                                   .width = d->target.width,
-                                   .height = d->target.height,
+                                   .width = d->plan.width,
+                                   .height = d->plan.height,
+                                   .dpi = d->plan.dpi,
                                    .progress = progress_report};
     dp_diag diag = {0};
     progress_begin("writing", s->quiet);
     interrupt_hold();
-    const dp_result result = dp_io_write_picture(s->output, &picture, &diag);
+    const dp_result result = dp_io_write_picture(path, &picture, &diag);
     interrupt_release();
     progress_end();
     return result ? report_failure(NULL, &diag) : 0;
+}
+
+static int write_pictures(const tool_settings *s, const drawing *d) {
+    int code = 0;
+    if (d->pixels) ink_page(&d->plan, &d->target);
+    for (uint32_t k = 0; k < s->file_count && !code; k++)
+        if (files_format(s, s->files[k]) == FORMAT_PNG) code = write_picture(s, d, s->files[k]);
+    return code;
 }
 
 static int write_trace(const tool_settings *s, const drawing *d) {
@@ -125,17 +170,25 @@ static int write_trace(const tool_settings *s, const drawing *d) {
     return result ? report_failure(NULL, &diag) : 0;
 }
 
-/* Is it standard output? */
-static bool is_standard(const char *path) { return path && !strcmp(path, "-"); }
+static int write_planes(const tool_settings *s, const drawing *d) {
+    dp_target view = d->target;
+    view.width = d->plan.views[0].width, view.height = d->plan.views[0].height;
+    return planes_write(s, &view);
+}
 
 static void print_stats(const tool_settings *s, const drawing *d) {
     if (!s->quiet) warn_source(dp_source_remark(d->source));
-    if (!s->quiet) warn_dropped(&d->stats);
-    if (!s->quiet) warn_lost(&d->stats);
-    if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats);
-    bool taken = is_standard(s->output);
-    for (int k = 0; k < OUTPUT_COUNT; k++) taken |= is_standard(s->outputs[k]);
-    if (s->stats == STATS_JSON) print_stats_json(taken ? stderr : stdout, &d->stats, &d->target);
+    if (!s->quiet) warn_dropped(&d->stats[0]);
+    if (!s->quiet) warn_lost(&d->stats[0]);
+    for (int k = 0; k < d->plan.view_count; k++) {
+        const dp_target view = {.width = d->plan.views[k].width,
+                                .height = d->plan.views[k].height,
+                                .samples = d->target.samples};
+        if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats[k]);
+        if (s->stats == STATS_JSON)
+            print_stats_json(files_standard(s) ? stderr : stdout, &d->stats[k], &view);
+    }
+    if (d->paths) paths_tell(s, &d->plan, d->views);
 }
 
 static int run(const tool_settings *s, drawing *d) {
@@ -143,25 +196,28 @@ static int run(const tool_settings *s, drawing *d) {
     int code = open_model(s, &d->source);
     if (!code) code = measure_model(s, d->source, &extent);
     if (!code) warn_coarse(s, &extent);
-    if (!code) code = draw(s, d, &extent);
-    if (!code) code = planes_write(s, &d->target);
+    if (!code) code = prepare(s, d, &extent);
+    if (!code) code = draw_views(s, d);
+    if (!code) code = write_planes(s, d);
     if (!code) code = write_trace(s, d);
-    if (!code && s->output) code = write_picture(s, d);
+    if (!code) code = write_pictures(s, d);
+    if (!code && d->paths) code = paths_write(s, &d->plan, d->views);
     if (!code) print_stats(s, d);
     return code;
 }
 
 int command_draw(const tool_settings *s) {
-    const char *const trace = s->outputs[OUTPUT_TRACE];
-    if (s->output && !check_ending(s->output)) return EXIT_USAGE;
-    if (!check_outputs(s)) return EXIT_USAGE;
-    if (s->output && !output_possible(s->output)) return EXIT_FAILED;
-    if (trace && !output_possible(trace)) return EXIT_FAILED;
+    int code = files_check(s);
+    if (code) return code;
     drawing d = {0};
-    const int code = run(s, &d);
+    code = run(s, &d);
     dp_context_destroy(d.context);
     dp_texture_destroy(d.texture);
     dp_source_destroy(d.source);
+    for (int k = 0; k < SHEET_MOST; k++) {
+        dp_drawing_destroy(d.views[k].lines);
+        free(d.views[k].ground);
+    }
     free(d.target.rgba);
     planes_free(&d.target);
     look_free(&d.look);

@@ -11,25 +11,30 @@
 #define EVERY      (DRAW | INFO | MAKE | BENCH)
 #define AT(member) offsetof(tool_settings, member)
 
-const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth", "id", "trace"};
+const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
+                                                "id",       "trace",   "segments"};
 
-const char *const group_names[GROUP_COUNT] = {
-    "Picture", "Camera",  "Lines", "Strokes", "Surface", "Edge map", "How lines are found",
-    "Model",   "Program", NULL};
+const char *const group_names[GROUP_COUNT] = {"Picture", "Pages",    "Camera",
+                                              "Lines",   "Paths",    "Strokes",
+                                              "Surface", "Edge map", "How lines are found",
+                                              "Model",   "Program",  NULL};
 
 /* clang-format off */
 const option option_table[] = {
     {"output", 'o', "FILE or NAME=FILE", OPTION_OUTPUT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
-     "Where the result goes: FILE.png for a drawing; FILE.ply, .stl or .obj for a model. An old file "
-     "stays until the new one is whole. - is standard output (a PNG, or a PLY). NAME=FILE.png, once for each "
+     "Where the result goes: a drawing to FILE.png, .svg, .pdf, .eps, .dxf or .json, once for each file; a model to "
+     "FILE.ply, .stl or .obj. An old file stays until the new one is whole. - is standard output (a PNG unless "
+     "--format says otherwise, or a PLY). NAME=FILE.png, once for each "
      "NAME, writes what shading and edges are made from, beside the drawing or alone: edge-map (inner edges in RGB, "
      "profile edges in A), normals, depth, id. trace=FILE writes the visible lines as text: chains of segments, "
-     "with their edges and what ends them."},
-    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent",
+     "with their edges and what ends them. segments=FILE.json writes the paths of the drawing."},
+    {"format", 0, "png|svg|pdf|eps|dxf|json", OPTION_WORD, GROUP_PICTURE, DRAW, AT(format), 0, 0, 0,
+     "How outputs are written whose name does not end so: -, devices and pipes. Default: png."},
+    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
      "A look: options that go together; those on the command line change it."},
     {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,
-     "Width and height of the picture in pixels. Default: 1600x1200."},
+     "Width and height of the picture in pixels. Default: 1600x1200. With --page, the page says it."},
     {"samples", 0, "1|4|8|16", OPTION_WORD, GROUP_PICTURE, PICTURE, AT(samples), 0, 0, 0,
      "Samples per pixel. Default: 4."},
     {"paper", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
@@ -37,6 +42,31 @@ const option option_table[] = {
     {"surface", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.surface), 0, 0, 0,
      "Colour of the model's faces; none lets the paper show through, but still hides lines. "
      "Default: white."},
+
+    {"page", 0, "NAME|WxHmm|none", OPTION_PAGE, GROUP_PAGE, DRAW, AT(page), 0, 0, 0,
+     "Draw on a page: A0 to A5, letter, legal, tabloid, or a size like 200x100mm (or cm, in). A4-landscape and "
+     "A4-portrait say how it lies; else it lies as the model's picture does, and a sheet is wide. A PNG is the "
+     "whole page. Default: none, or A4 with --sheet."},
+    {"landscape", 0, NULL, OPTION_FLAG, GROUP_PAGE, DRAW, AT(landscape), 0, 0, 0,
+     "The page is wider than tall."},
+    {"margin", 0, "MM or TOP,RIGHT,BOTTOM,LEFT", OPTION_MARGIN, GROUP_PAGE, DRAW, AT(margin), AT(has_margin), 0, 1000,
+     "Margins of the page in millimetres. Default: 10."},
+    {"scale", 0, "PAPER:MODEL|fit", OPTION_SCALE, GROUP_PAGE, DRAW, AT(scale), AT(has_scale), 0, 0,
+     "1:10 draws a tenth of the model's size, 2:1 twice it, with an orthographic camera; fit makes it as large as "
+     "the page allows (on a sheet: the largest standard scale). Without --page and --size the page is as large as "
+     "the drawing and its margins. Default: fit."},
+    {"unit", 0, "mm|cm|m|in|ft", OPTION_WORD, GROUP_PAGE, DRAW, AT(unit), 0, 0, 0,
+     "With --scale or --sheet: what one unit of the model is. Default: mm."},
+    {"dpi", 0, "N", OPTION_COUNT, GROUP_PAGE, DRAW, AT(dpi), 0, 10, 4800,
+     "Pixels per inch: of PNGs, and of lengths in pixels. Default: 150 with --page, --scale or --sheet, else 96."},
+    {"sheet", 0, "VIEW,...", OPTION_SHEET, GROUP_PAGE, DRAW, AT(sheet), 0, 0, 0,
+     "Draw several views on one page, aligned and in one scale, with frame and title block: any of front, back, "
+     "left, right, top, bottom, iso. --up says what is up in the front view, and the other views turn with it."},
+    {"angle", 0, "first|third", OPTION_WORD, GROUP_PAGE, DRAW, AT(angle), 0, 0, 0,
+     "With --sheet: in first-angle projection the top view lies below the front view, in third-angle projection "
+     "above it. Default: third."},
+    {"title", 0, "TEXT", OPTION_TEXT, GROUP_PAGE, DRAW, AT(title), 0, 0, 0,
+     "Title of the drawing, in the title block and in the file. Default: the model's name."},
 
     {"eye", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(eye), AT(has_eye), 0, 0,
      "Where the eye is. With --target as well nothing is fitted to the model; alone, the eye looks at "
@@ -64,8 +94,9 @@ const option option_table[] = {
 
     {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
-    {"width", 0, "PX or CLASS=PX,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(style), 0, 0.5, 64,
-     "Whole width of the lines in pixels, of all classes or of each. Default: 2."},
+    {"width", 0, "W or CLASS=W,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(width_of), 0, 0.5, 64,
+     "Whole width of the lines, of all classes or of each: pixels, or 0.5mm or 1pt. Default: 2; on pages 0.35mm, and "
+     "0.5mm on sheets."},
     {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...",
      OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of the lines, of all classes or of each. Default: black."},
@@ -73,6 +104,21 @@ const option option_table[] = {
      "Edges whose dihedral angle is at most this are ridges; 180 is flat. Default: 150."},
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
      "Edges whose dihedral angle is above this are valleys. Default: 210."},
+
+    {"join", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(join), 0, 0, 10000,
+     "Close gaps between paths up to this (or 0.5mm, 1pt); 0 closes none. Default: 2."},
+    {"min-length", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(min_length), 0, 0, 10000,
+     "Leave out paths shorter than this; 0 leaves out none. Default: 1."},
+    {"tolerance", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(tolerance), 0, 0, 10000,
+     "Leave out points where the path stays this near to them; 0 leaves out none. Default: 0.02."},
+    {"join-classes", 0, NULL, OPTION_FLAG, GROUP_PATHS, DRAW, AT(join_classes), 0, 0, 0,
+     "Let paths go on from one class of lines to another."},
+    {"keep-coincident", 0, NULL, OPTION_FLAG, GROUP_PATHS, DRAW, AT(keep_coincident), 0, 0, 0,
+     "Write lines that lie on other lines, too."},
+    {"optimize", 0, NULL, OPTION_FLAG, GROUP_PATHS, DRAW, AT(optimize), 0, 0, 0,
+     "Put paths in an order in which a pen travels little between them, and say what that saves."},
+    {"ground", 0, "png|none", OPTION_WORD, GROUP_PATHS, DRAW, AT(ground), 0, 0, 0,
+     "Put the surface under the lines of vector files, as pixels. Default: none."},
 
     {"stroke", 0, "NAME|FILE.png", OPTION_TEXT, GROUP_STROKES, PICTURE, AT(stroke), 0, 0, 0,
      "Draw lines with a texture: pencil, brush, charcoal, ink, dashes, dots, or any PNG (black is ink, or its alpha)."},
@@ -244,11 +290,15 @@ const size_t option_count = sizeof option_table / sizeof *option_table;
 
 const command_text command_table[COMMAND_COUNT] = {
     [COMMAND_DRAW] = {"",
-                      "MODEL -o OUT.png [options]",
+                      "MODEL -o OUT.png|svg|pdf|... [options]",
                       "Draw a model's silhouettes, ridges, valleys, intersections and borders.",
                       {"drypoint fandisk.obj -o fandisk.png", "good defaults",
                        "drypoint part.stl -o part.png --view iso --ortho 0 --width silhouette=4,ridge=2",
                        "technical drawing, bold outline",
+                       "drypoint part.stl -o part.svg -o part.dxf", "the lines as paths",
+                       "drypoint part.stl --page A4 --scale 1:2 -o part.pdf", "half its size, to print",
+                       "drypoint part.stl --sheet front,top,right,iso --title Bracket -o sheet.pdf",
+                       "four views with a title block",
                        "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
                        "a generated model, in colour",
                        "drypoint scan.stl -o scan.png --memory 100M", "a file larger than memory",

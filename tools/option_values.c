@@ -41,8 +41,7 @@ int word_index(const char *words, const char *word) {
 
 /* ---- numbers ---- */
 
-/* Reads a plain decimal number, and nothing else, up to `end`. */
-static bool read_number(const char *text, const char *end, double *number) {
+bool read_number(const char *text, const char *end, double *number) {
     char copy[64];
     const size_t n = (size_t)(end - text);
     if (!n || n >= sizeof copy || strspn(text, "0123456789+-.eE") < n) return false;
@@ -165,7 +164,7 @@ static bool unknown_output(const char *value, size_t length) {
                        name, output_names[best], value);
 }
 
-/* One run draws one picture. */
+/* Each NAME is written once, and one model is made. */
 static bool store_file(const char *file, const char *what, const char **to) {
     if (*to)
         return wrong_usage("--output: there is one %s at a time: \"%s\" comes after \"%s\"; leave "
@@ -175,21 +174,32 @@ static bool store_file(const char *file, const char *what, const char **to) {
     return true;
 }
 
-/* Stores NAME=FILE under its name, anything else as the picture's file. */
+/* One run draws one picture, and may write it in several ways. */
+static bool add_file(const char *path, tool_settings *settings) {
+    if (settings->command == COMMAND_MAKE) return store_file(path, "model", &settings->output);
+    if (settings->file_count == FILES_MOST)
+        return wrong_usage("--output: %s is one too many; a run writes %d drawings at most", path,
+                           FILES_MOST);
+    settings->files[settings->file_count++] = path;
+    return true;
+}
+
+/* Stores NAME=FILE under its name, anything else as a drawing's file. */
 static bool store_output(const char *value, tool_settings *settings) {
     const size_t length = strcspn(value, "=");
     for (int k = 0; value[length] && k < OUTPUT_COUNT; k++) {
         if (strlen(output_names[k]) != length || strncmp(output_names[k], value, length)) continue;
         if (!value[length + 1])
             return wrong_usage("--output %s: a file is missing; give %sFILE%s", value, value,
-                               k < PLANE_COUNT ? ".png" : "");
+                               k < PLANE_COUNT        ? ".png"
+                               : k == OUTPUT_SEGMENTS ? ".json"
+                                                      : "");
         settings->wants_edge_map |= k == PLANE_EDGE_MAP;
         return store_file(value + length + 1, output_names[k], &settings->outputs[k]);
     }
     if (value[length] && length && strspn(value, "abcdefghijklmnopqrstuvwxyz-") == length)
         return unknown_output(value, length);
-    return store_file(value, settings->command == COMMAND_MAKE ? "model" : "picture",
-                      &settings->output);
+    return add_file(value, settings);
 }
 
 static bool store_size(const option *o, const char *value, uint32_t to[2]) {
@@ -209,8 +219,7 @@ static bool store_size(const option *o, const char *value, uint32_t to[2]) {
 
 /* ---- words ---- */
 
-/* The word of `words` that is spelt most like `word`. */
-static const char *nearest_word(const char *words, const char *word, char *best, size_t size) {
+const char *nearest_word(const char *words, const char *word, char *best, size_t size) {
     unsigned least = UINT32_MAX;
     for (;;) {
         char candidate[32];
@@ -290,32 +299,37 @@ static bool store_color(const option *o, const char *value, dp_color *to) {
 
 /* ---- CLASS=VALUE,… ---- */
 
+enum { WIDEST = 100 /* mm */ };
+
 /* One value in [text, end) for the classes of `set`. */
 static bool store_one(const option *o, const char *text, const char *end, unsigned set,
-                      dp_style *style) {
-    double width = 0;
+                      tool_settings *settings) {
+    tool_length width = {0};
     dp_color color = 0;
     const int n = (int)(end - text);
     if (o->kind == OPTION_COLORS && !read_color(text, end, &color))
         return wrong_usage("--%s: \"%.*s\" is not a colour; give one like #3060A0", o->name, n,
                            text);
-    if (o->kind == OPTION_WIDTHS && !read_number(text, end, &width))
-        return wrong_usage("--%s: \"%.*s\" is not a width in pixels; give one like 2.5", o->name, n,
-                           text);
-    if (o->kind == OPTION_WIDTHS && (width < o->least || width > o->most))
+    if (o->kind == OPTION_WIDTHS && !read_length(text, end, &width))
+        return wrong_usage("--%s: \"%.*s\" is not a width; give pixels like 2.5, or 0.5mm or 1pt",
+                           o->name, n, text);
+    if (width.unit == LENGTH_PX && (width.value < o->least || width.value > o->most))
         return wrong_usage("--%s: %.*s is out of range; give %g to %g pixels", o->name, n, text,
                            o->least, o->most);
+    if (width.unit == LENGTH_MM && !(width.value > 0 && width.value <= WIDEST))
+        return wrong_usage("--%s: %.*s is out of range; give above 0 and at most %d mm", o->name, n,
+                           text, WIDEST);
     for (int line = 0; line < DP_LINE_COUNT; line++) {
         if (!(set >> line & 1)) continue;
         if (o->kind == OPTION_WIDTHS)
-            style->line[line].width = (float)width;
+            settings->width_of[line] = width;
         else
-            style->line[line].color = color;
+            settings->style.line[line].color = color;
     }
     return true;
 }
 
-static bool store_classes(const option *o, const char *value, dp_style *style) {
+static bool store_classes(const option *o, const char *value, tool_settings *settings) {
     for (const char *at = value;;) {
         const char *const end = at + strcspn(at, ",");
         const char *const equals = at + strcspn(at, "=,");
@@ -330,7 +344,7 @@ static bool store_classes(const option *o, const char *value, dp_style *style) {
                                "\"%.*s\" is for, as in ridge=%.*s",
                                o->name, (int)(end - at), at, (int)(end - at), at);
         }
-        if (!store_one(o, at, end, set, style)) return false;
+        if (!store_one(o, at, end, set, settings)) return false;
         if (!*end) return true;
         at = end + 1;
     }
@@ -375,7 +389,17 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_lines(o, value, to);
     case OPTION_WIDTHS:
     case OPTION_COLORS:
-        return store_classes(o, value, to);
+        return store_classes(o, value, settings);
+    case OPTION_LENGTH:
+        return store_length(o, value, to);
+    case OPTION_PAGE:
+        return store_page(o, value, to);
+    case OPTION_MARGIN:
+        return store_margin(o, value, to);
+    case OPTION_SCALE:
+        return store_scale(o, value, to);
+    case OPTION_SHEET:
+        return store_sheet(o, value, to);
     case OPTION_COLOR:
         return store_color(o, value, to);
     case OPTION_STATS:

@@ -14,6 +14,7 @@ typedef struct walk {
     char **argv;
     tool_settings *settings;
     bool only_words; /* after -- */
+    bool of_preset;  /* options of other commands are passed over: bench has no pages */
 } walk;
 
 static const char *const command_words = "info|make|bench";
@@ -86,6 +87,12 @@ static bool take_long(walk *w, const char *text) {
     const tool_command command = w->settings->command;
     const option *const o = find_name(text, length, 1u << command);
     if (o) return take_option(w, o, *equals ? equals + 1 : NULL);
+    const option *const elsewhere =
+        w->of_preset ? find_name(text, length, 1u << COMMAND_DRAW) : NULL;
+    if (elsewhere) {
+        w->at += takes_value(elsewhere);
+        return true;
+    }
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     return unknown_option(name, command);
@@ -122,38 +129,6 @@ static bool take(walk *w) {
     return true;
 }
 
-/* ---- what must be there, and together ---- */
-
-static bool check_camera(const tool_settings *s) {
-    if (s->has_fov && s->has_ortho)
-        return wrong_usage("--fov and --ortho exclude each other; leave one out");
-    if (s->has_eye && (s->view || s->has_azimuth || s->has_elevation))
-        return wrong_usage("--eye already says where from; leave out --view, --azimuth and "
-                           "--elevation");
-    return true;
-}
-
-static bool check_present(const tool_settings *s) {
-    const command_text *const text = &command_table[s->command];
-    const char *const space = *text->name ? " " : "";
-    if (!s->model)
-        return wrong_usage("no %s given; usage: drypoint %s%s%s",
-                           s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,
-                           text->arguments);
-    int outputs = s->output != NULL, standard = s->output && !strcmp(s->output, "-");
-    for (int k = 0; k < OUTPUT_COUNT; k++) {
-        outputs += s->outputs[k] != NULL;
-        standard += s->outputs[k] && !strcmp(s->outputs[k], "-");
-    }
-    if (!s->output && (!outputs || s->command == COMMAND_MAKE) &&
-        (s->command == COMMAND_DRAW || s->command == COMMAND_MAKE))
-        return wrong_usage("no output given; add -o %s",
-                           s->command == COMMAND_DRAW ? "OUT.png" : "OUT.ply");
-    if (standard > 1)
-        return wrong_usage("only one output can go to standard output; give the others files");
-    return true;
-}
-
 static void begin(walk *w) {
     const char *const first = w->argc > 1 ? w->argv[1] : "";
     w->at = 1;
@@ -172,7 +147,7 @@ enum { PRESETS_MOST = 8, PRESET_WORDS = 1024 /* bytes */ };
 /* Applies a preset's options, before all others. Settings point into `words`, which stay. */
 static bool apply_preset(tool_settings *settings, const char *name, char words[PRESET_WORDS]) {
     char *argv[64] = {NULL};
-    walk w = {.argc = 1, .at = 1, .argv = argv, .settings = settings};
+    walk w = {.argc = 1, .at = 1, .argv = argv, .settings = settings, .of_preset = true};
     const preset *const p = preset_find(name);
     if (!p) return true; /* the option's own check reports it */
     snprintf(words, PRESET_WORDS, "%s", p->options);
@@ -212,5 +187,5 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
         const int word = word_index(command_words, w.argv[w.at]);
         if (word) settings->command = (tool_command)word;
     }
-    return settings->question || (check_present(settings) && check_camera(settings));
+    return settings->question || options_check(settings);
 }

@@ -28,7 +28,12 @@ enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
 enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
 
-/* What --output NAME=FILE can name: planes of the G-buffer as pictures, and the lines as text. */
+enum { UNIT_MM = 1, UNIT_CM, UNIT_M, UNIT_IN, UNIT_FT };
+enum { ANGLE_FIRST = 1, ANGLE_THIRD };
+enum { GROUND_PNG = 1, GROUND_NONE };
+
+/* What --output NAME=FILE can name: planes of the G-buffer as pictures, the lines as text, and the
+ * paths as JSON. */
 typedef enum output_plane {
     PLANE_EDGE_MAP = 0,
     PLANE_NORMALS,
@@ -36,16 +41,65 @@ typedef enum output_plane {
     PLANE_ID,
     PLANE_COUNT,
     OUTPUT_TRACE = PLANE_COUNT,
+    OUTPUT_SEGMENTS,
     OUTPUT_COUNT
 } output_plane;
 extern const char *const output_names[OUTPUT_COUNT];
+
+enum { FILES_MOST = 16 };
+
+/* A length on paper or screen; not given: value and unit are 0. */
+typedef enum length_unit { LENGTH_NONE = 0, LENGTH_PX, LENGTH_MM } length_unit;
+
+typedef struct tool_length {
+    double value;
+    length_unit unit;
+} tool_length;
+
+/* --page: name, and size in mm as it was named; width 0: not given, below 0: none. */
+typedef enum page_turn { TURN_AUTO = 0, TURN_PORTRAIT, TURN_LANDSCAPE, TURN_AS_IS } page_turn;
+
+typedef struct tool_page {
+    const char *name; /* "A4", "200x100mm" */
+    double width, height;
+    page_turn turn;
+} tool_page;
+
+enum { MARGIN_TOP = 0, MARGIN_RIGHT, MARGIN_BOTTOM, MARGIN_LEFT };
+
+/* --scale: lengths on paper and in the model; over 0 and 0: to fit. */
+typedef struct tool_scale {
+    double paper, model;
+} tool_scale;
+
+/* --sheet: words of --view, in their order. */
+enum { SHEET_MOST = 7 };
+typedef struct tool_sheet {
+    int views[SHEET_MOST];
+    int count;
+} tool_sheet;
 
 /* All options of the command line; zero means not given. */
 typedef struct tool_settings {
     tool_command command;
     question question;
-    const char *model; /* of make: the shape's name */
-    const char *output;
+    const char *model;             /* of make: the shape's name */
+    const char *output;            /* of make */
+    const char *files[FILES_MOST]; /* of drawing */
+    uint32_t file_count;
+    int format, ground; /* words */
+
+    tool_length join, min_length, tolerance;
+    bool join_classes, keep_coincident, optimize;
+
+    tool_page page;
+    double margin[4]; /* mm: top, right, bottom, left */
+    bool landscape, has_margin, has_scale;
+    tool_scale scale;
+    int unit, angle; /* words */
+    uint32_t dpi;
+    tool_sheet sheet;
+    const char *title;
 
     uint32_t width, height; /* px */
     int samples;            /* word */
@@ -60,7 +114,8 @@ typedef struct tool_settings {
     bool has_fov, has_ortho, has_azimuth, has_elevation;
     int view; /* word */
 
-    dp_style style; /* lines, widths and colours; other members follow below */
+    dp_style style; /* lines and colours; other members follow below */
+    tool_length width_of[DP_LINE_COUNT];
     double ridge_angle, valley_angle;
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
@@ -117,12 +172,17 @@ typedef enum option_kind {
     OPTION_POINT,    /* double[3] */
     OPTION_ANGLES,   /* double[2] */
     OPTION_PLANE,    /* double[4], then two bools as in tool_settings.mirror */
-    OPTION_OUTPUT,   /* const char *, or one of tool_settings.planes */
+    OPTION_OUTPUT,   /* tool_settings.files, .outputs, or of make .output */
     OPTION_WORD,     /* int: which of the argument's words */
     OPTION_SIZE,     /* uint32_t[2] */
     OPTION_BYTES,    /* double: a number and K, M or G */
     OPTION_LINES,    /* dp_style.lines */
-    OPTION_WIDTHS,   /* dp_style.line[].width */
+    OPTION_WIDTHS,   /* tool_settings.width_of */
+    OPTION_LENGTH,   /* tool_length, in pixels, mm or pt */
+    OPTION_PAGE,     /* tool_page */
+    OPTION_MARGIN,   /* double[4], mm */
+    OPTION_SCALE,    /* tool_scale */
+    OPTION_SHEET,    /* tool_sheet */
     OPTION_COLORS,   /* dp_style.line[].color */
     OPTION_COLOR,    /* dp_color */
     OPTION_STATS,    /* stats_kind; its argument may be left out */
@@ -131,8 +191,10 @@ typedef enum option_kind {
 
 typedef enum option_group {
     GROUP_PICTURE = 0,
+    GROUP_PAGE,
     GROUP_CAMERA,
     GROUP_LINES,
+    GROUP_PATHS,
     GROUP_STROKES,
     GROUP_SURFACE,
     GROUP_EDGE_MAP,
@@ -162,7 +224,7 @@ extern const size_t option_count;
 /* A command's name ("" for drawing), what follows it on the command line, one line about it. */
 typedef struct command_text {
     const char *name, *arguments, *about;
-    const char *examples[12]; /* command line, then what it does, … NULL */
+    const char *examples[20]; /* command line, then what it does, … NULL */
 } command_text;
 extern const command_text command_table[COMMAND_COUNT];
 extern const char *const group_names[GROUP_COUNT];
@@ -172,6 +234,24 @@ bool options_parse(int argc, char **argv, tool_settings *settings);
 
 /* Stores one option's value. False: it is wrong, and a message is on stderr. */
 bool option_store(const option *o, const char *value, tool_settings *settings);
+
+/* Stores the values of pages: paper, margins, scales, sheets, lengths (page_values.c). */
+bool store_page(const option *o, const char *value, tool_page *to);
+bool store_margin(const option *o, const char *value, double to[4]);
+bool store_scale(const option *o, const char *value, tool_scale *to);
+bool store_sheet(const option *o, const char *value, tool_sheet *to);
+bool store_length(const option *o, const char *value, tool_length *to);
+
+/* Reads a plain decimal number, and nothing else, up to `end`. */
+bool read_number(const char *text, const char *end, double *number);
+/* Reads a number that may have a unit, px, mm, cm, in or pt, up to `end`. */
+bool read_length(const char *text, const char *end, tool_length *length);
+
+/* The word of `words` that is spelt most like `word`. */
+const char *nearest_word(const char *words, const char *word, char *best, size_t size);
+
+/* Do the settings say enough, and no two of them different things? A message on stderr if not. */
+bool options_check(const tool_settings *settings);
 
 /* Which of `words` ("exact|paper") is the word, from 1; 0: none. */
 int word_index(const char *words, const char *word);

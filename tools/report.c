@@ -29,6 +29,13 @@ void warn(const char *format, ...) {
     va_end(arguments);
 }
 
+void note(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say("drypoint: ", format, arguments);
+    va_end(arguments);
+}
+
 int report_failure(const char *file, const dp_diag *diag) {
     char where[32] = "";
     if (diag->line)

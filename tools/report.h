@@ -13,4 +13,7 @@ int report_failure(const char *file, const dp_diag *diag);
 /* "drypoint: warning: …" */
 void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* "drypoint: …": something worth knowing, and not wrong. */
+void note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 #endif

@@ -19,9 +19,8 @@ typedef struct box {
     double aspect;            /* of the picture */
 } box;
 
-static box box_of(const tool_settings *s, const dp_extent *extent) {
-    const dp_target target = make_target(s);
-    box b = {.aspect = (double)target.width / target.height};
+static box box_of(const dp_extent *extent, double aspect) {
+    box b = {.aspect = aspect};
     for (int k = 0; k < 3; k++) {
         const double half = 0.5 * (extent->exact_max[k] - extent->exact_min[k]);
         b.centre[k] = extent->exact_min[k] + half;
@@ -96,9 +95,10 @@ static dp_result project(const tool_settings *s, const dp_extent *extent, const 
 }
 
 /* Places a camera for which an eye or a target is given. */
-static dp_result place(const tool_settings *s, const dp_extent *extent, dp_camera *camera) {
+static dp_result place(const tool_settings *s, const dp_extent *extent, double aspect,
+                       dp_camera *camera) {
     static const double y_up[3] = {0, 1, 0};
-    const box b = box_of(s, extent);
+    const box b = box_of(extent, aspect);
     double target[3], eye[3];
     memcpy(target, s->has_target ? s->target : b.centre, sizeof target);
     const double radius = b.radius + distance_between(target, b.centre);
@@ -120,11 +120,12 @@ static dp_result place(const tool_settings *s, const dp_extent *extent, dp_camer
     return project(s, extent, &b, fov, s->ortho > 0 ? s->ortho : fitted, camera);
 }
 
-static dp_result fit(const tool_settings *s, const dp_extent *extent, dp_camera *camera) {
+static dp_result fit(const tool_settings *s, const dp_extent *extent, double aspect,
+                     dp_camera *camera) {
     dp_fit wanted = {.fov_y = s->fov,
                      .orthographic = s->has_ortho,
                      .height = s->ortho,
-                     .aspect = box_of(s, extent).aspect,
+                     .aspect = aspect,
                      .zoom = s->zoom};
     memcpy(wanted.exact_min, extent->exact_min, sizeof wanted.exact_min);
     memcpy(wanted.exact_max, extent->exact_max, sizeof wanted.exact_max);
@@ -133,10 +134,11 @@ static dp_result fit(const tool_settings *s, const dp_extent *extent, dp_camera 
     return dp_camera_fit(camera, &wanted);
 }
 
-int make_camera(const tool_settings *s, const dp_extent *extent, dp_camera *camera) {
+int make_camera(const tool_settings *s, const dp_extent *extent, double aspect, dp_camera *camera) {
     memset(camera, 0, sizeof *camera);
     const bool placed = s->has_eye || s->has_target;
-    const dp_result wrong = placed ? place(s, extent, camera) : fit(s, extent, camera);
+    const dp_result wrong =
+        placed ? place(s, extent, aspect, camera) : fit(s, extent, aspect, camera);
     if (!wrong) return 0;
     if (placed)
         wrong_usage("the eye is where it looks at, or the model's size is beyond all numbers; move "

@@ -40,6 +40,7 @@ typedef struct dp_io_picture {
     const uint8_t *rgba;    /* [height][width][4], not premultiplied */
     uint32_t width, height; /* px */
     size_t stride;          /* bytes from row to row; 0 means 4 * width */
+    uint32_t dpi;           /* px per inch, for who prints it; 0: the file does not say */
     /* Called now and then, fraction in [0, 1]; a non-zero return stops with DP_ERR_CANCELLED, and
      * the old file stays. NULL allowed. */
     int (*progress)(void *user, double fraction);

@@ -18,7 +18,8 @@
 
 enum {
     LEVEL = 1, /* of zlib: higher levels take much longer and gain little on drawings */
-    ROWS_PER_REPORT = 64
+    ROWS_PER_REPORT = 64,
+    DPI_MOST = 1000000 /* of what fits into a PNG's 31 bits per metre */
 };
 
 typedef struct encoder {
@@ -99,6 +100,8 @@ static int colour_type(const encoder *self) {
     return self->opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;
 }
 
+static uint32_t per_metre(uint32_t dpi) { return (uint32_t)(dpi / 0.0254 + 0.5); }
+
 static void write_header(encoder *self) {
     png_set_write_fn(self->png, self, on_write, on_flush);
     png_set_compression_level(self->png, LEVEL);
@@ -108,6 +111,9 @@ static void write_header(encoder *self) {
     png_set_IHDR(self->png, self->info, self->picture->width, self->picture->height, 8,
                  colour_type(self), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    if (self->picture->dpi)
+        png_set_pHYs(self->png, self->info, per_metre(self->picture->dpi),
+                     per_metre(self->picture->dpi), PNG_RESOLUTION_METER);
     png_write_info(self->png, self->info);
 }
 
@@ -160,6 +166,9 @@ dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp
     if (picture->width > PNG_UINT_31_MAX / 4 || picture->height > PNG_UINT_31_MAX)
         return dp_fail(diag, DP_ERR_LIMIT, "a PNG cannot be %u x %u pixels large", picture->width,
                        picture->height);
+    if (picture->dpi > DPI_MOST)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u pixels per inch are too many; %d are the most",
+                       picture->dpi, DPI_MOST);
     if (picture->stride && picture->stride < (size_t)4 * picture->width)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "rows are %zu bytes apart, but one of %u pixels takes %zu", picture->stride,

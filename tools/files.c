@@ -1,0 +1,99 @@
+/* The files that a run writes: how, and that none is written twice or lies over the model. */
+#include "files.h"
+#include "output.h"
+#include "report.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* By word of --format, from 1. */
+static int format_of_word(int word) { return word == 1 ? FORMAT_PNG : word - 2; }
+
+static int format_by_ending(const char *path) {
+    if (output_has_ending(path, ".png")) return FORMAT_PNG;
+    for (int k = 0; k < DP_FORMAT_COUNT; k++) {
+        char ending[16];
+        snprintf(ending, sizeof ending, ".%s", dp_format_name((dp_format)k));
+        if (output_has_ending(path, ending)) return k;
+    }
+    return FORMAT_UNKNOWN;
+}
+
+int files_format(const tool_settings *s, const char *path) {
+    const int format = strcmp(path, "-") ? format_by_ending(path) : FORMAT_UNKNOWN;
+    if (format != FORMAT_UNKNOWN) return format;
+    if (s->format) return format_of_word(s->format);
+    return output_in_place(path) ? FORMAT_PNG : FORMAT_UNKNOWN;
+}
+
+static bool is_standard(const char *path) { return path && !strcmp(path, "-"); }
+
+int files_count(const tool_settings *s) {
+    int count = (int)s->file_count;
+    for (int k = 0; k < OUTPUT_COUNT; k++) count += s->outputs[k] != NULL;
+    return count;
+}
+
+int files_standard(const tool_settings *s) {
+    int count = 0;
+    for (uint32_t k = 0; k < s->file_count; k++) count += is_standard(s->files[k]);
+    for (int k = 0; k < OUTPUT_COUNT; k++) count += is_standard(s->outputs[k]);
+    return count;
+}
+
+bool files_have(const tool_settings *s, int format) {
+    for (uint32_t k = 0; k < s->file_count; k++)
+        if (files_format(s, s->files[k]) == format) return true;
+    return false;
+}
+
+bool files_have_pixels(const tool_settings *s) { return files_have(s, FORMAT_PNG); }
+
+bool files_have_paths(const tool_settings *s) {
+    for (int format = 0; format < DP_FORMAT_COUNT; format++)
+        if (files_have(s, format)) return true;
+    return s->outputs[OUTPUT_SEGMENTS] != NULL;
+}
+
+/* An unknown ending is taken for a mistake, and so is a format that no output takes. */
+static bool check_formats(const tool_settings *s) {
+    bool used = !s->format;
+    for (uint32_t k = 0; k < s->file_count; k++) {
+        const char *const path = s->files[k];
+        const int format = files_format(s, path);
+        if (format == FORMAT_UNKNOWN)
+            return wrong_usage("-o %s: drawings are written as .png, .svg, .pdf, .eps, .dxf or "
+                               ".json; name it %.*s.png, say, or give --format",
+                               path, output_stem(path), path);
+        used |= s->format && format == format_of_word(s->format);
+    }
+    if (used) return true;
+    return wrong_usage("--format is for outputs whose name does not end in a format, and there is "
+                       "none; leave it out");
+}
+
+/* Every output has a file of its own, and none is the model. */
+static bool check_apart(const tool_settings *s) {
+    const char *paths[FILES_MOST + OUTPUT_COUNT + 1] = {s->model};
+    size_t count = 1;
+    for (uint32_t k = 0; k < s->file_count; k++) paths[count++] = s->files[k];
+    for (int k = 0; k < OUTPUT_COUNT; k++)
+        if (s->outputs[k]) paths[count++] = s->outputs[k];
+    for (size_t i = 1; i < count; i++)
+        for (size_t k = 0; k < i; k++) {
+            if (k == 0 && is_standard(paths[0])) continue; /* standard input */
+            if (!output_same(paths[i], paths[k])) continue;
+            return k ? wrong_usage("two outputs go to %s; name another file", paths[i])
+                     : wrong_usage("%s is the model; name another file for the output", paths[i]);
+        }
+    return true;
+}
+
+int files_check(const tool_settings *s) {
+    if (!check_formats(s) || !check_apart(s)) return EXIT_USAGE;
+    for (uint32_t k = 0; k < s->file_count; k++)
+        if (!output_possible(s->files[k])) return EXIT_FAILED;
+    for (int k = PLANE_COUNT; k < OUTPUT_COUNT; k++)
+        if (s->outputs[k] && !output_possible(s->outputs[k])) return EXIT_FAILED;
+    return 0;
+}

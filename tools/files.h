@@ -1,0 +1,26 @@
+/* The files that a run writes. */
+#ifndef TOOL_FILES_H
+#define TOOL_FILES_H
+
+#include "options.h"
+
+/* How a drawing is written: FORMAT_PNG, or a dp_format. */
+enum { FORMAT_PNG = DP_FORMAT_COUNT, FORMAT_UNKNOWN };
+
+/* The format of -o FILE: by its ending; of what has none, by --format. FORMAT_UNKNOWN: another
+ * ending. */
+int files_format(const tool_settings *s, const char *path);
+/* How many outputs there are, and how many of them are standard output. */
+int files_count(const tool_settings *s);
+int files_standard(const tool_settings *s);
+/* Are drawings written as pixels, and as paths? */
+bool files_have_pixels(const tool_settings *s);
+bool files_have_paths(const tool_settings *s);
+/* Is one of them written so? */
+bool files_have(const tool_settings *s, int format);
+
+/* Can every output be written, each to a file of its own that is not the model? 0, or the exit code
+ * after a message. */
+int files_check(const tool_settings *s);
+
+#endif

@@ -1,0 +1,88 @@
+/* What the options must say, and what they cannot say together. No option is ignored without a
+ * message. */
+#include "files.h"
+#include "options.h"
+#include "report.h"
+
+#include <string.h>
+
+static bool check_camera(const tool_settings *s) {
+    if (s->has_fov && s->has_ortho)
+        return wrong_usage("--fov and --ortho exclude each other; leave one out");
+    if (s->has_eye && (s->view || s->has_azimuth || s->has_elevation))
+        return wrong_usage("--eye already says where from; leave out --view, --azimuth and "
+                           "--elevation");
+    return true;
+}
+
+static bool check_present(const tool_settings *s) {
+    const command_text *const text = &command_table[s->command];
+    const char *const space = *text->name ? " " : "";
+    if (!s->model)
+        return wrong_usage("no %s given; usage: drypoint %s%s%s",
+                           s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,
+                           text->arguments);
+    if (s->command == COMMAND_MAKE && !s->output)
+        return wrong_usage("no output given; add -o OUT.ply");
+    if (s->command == COMMAND_DRAW && !files_count(s))
+        return wrong_usage("no output given; add -o OUT.png");
+    if (files_standard(s) > 1)
+        return wrong_usage("only one output can go to standard output; give the others files");
+    return true;
+}
+
+/* What a scale says already: how large things are seen. */
+static bool check_scale(const tool_settings *s) {
+    const bool scaled = s->scale.paper > 0;
+    if (s->unit && !scaled && !s->sheet.count)
+        return wrong_usage(
+            "--unit says what a scale is of; add --scale 1:10, say, or leave it out");
+    if (!scaled) return true;
+    if (s->has_fov)
+        return wrong_usage("a picture in perspective has no scale: leave out --fov or --scale");
+    if (s->ortho > 0)
+        return wrong_usage("--scale and --ortho %g both say how large; leave one out, or give "
+                           "--ortho 0",
+                           s->ortho);
+    if (s->zoom > 0) return wrong_usage("--scale and --zoom both say how large; leave one out");
+    return true;
+}
+
+static bool check_page(const tool_settings *s) {
+    const bool paged = s->page.width > 0 || s->sheet.count;
+    if (paged && s->width)
+        return wrong_usage(
+            "the page already says how large: leave out --size, or give --page none; "
+            "--dpi says how many pixels a PNG has");
+    if (s->landscape && !paged) return wrong_usage("--landscape turns a page; add --page A4, say");
+    if (s->landscape && s->page.turn == TURN_PORTRAIT)
+        return wrong_usage("--landscape and --page %s-portrait exclude each other; leave one out",
+                           s->page.name);
+    if (s->has_margin && !paged && !(s->scale.paper > 0 && !s->width))
+        return wrong_usage("--margin is of a page; add --page A4, say");
+    return true;
+}
+
+static bool check_sheet(const tool_settings *s) {
+    if (s->angle && !s->sheet.count)
+        return wrong_usage("--angle says where the views of a sheet lie; add --sheet "
+                           "front,top,right,iso, say");
+    if (!s->sheet.count) return true;
+    if (s->has_eye || s->has_target || s->view || s->has_azimuth || s->has_elevation)
+        return wrong_usage("--sheet already says where from; leave out --eye, --target, --view, "
+                           "--azimuth and --elevation");
+    if (s->has_fov || s->has_ortho || s->zoom > 0)
+        return wrong_usage("the views of a sheet have one scale; leave out --fov, --ortho and "
+                           "--zoom, or give --scale");
+    if (s->has_mirror) return wrong_usage("a sheet has no mirror; leave out --mirror");
+    if (s->page.width < 0) return wrong_usage("a sheet is a page; leave out --page none");
+    for (int k = 0; k < OUTPUT_SEGMENTS; k++)
+        if (s->outputs[k])
+            return wrong_usage("-o %s=%s is of one view; leave it out, or leave out --sheet",
+                               output_names[k], s->outputs[k]);
+    return true;
+}
+
+bool options_check(const tool_settings *s) {
+    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) && check_sheet(s);
+}

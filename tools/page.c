@@ -1,0 +1,299 @@
+/* Plans pages.
+ *
+ *     given             the picture                          its camera
+ *     nothing           --size                               as tools/view.c says
+ *     --page            what the margins leave of the page   the same, or, with --scale, orthographic
+ *     --scale           as large as the drawing              orthographic
+ *     --scale, --size   --size                               orthographic
+ *     --sheet           tools/sheet.c
+ *
+ * All is in whole pixels of 25.4 mm / --dpi, so that PNGs and vectors have the same lines in the
+ * same places. With --scale the drawing lies in the middle of the picture, unless --target says what
+ * does. */
+#include "page.h"
+#include "commands.h"
+#include "report.h"
+#include "sheet.h"
+#include "view_box.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PIXELS_MOST = 32768 };
+
+static const double usual_margin = 10, usual_width = 0.35, sheet_width = 0.5; /* mm */
+
+/* ---- scales ---- */
+
+double page_scale(const tool_settings *s, double scale) {
+    static const double mm[] = {1, 1, 10, 1000, 25.4, 304.8}; /* by word of --unit */
+    return scale * mm[s->unit];
+}
+
+static double tens(int power) {
+    double product = 1;
+    while (power-- > 0) product *= 10;
+    return product;
+}
+
+double page_standard_scale(bool (*fits)(const void *user, double scale), const void *user) {
+    static const double steps[] = {5, 2, 1};
+    for (int power = 6; power >= -9; power--)
+        for (int k = 0; k < 3; k++) {
+            /* 500:1, 200:1, 100:1, … 1:1, and then, with power -1, 1:1, 1:2, 1:5 */
+            const double scale =
+                power < 0 ? 1 / (steps[2 - k] * tens(-1 - power)) : steps[k] * tens(power);
+            if (fits(user, scale)) return scale;
+        }
+    return 0;
+}
+
+void page_scale_text(double scale, char text[32]) {
+    if (scale >= 1)
+        snprintf(text, 32, "%.10g:1", scale);
+    else
+        snprintf(text, 32, "1:%.10g", 1 / scale);
+}
+
+/* ---- lines ---- */
+
+float page_length(const page_plan *plan, const tool_length *length) {
+    if (length->unit == LENGTH_NONE) return 0;
+    if (!(length->value > 0)) return -1;
+    return (float)(length->unit == LENGTH_MM ? length->value / plan->mm_per_px : length->value);
+}
+
+static double width_of(const tool_settings *s, const page_plan *plan, int line) {
+    static const double least = 0.5;
+    const float given = page_length(plan, &s->width_of[line]);
+    if (given > 0) return fmax((double)given, least);
+    return plan->line_width > 0 ? fmax(plan->line_width / plan->mm_per_px, least) : 2;
+}
+
+double page_widest(const tool_settings *s, const page_plan *plan) {
+    double widest = 0;
+    for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmax(widest, width_of(s, plan, k));
+    return widest * plan->mm_per_px;
+}
+
+bool page_widths(const tool_settings *s, const page_plan *plan, dp_style *style) {
+    bool thin = false;
+    for (int k = 0; k < DP_LINE_COUNT; k++) {
+        const double width = width_of(s, plan, k);
+        if (width > 64)
+            return wrong_usage("--width: %g mm are %.0f pixels at %.0f dpi, and 64 are the most; "
+                               "give a smaller --dpi",
+                               width * plan->mm_per_px, width, 25.4 / plan->mm_per_px);
+        const float given = page_length(plan, &s->width_of[k]);
+        thin |= given > 0 && given < 0.4999F;
+        style->line[k].width = (float)width;
+    }
+    if (thin && !s->quiet)
+        warn("--width: lines are at least half a pixel wide, %.3g mm at %.0f dpi; give a larger "
+             "--dpi for finer ones",
+             0.5 * plan->mm_per_px, 25.4 / plan->mm_per_px);
+    return true;
+}
+
+/* ---- what lies on the page ---- */
+
+void page_rule(page_plan *plan, double x0, double y0, double x1, double y1, double width) {
+    if (plan->rule_count < RULES_MOST)
+        plan->rules[plan->rule_count++] = (dp_page_rule){x0, y0, x1, y1, width};
+}
+
+void page_text(page_plan *plan, double x, double y, double height, const char *text) {
+    if (plan->text_count == TEXTS_MOST) return;
+    char *const copy = plan->text[plan->text_count];
+    snprintf(copy, TEXT_BYTES, "%s", text);
+    plan->texts[plan->text_count++] = (dp_page_text){copy, x, y, height};
+}
+
+int page_pixels(page_plan *plan) {
+    const double width = round(plan->mm_width / plan->mm_per_px),
+                 height = round(plan->mm_height / plan->mm_per_px);
+    if (width >= 1 && height >= 1 && width <= PIXELS_MOST && height <= PIXELS_MOST) {
+        plan->width = (uint32_t)width, plan->height = (uint32_t)height;
+        return 0;
+    }
+    wrong_usage("at %.0f dpi %.4g x %.4g mm are %.0f x %.0f pixels, and 1 to %d are possible; give "
+                "another --dpi",
+                25.4 / plan->mm_per_px, plan->mm_width, plan->mm_height, width, height,
+                PIXELS_MOST);
+    return EXIT_USAGE;
+}
+
+dp_result page_aim(dp_camera *camera, const dp_extent *extent, const double centre[2],
+                   double height, double aspect) {
+    double near_z, far_z;
+    camera->view[12] -= centre[0];
+    camera->view[13] -= centre[1];
+    dp_camera_near_far(camera, extent->min, extent->max, &near_z, &far_z);
+    return dp_camera_orthographic(camera, height, aspect, near_z, far_z);
+}
+
+/* ---- one picture ---- */
+
+typedef struct picture {
+    const tool_settings *s;
+    page_plan *plan;
+    page_view *view;
+    bool scaled;
+    double mm_per_unit;                    /* scaled: mm on paper for one of the model's */
+    view_box box;                          /* of the model, in camera space */
+    double left, top, mm_width, mm_height; /* of the place for it, mm */
+} picture;
+
+/* How large the drawing is on paper, mm. */
+static double drawn_width(const picture *p, double mm_per_unit) {
+    return view_box_width(&p->box) * mm_per_unit + page_widest(p->s, p->plan);
+}
+static double drawn_height(const picture *p, double mm_per_unit) {
+    return view_box_height(&p->box) * mm_per_unit + page_widest(p->s, p->plan);
+}
+
+static bool fits(const void *user, double scale) {
+    const picture *const p = user;
+    const double mm = page_scale(p->s, scale), slack = 1e-6;
+    return drawn_width(p, mm) <= p->mm_width + slack && drawn_height(p, mm) <= p->mm_height + slack;
+}
+
+static int check_fits(const picture *p) {
+    const double scale = p->s->scale.paper / p->s->scale.model;
+    char standard[32];
+    if (fits(p, scale)) return 0;
+    const double best = page_standard_scale(fits, p);
+    page_scale_text(best > 0 ? best : 1, standard);
+    wrong_usage(
+        "at %g:%g the drawing is %.4g x %.4g mm, and the page has %.4g x %.4g mm between its "
+        "margins: %s%s is the largest standard scale that fits",
+        p->s->scale.paper, p->s->scale.model, drawn_width(p, p->mm_per_unit),
+        drawn_height(p, p->mm_per_unit), p->mm_width, p->mm_height, best > 0 ? "" : "not even ",
+        standard);
+    return EXIT_USAGE;
+}
+
+/* The view's place in whole pixels. */
+static int place(picture *p) {
+    const double mm = p->plan->mm_per_px;
+    const double left = round(p->left / mm), right = round((p->left + p->mm_width) / mm),
+                 top = round(p->top / mm), bottom = round((p->top + p->mm_height) / mm);
+    if (left >= 0 && top >= 0 && right > left && bottom > top) {
+        p->view->x = (uint32_t)left, p->view->y = (uint32_t)top;
+        p->view->width = (uint32_t)(right - left), p->view->height = (uint32_t)(bottom - top);
+        return 0;
+    }
+    wrong_usage(
+        "--margin: nothing is left of %.4g x %.4g mm between the margins; make them smaller",
+        p->plan->mm_width, p->plan->mm_height);
+    return EXIT_USAGE;
+}
+
+static void turn(const tool_settings *s, bool wide, page_plan *plan) {
+    const tool_page *const page = &s->page;
+    const double small = fmin(page->width, page->height), large = fmax(page->width, page->height);
+    if (s->landscape || page->turn == TURN_LANDSCAPE)
+        wide = true;
+    else if (page->turn == TURN_PORTRAIT)
+        wide = false;
+    else if (page->turn == TURN_AS_IS)
+        wide = page->width > page->height;
+    plan->mm_width = wide ? large : small;
+    plan->mm_height = wide ? small : large;
+}
+
+static const double *margins(const tool_settings *s) {
+    static const double usual[4] = {usual_margin, usual_margin, usual_margin, usual_margin};
+    return s->has_margin ? s->margin : usual;
+}
+
+static int lie_on_page(picture *p) {
+    const double *const m = margins(p->s);
+    turn(p->s, view_box_width(&p->box) >= view_box_height(&p->box), p->plan);
+    p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
+    p->mm_width = p->plan->mm_width - m[MARGIN_LEFT] - m[MARGIN_RIGHT];
+    p->mm_height = p->plan->mm_height - m[MARGIN_TOP] - m[MARGIN_BOTTOM];
+    const int code = page_pixels(p->plan);
+    return code ? code : place(p);
+}
+
+/* The page is as large as the drawing and its margins, in whole pixels. */
+static int wrap_drawing(picture *p) {
+    const double *const m = margins(p->s), mm = p->plan->mm_per_px;
+    p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
+    p->mm_width = mm * ceil(drawn_width(p, p->mm_per_unit) / mm);
+    p->mm_height = mm * ceil(drawn_height(p, p->mm_per_unit) / mm);
+    p->plan->mm_width =
+        mm * (round(m[MARGIN_LEFT] / mm) + round(m[MARGIN_RIGHT] / mm)) + p->mm_width;
+    p->plan->mm_height =
+        mm * (round(m[MARGIN_TOP] / mm) + round(m[MARGIN_BOTTOM] / mm)) + p->mm_height;
+    const int code = page_pixels(p->plan);
+    return code ? code : place(p);
+}
+
+static void fill_size(picture *p) {
+    const dp_target target = make_target(p->s);
+    p->plan->width = p->view->width = target.width;
+    p->plan->height = p->view->height = target.height;
+    p->mm_width = target.width * p->plan->mm_per_px;
+    p->mm_height = target.height * p->plan->mm_per_px;
+}
+
+/* Looks at the model from where it will be seen, orthographically if scaled. */
+static int measure(picture *p, dp_source *source, const dp_extent *extent, bool *whole) {
+    tool_settings own = *p->s;
+    dp_camera *const camera = &p->view->camera;
+    dp_diag diag;
+    own.has_ortho |= p->scaled;
+    const int code = make_camera(&own, extent, 1, camera);
+    if (code) return code;
+    p->box = view_box_of(camera, extent);
+    *whole = p->scaled && !p->s->has_target;
+    if (!*whole || p->s->has_mirror || !dp_source_rewindable(source)) return 0;
+    if (!view_boxes(source, camera, 1, &p->box, &diag)) return 0;
+    return report_failure(p->s->model, &diag);
+}
+
+static int look(picture *p, const dp_extent *extent, bool whole) {
+    static const double eye_axis[2] = {0, 0};
+    const double aspect = (double)p->view->width / p->view->height;
+    if (!p->scaled) return make_camera(p->s, extent, aspect, &p->view->camera);
+    const double centre[2] = {0.5 * (p->box.min[0] + p->box.max[0]),
+                              0.5 * (p->box.min[1] + p->box.max[1])};
+    const double height = p->view->height * p->plan->mm_per_px / p->mm_per_unit;
+    if (!page_aim(&p->view->camera, extent, whole ? centre : eye_axis, height, aspect)) return 0;
+    wrong_usage("--scale: at this scale the model is too small or too large to be seen; give "
+                "another, or --unit");
+    return EXIT_USAGE;
+}
+
+static int make_picture(const tool_settings *s, dp_source *source, const dp_extent *extent,
+                        page_plan *plan) {
+    picture p = {.s = s, .plan = plan, .view = &plan->views[0], .scaled = s->scale.paper > 0};
+    const bool on_page = s->page.width > 0;
+    bool whole = false;
+    if (p.scaled) p.mm_per_unit = page_scale(s, s->scale.paper / s->scale.model);
+    plan->view_count = 1;
+    int code = on_page || p.scaled ? measure(&p, source, extent, &whole) : 0;
+    if (code) return code;
+    if (on_page)
+        code = lie_on_page(&p);
+    else if (p.scaled && !s->width)
+        code = wrap_drawing(&p);
+    else
+        fill_size(&p);
+    if (!code && whole && on_page) code = check_fits(&p);
+    return code ? code : look(&p, extent, whole);
+}
+
+int page_make(const tool_settings *s, dp_source *source, const dp_extent *extent, page_plan *plan) {
+    memset(plan, 0, sizeof *plan);
+    plan->paged = s->page.width > 0 || s->sheet.count || s->scale.paper > 0;
+    const uint32_t dpi = s->dpi ? s->dpi : plan->paged ? 150 : 96;
+    plan->mm_per_px = 25.4 / dpi;
+    plan->dpi = s->dpi || plan->paged ? dpi : 0;
+    if (plan->paged) plan->line_width = s->sheet.count ? sheet_width : usual_width;
+    return s->sheet.count ? sheet_make(s, source, extent, plan)
+                          : make_picture(s, source, extent, plan);
+}
