@@ -19,6 +19,7 @@ fuzzer_runtime() {
     echo 'int LLVMFuzzerTestOneInput(const char *d, long n) { return d && n < 0; }' |
         clang -fsanitize=fuzzer,address,undefined -x c - -o /dev/null 2>/dev/null
 }
+ezdxf() { /usr/bin/python3 -c 'import ezdxf' 2>/dev/null; }
 # The compiler-rt package carries the version of clang that the distribution calls its own.
 compiler_rt() {
     version=$(apt-cache depends clang 2>/dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p' | head -n 1)
@@ -32,11 +33,18 @@ find_missing() {
     have ninja || missing="$missing ninja-build"
     have pkg-config || missing="$missing pkg-config"
     module libpng || missing="$missing libpng-dev"
+    module zlib || missing="$missing zlib1g-dev"
     module assimp || missing="$missing libassimp-dev"
     [ "${1:-build}" = check ] || return 0
     module cmocka || missing="$missing libcmocka-dev"
     have clang || missing="$missing clang"
     [ -e /usr/share/i18n/locales/de_DE ] || missing="$missing locales" # a test makes one with a decimal comma
+    have xmllint || missing="$missing libxml2-utils" # these look at pages as others do
+    have rsvg-convert || missing="$missing librsvg2-bin"
+    have pdftoppm || missing="$missing poppler-utils"
+    have qpdf || missing="$missing qpdf"
+    have gs || missing="$missing ghostscript"
+    ezdxf || missing="$missing python3-ezdxf"
     fuzzer_runtime || missing="$missing $(compiler_rt)"
 }
 

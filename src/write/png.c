@@ -11,10 +11,11 @@
 #include "base/diag.h"
 #include "base/memory.h"
 #include "write/file.h"
+#include "write/png.h"
 
 #include <png.h>
 #include <stdlib.h>
-#include <zlib.h>
+#include <string.h>
 
 enum {
     LEVEL = 1, /* of zlib: higher levels take much longer and gain little on drawings */
@@ -25,6 +26,9 @@ enum {
 typedef struct encoder {
     const dp_io_picture *picture;
     dp_output output;
+    bool in_memory; /* instead: */
+    char *bytes;
+    size_t size, cap;
     dp_diag diag;
     dp_result result;
     png_structp png;
@@ -51,9 +55,19 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
+static dp_result append(encoder *self, const void *bytes, size_t size) {
+    const dp_allocator memory = dp_allocator_resolve(NULL);
+    if (!dp_reserve(&memory, &self->bytes, &self->cap, self->size + size, 1))
+        return dp_fail(&self->diag, DP_ERR_MEMORY, "out of memory for a PNG");
+    memcpy(self->bytes + self->size, bytes, size);
+    self->size += size;
+    return DP_OK;
+}
+
 static void on_write(png_structp png, png_bytep bytes, size_t size) {
     encoder *const self = png_get_io_ptr(png);
-    self->result = dp_output_write(&self->output, bytes, size, &self->diag);
+    self->result = self->in_memory ? append(self, bytes, size)
+                                   : dp_output_write(&self->output, bytes, size, &self->diag);
     if (self->result) png_error(png, "write");
 }
 
@@ -137,7 +151,7 @@ static void encode(encoder *self) {
     png_write_end(self->png, self->info);
 }
 
-static dp_result prepare(encoder *self, const char *path) {
+static dp_result prepare(encoder *self) {
     dp_diag *const diag = &self->diag;
     self->row = malloc(dp_times(4, self->picture->width));
     self->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, self, on_error, on_warning);
@@ -145,11 +159,12 @@ static dp_result prepare(encoder *self, const char *path) {
     if (!self->row || !self->info) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a PNG");
     png_set_user_limits(self->png, self->picture->width, self->picture->height);
     look_for_colour(self);
-    return dp_output_open(&self->output, path, diag);
+    return DP_OK;
 }
 
 static dp_result write_picture(encoder *self, const char *path) {
-    const dp_result unprepared = prepare(self, path);
+    dp_result unprepared = prepare(self);
+    if (!unprepared) unprepared = dp_output_open(&self->output, path, &self->diag);
     if (unprepared) return unprepared;
     encode(self);
     if (self->result)
@@ -159,16 +174,43 @@ static dp_result write_picture(encoder *self, const char *path) {
     return self->result;
 }
 
+static dp_result check_size(const dp_io_picture *picture, dp_diag *diag) {
+    if (picture->dpi > DPI_MOST)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u pixels per inch are too many; %d are the most",
+                       picture->dpi, DPI_MOST);
+    if (picture->width <= PNG_UINT_31_MAX / 4 && picture->height <= PNG_UINT_31_MAX) return DP_OK;
+    return dp_fail(diag, DP_ERR_LIMIT, "a PNG cannot be %u x %u pixels large", picture->width,
+                   picture->height);
+}
+
+dp_result dp_png_encode(const uint8_t *rgba, uint32_t width, uint32_t height, void **png,
+                        size_t *size, dp_diag *diag) {
+    const dp_io_picture picture = {.rgba = rgba, .width = width, .height = height};
+    encoder self = {.picture = &picture, .in_memory = true};
+    if (!width || !height)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "a ground of %u x %u pixels", width, height);
+    const dp_result too_large = check_size(&picture, diag);
+    if (too_large) return too_large;
+    self.result = prepare(&self);
+    if (!self.result) encode(&self);
+    png_destroy_write_struct(&self.png, &self.info);
+    free(self.row);
+    if (self.result) {
+        free(self.bytes);
+        if (diag) *diag = self.diag;
+        return self.result;
+    }
+    *png = self.bytes;
+    *size = self.size;
+    return DP_OK;
+}
+
 dp_result dp_io_write_picture(const char *path, const dp_io_picture *picture, dp_diag *diag) {
     if (!path || !picture || !picture->rgba || !picture->width || !picture->height)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "nothing to write, or nowhere: path or rgba is NULL, or width or height 0");
-    if (picture->width > PNG_UINT_31_MAX / 4 || picture->height > PNG_UINT_31_MAX)
-        return dp_fail(diag, DP_ERR_LIMIT, "a PNG cannot be %u x %u pixels large", picture->width,
-                       picture->height);
-    if (picture->dpi > DPI_MOST)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "%u pixels per inch are too many; %d are the most",
-                       picture->dpi, DPI_MOST);
+    const dp_result too_large = check_size(picture, diag);
+    if (too_large) return too_large;
     if (picture->stride && picture->stride < (size_t)4 * picture->width)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "rows are %zu bytes apart, but one of %u pixels takes %zu", picture->stride,
