@@ -336,6 +336,65 @@ static bool store_classes(const option *o, const char *value, dp_style *style) {
     }
 }
 
+/* ---- [CLASS][:LEVEL]=VALUE,… ---- */
+
+/* Reads a level behind a colon, or stands at the end: all levels. */
+static bool read_level(const option *o, const char *text, const char *end, uint32_t *from,
+                       uint32_t *to) {
+    uint64_t level;
+    *from = 0, *to = DP_LEVELS;
+    if (text == end) return true;
+    if (!read_count(text + 1, end, &level) || level < 1 || level > DP_LEVELS)
+        return wrong_usage("--%s: \"%.*s\" is no level; give :1 to :%d", o->name, (int)(end - text),
+                           text, DP_LEVELS);
+    *from = (uint32_t)level - 1, *to = (uint32_t)level;
+    return true;
+}
+
+/* Takes one value as store_one does, for the classes of `set` and levels [from, to). */
+static bool store_hidden_one(const option *o, const char *text, const char *end, unsigned set,
+                             uint32_t from, uint32_t to, dp_style *style) {
+    dp_style one = {0};
+    option plain = *o;
+    plain.kind = o->kind == OPTION_HIDDEN_WIDTHS ? OPTION_WIDTHS : OPTION_COLORS;
+    if (!store_one(&plain, text, end, set, &one)) return false;
+    for (int line = 0; line < DP_LINE_COUNT; line++)
+        for (uint32_t level = from; level < to && set >> line & 1; level++) {
+            dp_line_style *const at = &style->hidden.line[level][line];
+            if (plain.kind == OPTION_WIDTHS)
+                at->width = one.line[line].width;
+            else
+                at->color = one.line[line].color;
+        }
+    return true;
+}
+
+static bool store_hidden(const option *o, const char *value, dp_style *style) {
+    for (const char *at = value;;) {
+        const char *const end = at + strcspn(at, ","), *const equals = at + strcspn(at, "=,");
+        unsigned set = DP_ALL_LINES;
+        uint32_t from = 0, to = DP_LEVELS;
+        if (*equals == '=') {
+            const char *const colon = at + strcspn(at, ":=");
+            if (colon > at) {
+                const dp_line line = read_class(o, at, colon);
+                if (line == DP_LINE_COUNT) return false;
+                set = 1u << line;
+            }
+            if (!read_level(o, colon, equals, &from, &to)) return false;
+            at = equals + 1;
+        } else if (at != value) { /* it would undo what comes before it */
+            return wrong_usage(
+                "--%s: only the first value can be for all lines; say which class or "
+                "level \"%.*s\" is for, as in ridge=%.*s or :2=%.*s",
+                o->name, (int)(end - at), at, (int)(end - at), at, (int)(end - at), at);
+        }
+        if (!store_hidden_one(o, at, end, set, from, to, style)) return false;
+        if (!*end) return true;
+        at = end + 1;
+    }
+}
+
 /* ---- any ---- */
 
 bool option_store(const option *o, const char *value, tool_settings *settings) {
@@ -376,6 +435,9 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
     case OPTION_WIDTHS:
     case OPTION_COLORS:
         return store_classes(o, value, to);
+    case OPTION_HIDDEN_WIDTHS:
+    case OPTION_HIDDEN_COLORS:
+        return store_hidden(o, value, to);
     case OPTION_COLOR:
         return store_color(o, value, to);
     case OPTION_STATS:

@@ -26,6 +26,7 @@ typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
+enum { HIDDEN_DASHED = 1, HIDDEN_DOTTED, HIDDEN_THIN, HIDDEN_SOLID, HIDDEN_NONE };
 enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
 
 /* What --output NAME=FILE can name: planes of the G-buffer as pictures, and the lines as text. */
@@ -61,6 +62,9 @@ typedef struct tool_settings {
     int view; /* word */
 
     dp_style style; /* lines, widths and colours; other members follow below */
+    int hidden;     /* word; widths and colours of hidden lines are the style's */
+    uint32_t levels;
+    bool hidden_smooth;
     double ridge_angle, valley_angle;
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
@@ -108,25 +112,27 @@ typedef struct tool_settings {
 } tool_settings;
 
 typedef enum option_kind {
-    OPTION_FLAG = 0, /* bool */
-    OPTION_TEXT,     /* const char * */
-    OPTION_COUNT,    /* uint32_t, within the limits */
-    OPTION_COUNT64,  /* uint64_t */
-    OPTION_NUMBER,   /* double, limits included */
-    OPTION_INSIDE,   /* double, limits excluded */
-    OPTION_POINT,    /* double[3] */
-    OPTION_ANGLES,   /* double[2] */
-    OPTION_PLANE,    /* double[4], then two bools as in tool_settings.mirror */
-    OPTION_OUTPUT,   /* const char *, or one of tool_settings.planes */
-    OPTION_WORD,     /* int: which of the argument's words */
-    OPTION_SIZE,     /* uint32_t[2] */
-    OPTION_BYTES,    /* double: a number and K, M or G */
-    OPTION_LINES,    /* dp_style.lines */
-    OPTION_WIDTHS,   /* dp_style.line[].width */
-    OPTION_COLORS,   /* dp_style.line[].color */
-    OPTION_COLOR,    /* dp_color */
-    OPTION_STATS,    /* stats_kind; its argument may be left out */
-    OPTION_QUESTION  /* question: ends the parsing */
+    OPTION_FLAG = 0,      /* bool */
+    OPTION_TEXT,          /* const char * */
+    OPTION_COUNT,         /* uint32_t, within the limits */
+    OPTION_COUNT64,       /* uint64_t */
+    OPTION_NUMBER,        /* double, limits included */
+    OPTION_INSIDE,        /* double, limits excluded */
+    OPTION_POINT,         /* double[3] */
+    OPTION_ANGLES,        /* double[2] */
+    OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
+    OPTION_OUTPUT,        /* const char *, or one of tool_settings.planes */
+    OPTION_WORD,          /* int: which of the argument's words */
+    OPTION_SIZE,          /* uint32_t[2] */
+    OPTION_BYTES,         /* double: a number and K, M or G */
+    OPTION_LINES,         /* dp_style.lines */
+    OPTION_WIDTHS,        /* dp_style.line[].width */
+    OPTION_COLORS,        /* dp_style.line[].color */
+    OPTION_HIDDEN_WIDTHS, /* dp_style.hidden.line[][].width */
+    OPTION_HIDDEN_COLORS, /* dp_style.hidden.line[][].color */
+    OPTION_COLOR,         /* dp_color */
+    OPTION_STATS,         /* stats_kind; its argument may be left out */
+    OPTION_QUESTION       /* question: ends the parsing */
 } option_kind;
 
 typedef enum option_group {
