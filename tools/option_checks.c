@@ -71,7 +71,7 @@ static bool check_sheet(const tool_settings *s) {
     if (s->has_eye || s->has_target || s->view || s->has_azimuth || s->has_elevation)
         return wrong_usage("--sheet already says where from; leave out --eye, --target, --view, "
                            "--azimuth and --elevation");
-    if (s->has_fov || s->has_ortho || s->zoom > 0)
+    if (s->has_fov || s->ortho > 0 || s->zoom > 0)
         return wrong_usage("the views of a sheet have one scale; leave out --fov, --ortho and "
                            "--zoom, or give --scale");
     if (s->has_mirror) return wrong_usage("a sheet has no mirror; leave out --mirror");

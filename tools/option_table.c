@@ -105,6 +105,22 @@ const option option_table[] = {
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
      "Edges whose dihedral angle is above this are valleys. Default: 210."},
 
+    {"hidden", 0, "dashed|dotted|thin|solid|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(hidden), 0, 0, 0,
+     "Draw lines that something hides, too, below the visible ones: dashed, dotted, whole but thin, or as wide as "
+     "these. Default: none; on sheets dashed, but for the pictorial view."},
+    {"levels", 0, "N", OPTION_COUNT, GROUP_LINES, PICTURE, AT(levels), 0, 1, DP_LEVELS,
+     "With --hidden: how many surfaces are counted before a line; what lies behind N or more has level N. "
+     "Default: 1."},
+    {"hidden-smooth", 0, NULL, OPTION_FLAG, GROUP_LINES, PICTURE, AT(hidden_smooth), 0, 0, 0,
+     "With --hidden: draw folds of less than 40 degrees as well."},
+    {"hidden-width", 0, "W or [CLASS][:LEVEL]=W,...",
+     OPTION_HIDDEN_WIDTHS, GROUP_LINES, PICTURE, AT(hidden_width), 0, 0.5, 64,
+     "Width of hidden lines, of all, or of a class, a level or both, as in ridge:2=1mm. Default: half the visible "
+     "line's; with --hidden solid, the same."},
+    {"hidden-color", 0, "#RRGGBB or [CLASS][:LEVEL]=#RRGGBB,...",
+     OPTION_HIDDEN_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
+     "Colour of hidden lines, in the same way. Default: the visible line's."},
+
     {"join", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(join), 0, 0, 10000,
      "Close gaps between paths up to this (or 0.5mm, 1pt); 0 closes none. Default: 2."},
     {"min-length", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(min_length), 0, 0, 10000,

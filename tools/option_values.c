@@ -350,6 +350,63 @@ static bool store_classes(const option *o, const char *value, tool_settings *set
     }
 }
 
+/* ---- [CLASS][:LEVEL]=VALUE,… ---- */
+
+/* Reads a level behind a colon, or stands at the end: all levels. */
+static bool read_level(const option *o, const char *text, const char *end, uint32_t *from,
+                       uint32_t *to) {
+    uint64_t level;
+    *from = 0, *to = DP_LEVELS;
+    if (text == end) return true;
+    if (!read_count(text + 1, end, &level) || level < 1 || level > DP_LEVELS)
+        return wrong_usage("--%s: \"%.*s\" is no level; give :1 to :%d", o->name, (int)(end - text),
+                           text, DP_LEVELS);
+    *from = (uint32_t)level - 1, *to = (uint32_t)level;
+    return true;
+}
+
+/* Takes one value as store_one does, for the classes of `set` and levels [from, to). */
+static bool store_hidden_one(const option *o, const char *text, const char *end, unsigned set,
+                             uint32_t from, uint32_t to, tool_settings *settings) {
+    tool_settings one = {0};
+    option plain = *o;
+    plain.kind = o->kind == OPTION_HIDDEN_WIDTHS ? OPTION_WIDTHS : OPTION_COLORS;
+    if (!store_one(&plain, text, end, set, &one)) return false;
+    for (int line = 0; line < DP_LINE_COUNT; line++)
+        for (uint32_t level = from; level < to && set >> line & 1; level++)
+            if (plain.kind == OPTION_WIDTHS)
+                settings->hidden_width[level][line] = one.width_of[line];
+            else
+                settings->style.hidden.line[level][line].color = one.style.line[line].color;
+    return true;
+}
+
+static bool store_hidden(const option *o, const char *value, tool_settings *settings) {
+    for (const char *at = value;;) {
+        const char *const end = at + strcspn(at, ","), *const equals = at + strcspn(at, "=,");
+        unsigned set = DP_ALL_LINES;
+        uint32_t from = 0, to = DP_LEVELS;
+        if (*equals == '=') {
+            const char *const colon = at + strcspn(at, ":=");
+            if (colon > at) {
+                const dp_line line = read_class(o, at, colon);
+                if (line == DP_LINE_COUNT) return false;
+                set = 1u << line;
+            }
+            if (!read_level(o, colon, equals, &from, &to)) return false;
+            at = equals + 1;
+        } else if (at != value) { /* it would undo what comes before it */
+            return wrong_usage(
+                "--%s: only the first value can be for all lines; say which class or "
+                "level \"%.*s\" is for, as in ridge=%.*s or :2=%.*s",
+                o->name, (int)(end - at), at, (int)(end - at), at, (int)(end - at), at);
+        }
+        if (!store_hidden_one(o, at, end, set, from, to, settings)) return false;
+        if (!*end) return true;
+        at = end + 1;
+    }
+}
+
 /* ---- any ---- */
 
 bool option_store(const option *o, const char *value, tool_settings *settings) {
@@ -390,6 +447,9 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
     case OPTION_WIDTHS:
     case OPTION_COLORS:
         return store_classes(o, value, settings);
+    case OPTION_HIDDEN_WIDTHS:
+    case OPTION_HIDDEN_COLORS:
+        return store_hidden(o, value, settings);
     case OPTION_LENGTH:
         return store_length(o, value, to);
     case OPTION_PAGE:

@@ -26,6 +26,7 @@ typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
+enum { HIDDEN_DASHED = 1, HIDDEN_DOTTED, HIDDEN_THIN, HIDDEN_SOLID, HIDDEN_NONE };
 enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
 
 enum { UNIT_MM = 1, UNIT_CM, UNIT_M, UNIT_IN, UNIT_FT };
@@ -116,6 +117,10 @@ typedef struct tool_settings {
 
     dp_style style; /* lines and colours; other members follow below */
     tool_length width_of[DP_LINE_COUNT];
+    int hidden; /* word; colours of hidden lines are the style's */
+    tool_length hidden_width[DP_LEVELS][DP_LINE_COUNT];
+    uint32_t levels;
+    bool hidden_smooth;
     double ridge_angle, valley_angle;
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
@@ -163,30 +168,32 @@ typedef struct tool_settings {
 } tool_settings;
 
 typedef enum option_kind {
-    OPTION_FLAG = 0, /* bool */
-    OPTION_TEXT,     /* const char * */
-    OPTION_COUNT,    /* uint32_t, within the limits */
-    OPTION_COUNT64,  /* uint64_t */
-    OPTION_NUMBER,   /* double, limits included */
-    OPTION_INSIDE,   /* double, limits excluded */
-    OPTION_POINT,    /* double[3] */
-    OPTION_ANGLES,   /* double[2] */
-    OPTION_PLANE,    /* double[4], then two bools as in tool_settings.mirror */
-    OPTION_OUTPUT,   /* tool_settings.files, .outputs, or of make .output */
-    OPTION_WORD,     /* int: which of the argument's words */
-    OPTION_SIZE,     /* uint32_t[2] */
-    OPTION_BYTES,    /* double: a number and K, M or G */
-    OPTION_LINES,    /* dp_style.lines */
-    OPTION_WIDTHS,   /* tool_settings.width_of */
-    OPTION_LENGTH,   /* tool_length, in pixels, mm or pt */
-    OPTION_PAGE,     /* tool_page */
-    OPTION_MARGIN,   /* double[4], mm */
-    OPTION_SCALE,    /* tool_scale */
-    OPTION_SHEET,    /* tool_sheet */
-    OPTION_COLORS,   /* dp_style.line[].color */
-    OPTION_COLOR,    /* dp_color */
-    OPTION_STATS,    /* stats_kind; its argument may be left out */
-    OPTION_QUESTION  /* question: ends the parsing */
+    OPTION_FLAG = 0,      /* bool */
+    OPTION_TEXT,          /* const char * */
+    OPTION_COUNT,         /* uint32_t, within the limits */
+    OPTION_COUNT64,       /* uint64_t */
+    OPTION_NUMBER,        /* double, limits included */
+    OPTION_INSIDE,        /* double, limits excluded */
+    OPTION_POINT,         /* double[3] */
+    OPTION_ANGLES,        /* double[2] */
+    OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
+    OPTION_OUTPUT,        /* tool_settings.files, .outputs, or of make .output */
+    OPTION_WORD,          /* int: which of the argument's words */
+    OPTION_SIZE,          /* uint32_t[2] */
+    OPTION_BYTES,         /* double: a number and K, M or G */
+    OPTION_LINES,         /* dp_style.lines */
+    OPTION_WIDTHS,        /* tool_settings.width_of */
+    OPTION_LENGTH,        /* tool_length, in pixels, mm or pt */
+    OPTION_PAGE,          /* tool_page */
+    OPTION_MARGIN,        /* double[4], mm */
+    OPTION_SCALE,         /* tool_scale */
+    OPTION_SHEET,         /* tool_sheet */
+    OPTION_COLORS,        /* dp_style.line[].color */
+    OPTION_HIDDEN_WIDTHS, /* tool_settings.hidden_width */
+    OPTION_HIDDEN_COLORS, /* dp_style.hidden.line[][].color */
+    OPTION_COLOR,         /* dp_color */
+    OPTION_STATS,         /* stats_kind; its argument may be left out */
+    OPTION_QUESTION       /* question: ends the parsing */
 } option_kind;
 
 typedef enum option_group {

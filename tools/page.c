@@ -64,11 +64,12 @@ float page_length(const page_plan *plan, const tool_length *length) {
     return (float)(length->unit == LENGTH_MM ? length->value / plan->mm_per_px : length->value);
 }
 
+static const double thinnest = 0.5, thickest = 64; /* px */
+
 static double width_of(const tool_settings *s, const page_plan *plan, int line) {
-    static const double least = 0.5;
-    const float given = page_length(plan, &s->width_of[line]);
-    if (given > 0) return fmax((double)given, least);
-    return plan->line_width > 0 ? fmax(plan->line_width / plan->mm_per_px, least) : 2;
+    const double given = (double)page_length(plan, &s->width_of[line]);
+    if (given > 0) return fmax(given, thinnest);
+    return plan->line_width > 0 ? fmax(plan->line_width / plan->mm_per_px, thinnest) : 2;
 }
 
 double page_widest(const tool_settings *s, const page_plan *plan) {
@@ -77,22 +78,33 @@ double page_widest(const tool_settings *s, const page_plan *plan) {
     return widest * plan->mm_per_px;
 }
 
+/* Stores a width, and notes whether it had to be made larger. */
+static bool put_width(const page_plan *plan, double px, const tool_length *given, float *to,
+                      bool *thin) {
+    *thin |= given->unit == LENGTH_MM && px > (double)page_length(plan, given) + 1e-3;
+    *to = (float)px;
+    return px <= thickest ||
+           wrong_usage("--width: %g mm are %.0f pixels at %.0f dpi, and %.0f are the most; give a "
+                       "smaller --dpi",
+                       px * plan->mm_per_px, px, 25.4 / plan->mm_per_px, thickest);
+}
+
 bool page_widths(const tool_settings *s, const page_plan *plan, dp_style *style) {
     bool thin = false;
     for (int k = 0; k < DP_LINE_COUNT; k++) {
-        const double width = width_of(s, plan, k);
-        if (width > 64)
-            return wrong_usage("--width: %g mm are %.0f pixels at %.0f dpi, and 64 are the most; "
-                               "give a smaller --dpi",
-                               width * plan->mm_per_px, width, 25.4 / plan->mm_per_px);
-        const float given = page_length(plan, &s->width_of[k]);
-        thin |= given > 0 && given < 0.4999F;
-        style->line[k].width = (float)width;
+        if (!put_width(plan, width_of(s, plan, k), &s->width_of[k], &style->line[k].width, &thin))
+            return false;
+        for (int level = 0; level < DP_LEVELS; level++) {
+            const tool_length *const given = &s->hidden_width[level][k];
+            const double px = fmax((double)page_length(plan, given), thinnest);
+            float *const to = &style->hidden.line[level][k].width;
+            if (given->unit && !put_width(plan, px, given, to, &thin)) return false;
+        }
     }
     if (thin && !s->quiet)
         warn("--width: lines are at least half a pixel wide, %.3g mm at %.0f dpi; give a larger "
              "--dpi for finer ones",
-             0.5 * plan->mm_per_px, 25.4 / plan->mm_per_px);
+             thinnest * plan->mm_per_px, 25.4 / plan->mm_per_px);
     return true;
 }
 

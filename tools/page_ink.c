@@ -1,7 +1,5 @@
 /* Rules and texts of a page as pixels: each is a thick line with round ends, whose coverage of a
- * pixel is taken from its distance to the pixel's centre.
- *
- * Not handled: texts, until the library hands out their strokes. */
+ * pixel is taken from its distance to the pixel's centre. */
 #include "page_ink.h"
 
 #include <math.h>
@@ -43,11 +41,30 @@ static void ink_line(const dp_target *page, const double a[2], const double b[2]
         }
 }
 
+typedef struct pen {
+    const dp_target *page;
+    double px; /* per mm */
+    double width;
+} pen;
+
+static void ink_stroke(void *user, const double (*points)[2], size_t count) {
+    const pen *const p = user;
+    for (size_t i = 0; i + 1 < count; i++) {
+        const double a[2] = {points[i][0] * p->px, points[i][1] * p->px},
+                     b[2] = {points[i + 1][0] * p->px, points[i + 1][1] * p->px};
+        ink_line(p->page, a, b, p->width);
+    }
+}
+
 void ink_page(const page_plan *plan, const dp_target *page) {
     const double px = 1 / plan->mm_per_px;
     for (size_t k = 0; k < plan->rule_count; k++) {
         const dp_page_rule *const r = &plan->rules[k];
         const double a[2] = {r->x0 * px, r->y0 * px}, b[2] = {r->x1 * px, r->y1 * px};
         ink_line(page, a, b, r->width * px);
+    }
+    for (size_t k = 0; k < plan->text_count; k++) {
+        pen p = {page, px, 0.1 * plan->texts[k].height * px};
+        dp_page_text_strokes(&plan->texts[k], ink_stroke, &p);
     }
 }

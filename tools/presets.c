@@ -25,6 +25,27 @@ static const preset table[] = {
      "silhouette=3.5,border=3.5,valley=2.5,intersection=2.5 "
      "--repeats 2 --jitter 1 --overshoot 9 --taper 16 --color #303034 --hatch-color #303034"},
     {"patent", "--style paper --width silhouette=3,border=3,ridge=1.5,valley=1.5,intersection=1.5"},
+
+    /* ISO 128-2, line group 0.5: visible outlines and edges 0.5 mm, hidden ones 0.25 mm and dashed,
+     * 12 widths drawn and 3 not, which is what `dashed` means. */
+    {"iso", "--page A4 --ortho 0 --style paper --color #000000 --width 0.5mm --hidden dashed "
+            "--hidden-width 0.25mm"},
+    /* 37 CFR 1.84 (g): top and left at least 1 inch, right 5/8, bottom 3/8; black lines. */
+    {"patent-us",
+     "--page letter-portrait --margin 25.4,15.9,9.6,25.4 --style paper --color #000000 "
+     "--width silhouette=0.5mm,border=0.5mm,ridge=0.3mm,valley=0.3mm,"
+     "intersection=0.3mm --hidden none"},
+    /* EPC, Rule 46: top and left 25 mm, right 15, bottom 10; black lines of even thickness. */
+    {"patent-epc", "--page A4-portrait --margin 25,15,10,25 --style paper --color #000000 "
+                   "--width 0.4mm --hidden none"},
+    /* One pen, nothing twice, little travel. */
+    {"axidraw", "--page A4 --style paper --color #000000 --width 0.5mm --hidden none --optimize"},
+    /* Lasers take what is at most 0.001 inch wide for a path to follow, and colours for what to do
+     * with it. At 600 dpi that is more than the half pixel that a line has at least. */
+    {"laser",
+     "--scale 1:1 --dpi 600 --samples 1 --style paper --width 0.025mm --hidden none --color "
+     "silhouette=#FF0000,border=#FF00FF,ridge=#0000FF,valley=#00C000,"
+     "intersection=#00C0C0"},
 };
 
 const preset *preset_find(const char *name) {

@@ -10,6 +10,7 @@
 #include "sheet.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 const double title_height = 20; /* mm, two rows */
@@ -17,34 +18,37 @@ const double title_height = 20; /* mm, two rows */
 enum { TITLE_WIDTH = 180, ARC_STEPS = 32 };
 static const double wide = 0.5, narrow = 0.25;             /* mm */
 static const double label_height = 1.8, text_height = 3.5; /* mm */
-static const double advance = 0.95;                        /* of a letter, about, by its height */
 
-/* How many letters of UTF-8 there are. */
-static size_t letters(const char *text) {
-    size_t count = 0;
-    for (; *text; text++) count += ((unsigned char)*text & 0xC0) != 0x80;
-    return count;
+static void reach(void *user, const double (*points)[2], size_t count) {
+    double *const right = user;
+    for (size_t i = 0; i < count; i++) *right = fmax(*right, points[i][0]);
+}
+
+/* mm, of a text that is 1 mm high. */
+static double width_of(const char *text) {
+    double right = 0;
+    dp_page_text_strokes(&(dp_page_text){.text = text, .height = 1}, reach, &right);
+    return right;
+}
+
+/* Takes letters off a text's end until it is as narrow as that, and shows that some are gone. */
+static void cut(char text[TEXT_BYTES], double width) {
+    size_t n = strlen(text);
+    while (n && width_of(text) > width) {
+        do n--;
+        while (n && ((unsigned char)text[n] & 0xC0) == 0x80); /* whole letters of UTF-8 */
+        strcpy(text + n, n + 3 < TEXT_BYTES ? ".." : "");
+    }
 }
 
 /* A text that is made smaller, and in the end shorter, where its cell is too narrow. */
 static void fit_text(page_plan *plan, double x, double y, double width, const char *text) {
-    const double least = 1.8;
-    char cut[TEXT_BYTES];
-    const size_t count = letters(text), most = (size_t)fmax(width / (advance * least), 1);
-    if (!count) return;
-    const double height = fmin(text_height, width / (advance * (double)count));
-    if (height >= least) {
-        page_text(plan, x, y, height, text);
-        return;
-    }
-    size_t kept = 0, bytes = 0;
-    while (text[bytes] && bytes + 8 < sizeof cut) {
-        if (((unsigned char)text[bytes] & 0xC0) != 0x80 && kept++ == most - (most > 2 ? 2 : 0))
-            break;
-        cut[bytes] = text[bytes], bytes++;
-    }
-    strcpy(cut + bytes, "..");
-    page_text(plan, x, y, least, cut);
+    char copy[TEXT_BYTES];
+    snprintf(copy, sizeof copy, "%s", text);
+    const double whole = width_of(copy);
+    const double height = fmin(text_height, whole > 0 ? width / whole : text_height);
+    if (height < label_height) cut(copy, width / label_height);
+    if (*copy) page_text(plan, x, y, fmax(height, label_height), copy);
 }
 
 /* A cell's label in its upper left corner, and its text below. */
@@ -82,8 +86,9 @@ static void centre_line(page_plan *plan, double x0, double y0, double x1, double
 
 /* The truncated cone of ISO 5456-2 and its view from the left, where its small end is: in first
  * angle that view lies to the right of the cone, in third angle to the left. */
-static void angle_symbol(page_plan *plan, double x, double y, bool first_angle) {
-    const double small = 1.5, large = 3, half = 3, apart = 5;
+static void angle_symbol(page_plan *plan, double x, double y, double width, bool first_angle) {
+    const double unit = fmin(width / 25, 1);
+    const double small = 2 * unit, large = 4 * unit, half = 4 * unit, apart = 6 * unit;
     const double cone = first_angle ? x - apart : x + apart,
                  eye = first_angle ? x + apart : x - apart;
     circle(plan, eye, y, small);
@@ -112,5 +117,5 @@ void title_draw(const title_block *b, page_plan *plan) {
     cell(plan, scale, top, symbol - scale, "scale", b->scale);
     cell(plan, scale, top + row, 0.1 * width, "unit", b->unit);
     cell(plan, 0.5 * (scale + symbol), top + row, 0.1 * width, "page", b->page);
-    angle_symbol(plan, 0.5 * (symbol + b->right), top + row, b->first_angle);
+    angle_symbol(plan, 0.5 * (symbol + b->right), top + row, b->right - symbol, b->first_angle);
 }

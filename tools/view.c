@@ -161,6 +161,11 @@ dp_style make_style(const tool_settings *s) {
     /* extruded geometry is what adjacency is for */
     if (style.edges == DP_EDGES_ADJACENCY) style.ink = DP_INK_QUADS;
     if (s->ink) style.ink = (dp_ink)(s->ink - 1);
+    if (s->sheet.count) style.hidden.look = DP_HIDDEN_DASHED;
+    if (s->hidden == HIDDEN_NONE) style.hidden.look = DP_HIDDEN_NONE;
+    if (s->hidden && s->hidden != HIDDEN_NONE) style.hidden.look = (dp_hidden_look)s->hidden;
+    style.hidden.levels = s->levels;
+    style.hidden.smooth = s->hidden_smooth;
     style.passes = s->passes;
     style.cull_back_faces = s->cull_back_faces;
     style.edge_table_off = s->edge_table == SWITCH_OFF;

@@ -131,6 +131,11 @@ typedef struct dp_page_text {
     double height;    /* mm, of a capital letter */
 } dp_page_text;
 
+/* Calls `stroke` for each stroke of a text as the writers draw it, for who draws pages elsewhere:
+ * points in mm on the page, at least two. A stroke is a tenth of the text's height wide. */
+typedef void dp_text_stroke(void *user, const double (*points)[2], size_t count);
+DP_API void dp_page_text_strokes(const dp_page_text *text, dp_text_stroke *stroke, void *user);
+
 /* A straight line on the page itself, of a title block say. */
 typedef struct dp_page_rule {
     double x0, y0, x1, y1; /* mm */

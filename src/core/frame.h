@@ -42,6 +42,7 @@ typedef struct dp_frame {
     dp_target target;
     uint32_t lines;     /* classes drawn by any group */
     bool culls_backs;   /* hidden back faces make no lines */
+    uint32_t hidden;    /* levels of hidden lines; 0: they are not looked for */
     bool painted_later; /* src/shade colours all pixels of tiles with polygons, paper too, … */
     uint8_t *ink_layer; /* … and blends over them what tiles inked: [height][width][4], not
                            premultiplied; or NULL */

@@ -1,10 +1,11 @@
-/* Pieces: visible parts of lines, tile by tile, before they are joined to segments. */
+/* Pieces: parts of lines, visible or hidden, tile by tile, before they are joined to segments. */
 #ifndef DP_CORE_PIECE_H
 #define DP_CORE_PIECE_H
 
 #include "core/view.h"
 
-/* A piece of one edge or crossing: of its n sample points, [k0, k1) are visible. */
+/* A piece of one edge or crossing: of its n sample points, [k0, k1) are visible, or hidden by the
+ * same number of surfaces. */
 typedef struct dp_piece {
     uint32_t a, b;      /* frame polygons: a owns the edge; b is across it, or UINT32_MAX */
     uint32_t edge;      /* corner of a where the edge starts; DP_CROSSING: a and b cross */
@@ -15,6 +16,7 @@ typedef struct dp_piece {
     uint32_t worker;    /* … of this worker; set when pieces are joined */
     uint8_t line;       /* dp_line */
     uint8_t seen;       /* bit 0: polygon a is seen beside the line, bit 1: b is */
+    uint8_t level;      /* 0: visible; as in dp_segment */
     bool open;          /* touches the tile's border: it may continue in a neighbour */
 } dp_piece;
 

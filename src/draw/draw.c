@@ -19,6 +19,7 @@
 #include "features/silhouette_edge.h"
 #include "sink/sink.h"
 #include "stream/stream.h"
+#include "strokes/hidden.h"
 
 #include <string.h>
 #include <time.h>
@@ -88,6 +89,7 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
 static void begin_view(dp_frame *f) {
     const float size = (float)(1 / f->view.focal);
     f->lanes = dp_lanes_best();
+    f->hidden = f->styles[0].hidden.look ? f->styles[0].hidden.levels : 0;
     f->culls_backs =
         f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
     f->nearly_edge_on = dp_nearly_edge_on(&f->view);
@@ -258,7 +260,7 @@ static bool find_adjacency(dp_context *c) {
 /* Everything but plain lines over one colour looks at all polygons at once. */
 static bool may_stream(const dp_context *c) {
     const dp_style *const style = &c->frame.styles[0];
-    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 &&
+    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && !c->frame.hidden &&
            style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !is_polar(&c->frame) &&
            !(style->stroke.light > 0);
 }
@@ -377,18 +379,26 @@ static dp_result shade(dp_context *c, dp_diag *diag) {
 /* The last loop over tiles, as the raster sink runs it. */
 typedef struct last_loop {
     dp_context *context;
-    double from;
+    double from, to;
 } last_loop;
 
 static dp_result for_last_tiles(void *user, dp_task *task, void *arg, dp_diag *diag) {
     const last_loop *const l = user;
-    return for_tiles(l->context, task, arg, l->from, 1, diag);
+    return for_tiles(l->context, task, arg, l->from, l->to, diag);
 }
 
 static dp_result ink(dp_context *c, double from, dp_diag *diag) {
-    last_loop loop = {c, from};
-    dp_inking inking = {&c->frame, &c->drawing, &c->raster, for_last_tiles, &loop};
+    last_loop loop = {c, from, 1};
+    dp_inking inking = {&c->frame, &c->drawing, &c->raster, for_last_tiles, &loop, false};
     const dp_sink sink = dp_raster_sink(&inking);
+    if (c->drawing.stylizes && dp_is_hidden_inked(&c->drawing)) { /* below stylized strokes */
+        inking.plain = true;
+        loop.to = from + (1 - from) / 2;
+        const dp_result result = dp_hand_over(&c->frame, &c->drawing, &sink, diag);
+        if (result) return result;
+        inking.plain = false;
+        loop = (last_loop){c, loop.to, 1};
+    }
     return dp_hand_over(&c->frame, &c->drawing, &sink, diag);
 }
 
@@ -399,7 +409,8 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
     if (result) return result;
-    if (!dp_make_segments(&c->frame, c->found, &c->drawing) || !dp_stylize(&c->frame, &c->drawing))
+    if (!dp_make_segments(&c->frame, c->found, &c->drawing) ||
+        !dp_finish_hidden(&c->frame, &c->drawing) || !dp_stylize(&c->frame, &c->drawing))
         return out_of_memory(diag);
     c->stats.segments = c->drawing.count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);

@@ -204,6 +204,19 @@ static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
     return result;
 }
 
+/* Hidden lines are those of the tiles' edge tables, drawn as strokes. */
+static dp_result check_hidden(const dp_style *style, dp_diag *diag) {
+    if (!style->hidden.look) return DP_OK;
+    if (style->ink == DP_INK_QUADS)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "hidden lines are drawn as strokes; with quads as ink there are none");
+    if (style->edges == DP_EDGES_ADJACENCY)
+        return dp_fail(
+            diag, DP_ERR_ARGUMENT,
+            "hidden lines emerge from the tiles; with lines by adjacency there are none");
+    return DP_OK;
+}
+
 /* Lines that something hides: narrower than the visible ones, in their colour. */
 static dp_result resolve_hidden(dp_style *style, dp_diag *diag) {
     dp_hidden *const h = &style->hidden;
@@ -248,6 +261,7 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
         (unsigned)full.ink > DP_INK_QUADS || (unsigned)full.edges > DP_EDGES_ADJACENCY)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "edges, method, between or ink is not one of its values");
+    if ((result = check_hidden(&full, diag))) return result;
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");

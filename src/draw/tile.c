@@ -3,8 +3,9 @@
 
 #include "printed/fins.h"
 
-/* Visible pieces of lines, for strokes. */
+/* Pieces of lines, for strokes. */
 static void find_pieces(dp_finder *f) {
+    const size_t first = f->found->piece_count;
     if (f->tile.frame->adjacency)
         dp_find_adjacent_edges(f);
     else
@@ -12,6 +13,7 @@ static void find_pieces(dp_finder *f) {
     dp_find_emergent(f);
     dp_find_intersections(f);
     dp_find_visible(f);
+    if (f->tile.frame->hidden) dp_find_hidden(f, first);
 }
 
 /* Silhouettes and borders as geometry; what has no outside, as strokes. */

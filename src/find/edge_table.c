@@ -304,7 +304,7 @@ bool dp_edge_table_fill(dp_finder *w) {
     for (uint32_t i = 0; i < w->table.meeting_count; i++)
         w->table.marks[w->table.meetings[i].first] = DP_MARK_PAIR,
         w->table.marks[w->table.meetings[i].number] = 0;
-    dp_find_kernels_for(w->tile.frame->lanes)->unmark_alone(w);
+    if (!w->finds_hidden) dp_find_kernels_for(w->tile.frame->lanes)->unmark_alone(w);
     return true;
 }
 

@@ -9,6 +9,9 @@
  *        front and front                      ridge or valley, by the dihedral angle (core/fold.c)
  *    a line beside which something else is seen is left to emerge (dispute.c)
  *
+ * Where hidden lines are looked for (hidden.c), all polygons are in the table, nothing is disputed,
+ * two back faces make the fold that they are wound for, and smooth folds are left out.
+ *
  * Dihedral angles are those of (Raskar 2001, 2.2). Nearly all edges are flat and never come here
  * (edge_table.c). Invariant: the polygon that comes first in the source owns the edge, in every
  * tile, so tiles agree on its spine. */
@@ -55,14 +58,32 @@ static void sides_of_pair(const dp_finder *w, const dp_edge_entry *e, uint32_t s
 /* Makes normals, the list and the table. */
 static bool prepare(dp_finder *w) {
     const bool triangles = !w->tile.frame->polygons.firsts;
-    if (!triangles && !dp_tile_exact_normals(&w->tile)) return false;
-    if (w->tile.sees_backs) dp_tile_turn_normals(&w->tile);
+    if (w->finds_hidden) {
+        if (!dp_tile_wound_normals(&w->tile)) return false;
+    } else {
+        if (!triangles && !dp_tile_exact_normals(&w->tile)) return false;
+        if (w->tile.sees_backs) dp_tile_turn_normals(&w->tile);
+    }
     if (!dp_edge_table_list(w)) return false;
     if (triangles) dp_raster_kernels_for(w->tile.frame->lanes)->normals(&w->tile);
     return dp_edge_table_fill(w);
 }
 
-/* Two polygons that run the edge in opposite directions, at least one of which faces the eye. */
+/* Do the polygons of a pair face one way? Then they make a fold, else a silhouette. */
+static bool is_fold(const dp_finder *w, const dp_edge_entry *e) {
+    const uint32_t a = w->tile.polygons[e->a].flags, b = w->tile.polygons[e->b].flags;
+    return w->finds_hidden ? !((a ^ b) & DP_POLYGON_FRONT) : a & b & DP_POLYGON_FRONT;
+}
+
+/* The class of line that the fold of a pair makes, or -1. */
+static int fold_line(const dp_finder *w, const dp_edge_entry *e, const dp_fold *fold) {
+    if (dp_edge_is_diagonal(w, e)) return -1;
+    const dp_style *const style = dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id);
+    if (w->finds_hidden && dp_is_smooth(w->tile.frame, fold)) return -1;
+    return dp_fold_line(fold, style);
+}
+
+/* Two polygons that run the edge in opposite directions. */
 static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
     const dp_edge_entry owned = owned_by_first(w, met), *const e = &owned;
     const dp_frame *const frame = w->tile.frame;
@@ -70,12 +91,8 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
                                       w->tile.polygons[e->b].id, true, e->edge_b);
     uint32_t sides[2];
     sides_of_pair(w, e, sides);
-    const bool is_fold = sides[0] != UINT32_MAX && sides[1] != UINT32_MAX;
-    const int line = is_fold
-                         ? dp_fold_line(&fold, dp_polygon_style(frame, w->tile.polygons[e->a].id))
-                         : DP_LINE_SILHOUETTE;
-    if (line >= 0 && !(is_fold && dp_edge_is_diagonal(w, e)))
-        add_line(w, e, (dp_line)line, fold.normal, sides);
+    const int line = is_fold(w, e) ? fold_line(w, e, &fold) : DP_LINE_SILHOUETTE;
+    if (line >= 0) add_line(w, e, (dp_line)line, fold.normal, sides);
 }
 
 /* Do all that have met at the edge face away, or is one of two the only one that does not, and are
@@ -83,6 +100,7 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
 static bool is_plain_pair(const dp_finder *w, const dp_edge_entry *e) {
     const uint32_t a = w->tile.polygons[e->a].flags, b = w->tile.polygons[e->b].flags;
     if (e->more || !e->opposed) return false;
+    if (w->finds_hidden) return true;
     return w->tile.sees_backs ? a & b & DP_POLYGON_FRONT : (a | b) & DP_POLYGON_FRONT;
 }
 
@@ -111,13 +129,11 @@ static bool put_pair(const dp_finder *w, dp_edge_entry *e, dp_fold_batch *f, uin
 /* The class of line that edge i makes, or -1. */
 static int pair_line(const dp_finder *w, const dp_edge_entry *e, const dp_fold_batch *f,
                      uint32_t i) {
-    if (!(w->tile.polygons[e->a].flags & w->tile.polygons[e->b].flags & DP_POLYGON_FRONT))
-        return DP_LINE_SILHOUETTE;
-    if (dp_edge_is_diagonal(w, e)) return -1;
+    if (!is_fold(w, e)) return DP_LINE_SILHOUETTE;
     const dp_fold fold = dp_fold_between(
         w->tile.frame, dp_fold_vector(f->normal_a, i), dp_fold_vector(f->normal_b, i),
         dp_fold_vector(f->normal, i), w->tile.polygons[e->b].id, e->edge_b);
-    return dp_fold_line(&fold, dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id));
+    return fold_line(w, e, &fold);
 }
 
 static void resolve_put(dp_finder *w, const dp_edge_entry *e, const dp_fold_batch *f, uint32_t i) {
@@ -205,7 +221,7 @@ static void resolve_entries(dp_finder *w, dp_edge_entry entries[DP_FOLDS], uint3
 
 void dp_find_edges(dp_finder *w) {
     if (!(w->tile.frame->lines & ~DP_INTERSECTION)) return;
-    if (w->tile.frame->styles[0].edge_table_off) {
+    if (w->tile.frame->styles[0].edge_table_off && !w->finds_hidden) {
         leave_all(w);
         return;
     }

@@ -357,6 +357,7 @@ static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
                     right = beside(w, &e->sight, f->sides[1]);
     const dp_fold fold = dp_fold_of_sides(&e->sight, &left, &right);
     f->line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id));
+    if (w->finds_hidden && dp_is_smooth(w->tile.frame, &fold)) f->line = -1;
     f->normal = fold.normal;
 }
 
@@ -405,7 +406,7 @@ static bool trusts_winding(const dp_finder *w, const emerging *e, const dp_behel
 static bool are_hidden_backs(const dp_finder *w, const dp_beheld *b, bool right) {
     const uint32_t near = w->tile.polygons[b->nearest[right].polygon].flags,
                    far = w->tile.polygons[b->furthest[right]].flags;
-    return !w->tile.sees_backs && !((near | far) & DP_POLYGON_FRONT);
+    return !w->tile.sees_backs && !w->finds_hidden && !((near | far) & DP_POLYGON_FRONT);
 }
 
 /* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */

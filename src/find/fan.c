@@ -32,7 +32,8 @@ bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
 void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
                  const dp_vec3 normals[2], const uint32_t sides[2]) {
     const uint32_t id = w->tile.polygons[e->a].id;
-    if (dp_is_disputed(w, (dp_unpaired_edge){e->a, e->edge_a, 0}, spine, sides)) {
+    if (!w->finds_hidden &&
+        dp_is_disputed(w, (dp_unpaired_edge){e->a, e->edge_a, 0}, spine, sides)) {
         dp_leave_to_emerge(w, e->a, e->edge_a, e->b);
     } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line) &&
                dp_note_drawn(w, e->a, e->edge_a) &&
@@ -136,6 +137,7 @@ static void add(dp_finder *w, const fan *f, dp_line line, dp_half_edge across, d
 static bool shows_back(const dp_finder *w, const fan *f, bool right) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     dp_spine spine;
+    if (w->finds_hidden) return false; /* samples tell only what is seen */
     return dp_spine_ends(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, f->va)),
                          dp_v3f(dp_vertex_position(polygons, f->vb)), &spine) &&
            dp_shows_back_beside(w, &spine, right);
@@ -170,7 +172,7 @@ static void add_fold(dp_finder *w, const fan *f) {
     const dp_fold fold = dp_fold_of_sides(&f->sight, &left->near, &right->near);
     const int line =
         dp_fold_line(&fold, dp_polygon_style(w->tile.frame, w->tile.polygons[f->owner].id));
-    if (line >= 0)
+    if (line >= 0 && !(w->finds_hidden && dp_is_smooth(w->tile.frame, &fold)))
         add(w, f, (dp_line)line, left->nearest.polygon == f->owner ? right->nearest : left->nearest,
             fold.normal);
 }

@@ -39,6 +39,9 @@ static inline bool dp_may_be_folded(const dp_tile_polygon *p) {
            p->y1 - p->y0 <= DP_FOLDED;
 }
 
+/* Is a hidden fold so slight that it is left out? (hidden.c) */
+bool dp_is_smooth(const dp_frame *frame, const dp_fold *fold);
+
 /* Are back faces seen beside the spine, to its right or to its left, more than front faces?
  * (dispute.c) */
 bool dp_shows_back_beside(const dp_finder *finder, const dp_spine *spine, bool right);

@@ -5,6 +5,8 @@ bool dp_finder_begin(dp_finder *finder, const dp_frame *frame, dp_found *found) 
     finder->found = found;
     found->piece_count = found->geometry_count = 0;
     finder->lines.owners = NULL;
+    finder->lines.levels = 0;
+    finder->finds_hidden = false;
     finder->lines.streamed = false;
     dp_one_rings_init(&finder->rings, frame->flat_cosine);
     return dp_tile_begin(&finder->tile, frame);
@@ -18,13 +20,15 @@ void dp_finder_free(dp_finder *finder) {
     dp_emergence_free(&finder->emergence, &memory);
     dp_intersecting_free(&finder->intersecting, &memory);
     dp_line_store_free(&finder->lines, &memory);
+    dp_hidden_store_free(&finder->hidden, &memory);
     dp_tile_free(&finder->tile);
 }
 
 uint64_t dp_finder_bytes(const dp_finder *finder) {
     return dp_one_rings_bytes(&finder->rings) + dp_edge_store_bytes(&finder->table) +
            dp_emergence_bytes(&finder->emergence) + dp_intersecting_bytes(&finder->intersecting) +
-           dp_line_store_bytes(&finder->lines) + dp_tile_bytes(&finder->tile);
+           dp_line_store_bytes(&finder->lines) + dp_hidden_store_bytes(&finder->hidden) +
+           dp_tile_bytes(&finder->tile);
 }
 
 void dp_finder_open(dp_finder *finder, uint32_t index) {

@@ -7,6 +7,7 @@
 #include "core/spine.h"
 #include "find/edge_list.h"
 #include "find/emergence.h"
+#include "find/hidden.h"
 #include "find/intersections.h"
 #include "find/visibility.h"
 #include "raster/tile.h"
@@ -18,7 +19,9 @@ typedef struct dp_finder {
     dp_emergence emergence;
     dp_intersecting intersecting;
     dp_line_store lines;
-    dp_found *found; /* of all the worker's tiles in this frame */
+    dp_hidden_store hidden;
+    bool finds_hidden; /* the tile's second look, at all of its polygons (hidden.c) */
+    dp_found *found;   /* of all the worker's tiles in this frame */
 } dp_finder;
 
 /* Like dp_tile_…; `found` belongs to the caller (finder.c). */
@@ -32,9 +35,14 @@ void dp_find_edges(dp_finder *finder);          /* edges.c */
 void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: instead, by adjacency */
 void dp_find_emergent(dp_finder *finder);       /* emerge.c */
 void dp_find_intersections(dp_finder *finder);  /* intersect.c */
+void dp_find_crossings(dp_finder *finder);      /* intersect.c: of all polygons, in sight or not */
 void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two in turn */
 void dp_hide_points(dp_finder *finder);         /* hide.inc: behind the tile's seen polygons */
 void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visible sample points */
+
+/* Hidden lines, when all that is visible in the tile has been found: the worker's pieces from number
+ * `first` on (hidden.c). */
+void dp_find_hidden(dp_finder *finder, size_t first);
 
 /* Adds a candidate, and its sample points in this tile with numbers in [k0, k1). Fills in n, probe,
  * geometry and the final k0, k1 (visibility.c). `normals`: of polygons a and b (a's twice if there

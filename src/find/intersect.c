@@ -354,6 +354,91 @@ void dp_find_intersections(dp_finder *w) {
     add_crossings(w);
 }
 
+/* ------- crossings that nobody sees ------- */
+
+/* Cells of DP_CELL px that a polygon's box touches. */
+typedef struct cell_box {
+    uint32_t x0, y0, x1, y1;
+} cell_box;
+
+static cell_box cells_of(const dp_tile_polygon *p) {
+    return (cell_box){p->x0 / DP_CELL, p->y0 / DP_CELL, p->x1 / DP_CELL, p->y1 / DP_CELL};
+}
+
+/* Lists the tile's polygons by cell (counting sort). */
+static bool list_by_cell(dp_finder *w, uint32_t first[DP_CELLS * DP_CELLS + 1]) {
+    const dp_tile *const t = &w->tile;
+    uint32_t sum = 0;
+    for (int counting = 1; counting >= 0; counting--) {
+        for (uint32_t i = t->seen_count; i-- > 0;) {
+            const dp_tile_polygon *const p = &t->polygons[t->seen[i]];
+            if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
+            const cell_box c = cells_of(p);
+            for (uint32_t y = c.y0; y <= c.y1; y++)
+                for (uint32_t x = c.x0; x <= c.x1; x++) {
+                    if (counting)
+                        first[y * DP_CELLS + x]++;
+                    else
+                        w->intersecting.listed[--first[y * DP_CELLS + x]] = t->seen[i];
+                }
+        }
+        for (uint32_t i = 0; counting && i < DP_CELLS * DP_CELLS; i++) first[i] = sum += first[i];
+        if (counting && !DP_TILE_RESERVE(&w->tile, w, intersecting.listed, intersecting.listed_cap,
+                                         (size_t)sum + DP_INTERSECTING_ROOM))
+            return false;
+    }
+    first[DP_CELLS * DP_CELLS] = sum;
+    return true;
+}
+
+static bool put_cell(dp_finder *w, const uint32_t *polygon, uint32_t count) {
+    dp_intersecting *const own = &w->intersecting;
+    const size_t room = (size_t)count + DP_INTERSECTING_ROOM;
+    own->count = count, own->stride = (uint32_t)room;
+    if (!DP_TILE_RESERVE(&w->tile, own, polygon, polygon_cap, room) ||
+        !DP_TILE_RESERVE(&w->tile, own, met, met_cap, room) ||
+        !DP_TILE_RESERVE(&w->tile, own, members, members_cap, DP_INTERSECTING_MEMBERS * room) ||
+        !DP_TILE_RESERVE(&w->tile, own, keys, keys_cap, 3 * room))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        own->polygon[i] = polygon[i];
+        put_shape(w, &w->tile.polygons[polygon[i]], i);
+        put_keys(w, &w->tile.polygons[polygon[i]], i);
+    }
+    return true;
+}
+
+/* Is this the first of the cells that both touch? */
+static bool meet_first(const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t x, uint32_t y) {
+    const cell_box a = cells_of(p), b = cells_of(q);
+    return x == (a.x0 > b.x0 ? a.x0 : b.x0) && y == (a.y0 > b.y0 ? a.y0 : b.y0);
+}
+
+static void cross_in_cell(dp_finder *w, uint32_t x, uint32_t y) {
+    const dp_intersecting *const own = &w->intersecting;
+    for (uint32_t i = 0; i < own->count && !w->tile.failed; i++) {
+        const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)->meet(own, i, own->count);
+        for (uint32_t k = 0; k < met; k++) {
+            const uint32_t a = own->polygon[i], b = own->polygon[own->met[k]];
+            if (meet_first(&w->tile.polygons[a], &w->tile.polygons[b], x, y)) test_pair(w, a, b);
+        }
+    }
+}
+
+/* No sample says where these are: all pairs of a cell are tested. */
+void dp_find_crossings(dp_finder *w) {
+    uint32_t first[DP_CELLS * DP_CELLS + 1] = {0};
+    w->intersecting.crossing_count = 0;
+    if (!(w->tile.frame->lines & DP_INTERSECTION) || !list_by_cell(w, first)) return;
+    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) {
+        const uint32_t count = first[i + 1] - first[i];
+        if (count < 2) continue;
+        if (!put_cell(w, w->intersecting.listed + first[i], count)) return;
+        cross_in_cell(w, i % DP_CELLS, i / DP_CELLS);
+    }
+    add_crossings(w);
+}
+
 /* ------- memory ------- */
 
 static const dp_array arrays[] = {DP_ARRAY(dp_intersecting, polygon, polygon_cap),

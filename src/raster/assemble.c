@@ -13,6 +13,8 @@
 #include "raster/kernels.h"
 #include "raster/tile.h"
 
+#include <string.h>
+
 /* Plane through the points by Newell's method, for any number of points. */
 static void plane_setup(const dp_vertex *p, uint32_t n, dp_tile_polygon *out) {
     double nx = 0, ny = 0, nz = 0;
@@ -148,10 +150,32 @@ static bool draws_backs(const dp_frame *frame) {
     return !(frame->lines && dp_draws_fins(frame) && frame->styles[0].passes == 1);
 }
 
+/* Culls back faces; where hidden lines are looked for, those that it drops are kept apart. Both lists
+ * are in one order. */
+static bool cull_backs(dp_tile *w, uint32_t *back_count) {
+    const dp_raster_kernels *const kernels = dp_raster_kernels_for(w->frame->lanes);
+    const uint32_t all = *back_count;
+    w->culled_count = 0;
+    if (!w->frame->hidden) {
+        *back_count = kernels->cull(w, w->backs, all);
+        return true;
+    }
+    if (!DP_TILE_RESERVE(w, w, culled, culled_cap, (size_t)all + DP_BIN_ROOM)) return false;
+    memcpy(w->culled, w->backs, all * sizeof *w->culled);
+    const uint32_t kept = *back_count = kernels->cull(w, w->backs, all);
+    for (uint32_t i = 0, k = 0; i < all; i++) {
+        if (k < kept && w->culled[i] == w->backs[k])
+            k++;
+        else
+            w->culled[w->culled_count++] = w->culled[i];
+    }
+    return true;
+}
+
 void dp_tile_assemble(dp_tile *w) {
     const dp_raster_kernels *const kernels = dp_raster_kernels_for(w->frame->lanes);
     uint32_t count, back_count;
-    w->polygon_count = w->point_count = 0;
+    w->polygon_count = w->point_count = w->culled_count = 0;
     for (uint32_t i = 0; i < DP_STRIP_SIDES * DP_STRIP; i++)
         w->strip[i / DP_STRIP][i % DP_STRIP] = DP_DEPTH_EMPTY;
     if (!collect_ids(w, &count, &back_count)) return;
@@ -168,6 +192,14 @@ void dp_tile_assemble(dp_tile *w) {
     w->undrawn = w->polygon_count;
     w->won = 0;
     dp_tile_find_farthest(w);
-    if (w->frame->culls_backs) back_count = kernels->cull(w, w->backs, back_count);
+    if (w->frame->culls_backs && !cull_backs(w, &back_count)) return;
     kernels->assemble(w, w->backs, back_count, draws_backs(w->frame));
+}
+
+/* What was culled lies behind all samples around it: drawn again it wins none. */
+bool dp_tile_complete(dp_tile *w) {
+    if (w->culled_count)
+        dp_raster_kernels_for(w->frame->lanes)->assemble(w, w->culled, w->culled_count, true);
+    w->close.count = 0;
+    return !w->failed && dp_tile_see(w, false);
 }

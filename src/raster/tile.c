@@ -12,7 +12,7 @@ bool dp_tile_begin(dp_tile *tile, const dp_frame *frame) {
     tile->tests_near_depth =
         frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
     tile->finds_edges = frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES &&
-                        !frame->styles[0].edge_table_off &&
+                        (!frame->styles[0].edge_table_off || frame->hidden) &&
                         frame->styles[0].edges != DP_EDGES_ADJACENCY;
     dp_sampling_init(&tile->sampling, frame->target.samples);
     dp_block_init(&tile->block, frame->target.samples);
@@ -20,12 +20,17 @@ bool dp_tile_begin(dp_tile *tile, const dp_frame *frame) {
                       sizeof *tile->winner);
 }
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_tile, winner, winner_cap),   DP_ARRAY(dp_tile, ids, ids_cap),
-    DP_ARRAY(dp_tile, backs, backs_cap),     DP_ARRAY(dp_tile, polygons, polygons_cap),
-    DP_ARRAY(dp_tile, normals, normals_cap), DP_ARRAY(dp_tile, unsure, unsure_cap),
-    DP_ARRAY(dp_tile, points, points_cap),   DP_ARRAY(dp_tile, keys, keys_cap),
-    DP_ARRAY(dp_tile, seen, seen_cap),       DP_ARRAY(dp_tile, seen_words, seen_words_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_tile, winner, winner_cap),
+                                  DP_ARRAY(dp_tile, ids, ids_cap),
+                                  DP_ARRAY(dp_tile, backs, backs_cap),
+                                  DP_ARRAY(dp_tile, culled, culled_cap),
+                                  DP_ARRAY(dp_tile, polygons, polygons_cap),
+                                  DP_ARRAY(dp_tile, normals, normals_cap),
+                                  DP_ARRAY(dp_tile, unsure, unsure_cap),
+                                  DP_ARRAY(dp_tile, points, points_cap),
+                                  DP_ARRAY(dp_tile, keys, keys_cap),
+                                  DP_ARRAY(dp_tile, seen, seen_cap),
+                                  DP_ARRAY(dp_tile, seen_words, seen_words_cap)};
 
 void dp_tile_free(dp_tile *tile) {
     if (!tile->memory.free) return; /* never used */

@@ -49,6 +49,10 @@ static const float dp_away[4] = {0, 0, 0, DP_AWAY};
 /* normals[i][3] of a back face in a tile where some are seen: its normal is turned to the eye. */
 #define DP_TURNED 1
 
+/* normals[i][3] of a back face where hidden lines are looked for (dp_tile_complete): its normal is
+ * as it is wound. */
+#define DP_BACK (-1)
+
 /* normals[i][3] of a front face whose normal is unsure. Rough: right to DP_ROUGH_ANGLE, enough to
  * tell that a vertex is flat; to be made again if one of its edges is listed. Unknown: not made
  * yet. */
@@ -112,24 +116,25 @@ typedef struct dp_tile {
     uint32_t *winner; /* by sample: tile polygon; UINT32_MAX: none */
 
     uint32_t *ids, *backs; /* frame polygons of the tile; backs: triangles that face away */
+    uint32_t *culled;      /* for hidden lines: those of the latter that lie hidden */
     dp_tile_polygon *polygons;
     bool finds_edges;         /* by the edge table: normals are wanted */
     float plane_normal[3][3]; /* turns a plane's d0 (orthographic: -1), dx, dy into its normal */
-    float (*normals)[4];      /* by polygon: x, y, z; and 0, DP_TURNED, DP_AWAY, DP_ROUGH or
-                                 DP_UNKNOWN */
+    float (*normals)[4];      /* by polygon: x, y, z; and 0, DP_TURNED, DP_BACK, DP_AWAY, DP_ROUGH
+                                 or DP_UNKNOWN */
     uint32_t *unsure;         /* front faces whose normals are to be made */
     dp_vertex *points;        /* tile space; key: of the corner's position, unless the polygon is
                             clipped */
     uint32_t *keys;           /* key of corner k of triangle i at k * keys_stride + i */
     uint32_t *seen;           /* numbers of polygons that are not hidden, ascending */
     uint32_t *seen_words;     /* see dp_seen_words */
-    size_t winner_cap, ids_cap, backs_cap, polygons_cap, normals_cap, unsure_cap, points_cap,
-        keys_cap, seen_cap, seen_words_cap;
+    size_t winner_cap, ids_cap, backs_cap, culled_cap, polygons_cap, normals_cap, unsure_cap,
+        points_cap, keys_cap, seen_cap, seen_words_cap;
     uint32_t won;     /* not 0: a sample was won since it was last set to 0 */
     bool sees_backs;  /* some back face is seen, in the tile or in the strip around it */
     uint32_t undrawn; /* back faces among this many first polygons are not drawn yet */
     uint32_t keys_stride, seen_stride;
-    uint32_t polygon_count, point_count, seen_count, unsure_count;
+    uint32_t polygon_count, point_count, seen_count, unsure_count, culled_count;
 
     dp_close_samples close; /* to be tested */
     /* pixels where two front faces may cross; where a front and a back face may */
@@ -162,7 +167,10 @@ void dp_tile_assemble(dp_tile *tile);          /* assemble.c: draws faces except
 void dp_tile_find_farthest(dp_tile *tile);     /* cull.c */
 void dp_tile_faces(dp_tile *tile);             /* cull.c: … some back faces, which this draws */
 bool dp_tile_see(dp_tile *tile, bool culling); /* cull.c: lists what is not hidden, or all */
-void dp_tile_surface(dp_tile *tile);           /* surface.c */
+/* assemble.c: makes the polygons that were culled as well, and lists all as seen, when the tile's
+ * surface is done. No sample changes. False: out of memory. */
+bool dp_tile_complete(dp_tile *tile);
+void dp_tile_surface(dp_tile *tile); /* surface.c */
 void dp_tile_empty_surface(dp_tile *tile);
 
 /* Pixel sizes: what is further behind the surface than this is well behind it (cull.c). */
@@ -199,6 +207,9 @@ bool dp_tile_exact_normals(dp_tile *tile);
 
 /* Make the normals of seen back faces, turned to the eye (normals.c). */
 void dp_tile_turn_normals(dp_tile *tile);
+
+/* Make those of all seen polygons as they are wound (normals.c). */
+bool dp_tile_wound_normals(dp_tile *tile);
 
 /* Makes triangle `index` again in the general way. Draws it if it is a front face or, when `backs`,
  * a back face that is not hidden (assemble.c). */

@@ -2,14 +2,16 @@
  *
  * The coverage of a pixel is the overlap of a box one pixel wide, moved across the stroke, with the
  * stroke's width: exact for straight strokes, and the same on both sides of a joint. Strokes of one
- * class and colour are united by the largest coverage, so that joints of many short segments show
+ * class, level and colour are united by the largest coverage, so that joints of many short segments show
  * no seams; then each class is blended over the picture in the order of dp_layers.
  *
  * Only a surface that is clearly nearer than its spine hides a stroke: beside the spine the surface
  * may come nearer (the sides of a valley) and still belong to it, and so may what lies behind the
  * planes of the polygons that meet at the spine (a rounded outline). Strokes are cut where the
  * surface hides them only if outlines are drawn, at which they then end; without outlines a cut
- * looks like a defect, and strokes end round. */
+ * looks like a defect, and strokes end round.
+ *
+ * Hidden lines lie below visible ones, the highest level first, and are not hidden again. */
 #include "sink/raster.h"
 
 #include "sink/kernels.h"
@@ -35,7 +37,8 @@ void dp_place_strokes(void *arg, uint32_t first, uint32_t count, dp_tile_rect *r
                       uint32_t worker) {
     const dp_inking *const k = arg;
     (void)worker;
-    for (uint32_t i = 0; i < count; i++) rects[i] = dp_stroke_rect(&k->drawing->strokes[first + i]);
+    for (uint32_t i = 0; i < count; i++)
+        rects[i] = dp_stroke_rect(&dp_inked(k->drawing)[first + i]);
 }
 
 static float distance_to(const dp_stroke *s, float x, float y, float *t) {
@@ -49,7 +52,7 @@ static float distance_to(const dp_stroke *s, float x, float y, float *t) {
 
 bool dp_stroke_touches(void *arg, uint32_t index, int32_t tile_x, int32_t tile_y, uint32_t worker) {
     const dp_inking *const k = arg;
-    const dp_stroke *const s = &k->drawing->strokes[index];
+    const dp_stroke *const s = &dp_inked(k->drawing)[index];
     (void)worker;
     float t;
     const float half = DP_TILE * 0.5f;
@@ -191,26 +194,33 @@ bool dp_fetch_strokes(const dp_inking *k, dp_ink_worker *w, uint32_t tile, size_
 /* So many strokes ahead they, and the samples under them, are prefetched. */
 enum { LATER = 12, SOON = 4 };
 
-/* Puts the tile's strokes in the order of their classes, each class's as they came: `first` is
- * where each begins, by dp_line. */
+/* Layers of ink: classes by level, level 0 is visible. */
+enum { LAYERS = (DP_LEVELS + 1) * DP_LINE_COUNT };
+static uint32_t layer_of(uint32_t level, uint32_t line) { return level * DP_LINE_COUNT + line; }
+
+/* Puts the tile's strokes in the order of their layers, each one's as they came: `first` is where
+ * each begins. */
 static bool sort_strokes(const dp_inking *k, dp_ink_worker *w, size_t count,
-                         size_t first[DP_LINE_COUNT + 1]) {
+                         size_t first[LAYERS + 1]) {
     if (!dp_reserve(k->frame->memory, &w->sorted, &w->sorted_cap, count, sizeof *w->sorted))
         return false;
-    const dp_stroke *const strokes = k->drawing->strokes;
-    size_t next[DP_LINE_COUNT] = {0}, sum = 0;
+    const dp_stroke *const strokes = dp_inked(k->drawing);
+    size_t next[LAYERS] = {0}, sum = 0;
     for (size_t i = 0; i < count; i++) {
         if (i + LATER < count) __builtin_prefetch(&strokes[w->strokes[i + LATER]]);
-        next[strokes[w->strokes[i]].line]++;
+        const dp_stroke *const s = &strokes[w->strokes[i]];
+        next[layer_of(s->level, s->line)]++;
     }
-    for (int i = 0; i < DP_LINE_COUNT; i++) {
+    for (int i = 0; i < LAYERS; i++) {
         const size_t n = next[i];
         first[i] = next[i] = sum;
         sum += n;
     }
-    first[DP_LINE_COUNT] = sum;
-    for (size_t i = 0; i < count; i++)
-        w->sorted[next[strokes[w->strokes[i]].line]++] = w->strokes[i];
+    first[LAYERS] = sum;
+    for (size_t i = 0; i < count; i++) {
+        const dp_stroke *const s = &strokes[w->strokes[i]];
+        w->sorted[next[layer_of(s->level, s->line)]++] = w->strokes[i];
+    }
     return true;
 }
 
@@ -229,7 +239,7 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
 
 void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
     const dp_frame *const frame = k->frame;
-    size_t count, first[DP_LINE_COUNT + 1];
+    size_t count, first[LAYERS + 1];
     if (!dp_fetch_strokes(k, worker, tile, &count) || !sort_strokes(k, worker, count, first)) {
         worker->failed = true;
         return;
@@ -238,18 +248,21 @@ void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
     const bool empty = frame->tile_pieces[tile].empty;
-    const tile_ink ink = {.frame = frame,
-                          .strokes = k->drawing->strokes,
-                          .worker = worker,
-                          .depth = empty ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
-                          .hides = !empty && frame->lines & DP_SILHOUETTE,
-                          .x0 = x0,
-                          .y0 = y0,
-                          .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
-                          .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
+    tile_ink ink = {.frame = frame,
+                    .strokes = dp_inked(k->drawing),
+                    .worker = worker,
+                    .depth = empty ? NULL : frame->depth + (size_t)tile * frame->tile_samples,
+                    .x0 = x0,
+                    .y0 = y0,
+                    .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
+                    .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);
-    for (int i = 0; i < DP_LINE_COUNT; i++) {
-        const dp_line line = dp_layers[i];
-        ink_layer(&ink, worker->sorted + first[line], first[line + 1] - first[line], line);
+    for (uint32_t level = k->drawing->inks_hidden ? DP_LEVELS + 1 : 1; level-- > 0;) {
+        ink.hides = !level && !empty && frame->lines & DP_SILHOUETTE;
+        for (int i = 0; i < DP_LINE_COUNT; i++) {
+            const dp_line line = dp_layers[i];
+            const size_t *const from = first + layer_of(level, line);
+            ink_layer(&ink, worker->sorted + from[0], from[1] - from[0], line);
+        }
     }
 }

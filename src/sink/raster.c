@@ -48,12 +48,15 @@ typedef struct kind {
 static const kind plain = {dp_place_strokes, dp_stroke_touches, dp_ink_plain},
                   stylized = {dp_place_stylized, NULL, dp_ink_stylized};
 
-static const kind *kind_of(const dp_inking *k) { return k->drawing->stylizes ? &stylized : &plain; }
+static const kind *kind_of(const dp_inking *k) {
+    return k->drawing->stylizes && !k->plain ? &stylized : &plain;
+}
 
 static dp_result begin(void *user, const dp_sheet *sheet, dp_diag *diag) {
     dp_inking *const k = user;
     const dp_frame *const f = k->frame;
-    const size_t count = k->drawing->stylizes ? k->drawing->stylized.count : k->drawing->count;
+    const size_t count =
+        kind_of(k) == &stylized ? k->drawing->stylized.count : dp_inked_count(k->drawing);
     (void)sheet;
     for (uint32_t i = 0; i < k->raster->count; i++) k->raster->workers[i].failed = false;
     return dp_bins_fill(&k->raster->bins, (uint32_t)count, f->tiles_x, f->tiles_y,

@@ -13,7 +13,7 @@ typedef struct dp_ink_worker {
     uint64_t row[64];       /* pixels of `coverage` that are set */
     float nearest[64 * 64]; /* brush.c: px from the spine; colour */
     dp_color color[64 * 64];
-    uint32_t *strokes, *sorted; /* of the tile: as they come; ink.c: by class */
+    uint32_t *strokes, *sorted; /* of the tile: as they come; ink.c: by level and class */
     size_t strokes_cap, sorted_cap;
     bool failed;
 } dp_ink_worker;
@@ -37,6 +37,7 @@ typedef struct dp_inking {
     /* Runs a task for every tile; tells progress (draw/draw.c). */
     dp_result (*for_tiles)(void *user, dp_task *task, void *arg, dp_diag *diag);
     void *user;
+    bool plain; /* the strokes that plain ink takes, though there are stylized ones */
 } dp_inking;
 
 /* A sink that inks `inking`, which it borrows. */

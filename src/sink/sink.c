@@ -21,9 +21,9 @@ static dp_sheet sheet_of(const handing *h) {
                       .segments = h->drawing->count};
 }
 
-static dp_line line_of(const handing *h, const dp_chain *chain) {
+static const dp_segment *head_of(const handing *h, const dp_chain *chain) {
     const dp_chain_store *const store = &h->drawing->chains;
-    return h->drawing->segments[store->links[chain->first].segment].line;
+    return &h->drawing->segments[store->links[chain->first].segment];
 }
 
 static dp_result send_stroke(const handing *h, uint32_t index) {
@@ -44,10 +44,11 @@ static dp_result send_stroke(const handing *h, uint32_t index) {
     return h->sink->stroke(h->sink->user, &stroke, h->diag);
 }
 
-static dp_result send_layer(const handing *h, dp_line line) {
+static dp_result send_layer(const handing *h, uint32_t level, dp_line line) {
     bool any = false;
     for (uint32_t c = 0; c < h->drawing->chains.chain_count; c++) {
-        if (line_of(h, &h->drawing->chains.chains[c]) != line) continue;
+        const dp_segment *const head = head_of(h, &h->drawing->chains.chains[c]);
+        if (head->line != line || head->level != level) continue;
         dp_result result = DP_OK;
         if (!any && h->sink->layer) result = h->sink->layer(h->sink->user, line, h->diag);
         if (!result && h->sink->stroke) result = send_stroke(h, c);
@@ -70,7 +71,9 @@ static dp_result send_strokes(handing *h) {
     h->order =
         dp_alloc_array(h->frame->memory, longest_chain(&h->drawing->chains) + 1u, sizeof *h->order);
     if (!h->order) return dp_fail(h->diag, DP_ERR_MEMORY, "out of memory for a stroke");
-    for (int i = 0; i < DP_LINE_COUNT && !result; i++) result = send_layer(h, dp_layers[i]);
+    for (uint32_t level = h->drawing->inks_hidden ? DP_LEVELS + 1 : 1; level-- > 0;)
+        for (int i = 0; i < DP_LINE_COUNT && !result; i++)
+            result = send_layer(h, level, dp_layers[i]);
     dp_free(h->frame->memory, h->order);
     return result;
 }

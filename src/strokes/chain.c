@@ -1,6 +1,6 @@
 /* Joining segments end to end.
  *
- *     put ends with equal bits, class and colour into one node (hash table)
+ *     put ends with equal bits, class, level and colour into one node (hash table)
  *     in each node: pair the two ends that go on straightest, again and again
  *     over small gaps: pair open ends, nearest first (grid)
  *     walk from partner to partner: each walk is a chain
@@ -52,7 +52,8 @@ static dp_point end_point(const chaining *c, uint32_t end) {
 static bool same_node(const chaining *c, uint32_t e, uint32_t f) {
     const dp_point p = end_point(c, e), q = end_point(c, f);
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
-    return p.x == q.x && p.y == q.y && p.d == q.d && s->line == t->line && s->color == t->color;
+    return p.x == q.x && p.y == q.y && p.d == q.d && s->line == t->line && s->level == t->level &&
+           s->color == t->color;
 }
 
 static uint32_t node_hash(const chaining *c, uint32_t end) {
@@ -149,8 +150,8 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
     const dp_point p = end_point(c, e), q = end_point(c, f);
     *distance = dp_hypotf(q.x - p.x, q.y - p.y);
     return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) &&
-           fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->color == t->color &&
-           may_join(c, e, f);
+           fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->level == t->level &&
+           s->color == t->color && may_join(c, e, f);
 }
 
 static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory,

@@ -36,7 +36,7 @@ typedef struct dp_chain_rule {
                            none has. NULL: none at all */
 } dp_chain_rule;
 
-/* Chains strokes[count] where ends of one class and colour are equal, bit for bit, then over small
+/* Chains strokes[count] where ends of one class, level and colour are equal, bit for bit, then over small
  * gaps. Where more than two meet, the straightest pairs go on. Chains come in the order of their
  * first segments. False when memory is out. */
 bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule,

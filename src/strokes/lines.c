@@ -34,7 +34,7 @@ static void follow_pieces(dp_lines *d) {
     }
 }
 
-static void sort_segments(dp_lines *d) {
+void dp_sort_segments(dp_lines *d) {
     for (size_t i = 0; i < d->count; i++) d->pieces[i].geometry = (uint32_t)i;
     if (d->count) dp_sort(d->pieces, d->count, sizeof *d->pieces, by_edge);
     follow_pieces(d);
@@ -58,11 +58,12 @@ static bool find_sides(const dp_frame *frame, dp_lines *d) {
     return true;
 }
 
-/* Depth d of the nearest end of any segment. */
+/* Depth d of the nearest end of any visible segment. */
 static double nearest_depth(const dp_lines *d) {
     double nearest = (double)DP_DEPTH_EMPTY;
     for (size_t i = 0; i < d->count; i++)
-        nearest = dp_max(nearest, (double)dp_maxf(d->strokes[i].a.d, d->strokes[i].b.d));
+        if (!d->strokes[i].level)
+            nearest = dp_max(nearest, (double)dp_maxf(d->strokes[i].a.d, d->strokes[i].b.d));
     return nearest;
 }
 
@@ -71,9 +72,11 @@ static float gap_outside(const dp_frame *f) {
     return dp_minf(GAP, f->styles[0].line[DP_LINE_SILHOUETTE].width / 4);
 }
 
-/* Plain strokes are chained where their ends are equal, and nowhere else. */
+/* They are chained where their ends are equal, and nowhere else. */
+dp_chain_rule dp_plain_chain_rule(void) { return (dp_chain_rule){.sharpest = TURN}; }
+
 static dp_chain_rule rule_of(const dp_frame *frame, const dp_lines *d) {
-    if (!d->stylizes) return (dp_chain_rule){.sharpest = TURN};
+    if (!d->stylizes) return dp_plain_chain_rule();
     return (dp_chain_rule){.sharpest = TURN,
                            .side = d->sides,
                            .gap = GAP,
@@ -94,7 +97,7 @@ static void number_segments(dp_lines *d) {
 
 bool dp_chain_lines(const dp_frame *frame, dp_lines *d) {
     if (d->chained) return true;
-    sort_segments(d);
+    dp_sort_segments(d);
     if (d->stylizes && !find_sides(frame, d)) return false;
     const dp_chain_rule rule = rule_of(frame, d);
     if (!dp_make_chains(d->strokes, (uint32_t)d->count, &rule, frame->memory, &d->chains))

@@ -1,6 +1,7 @@
 /* A drawing: the lines of one picture, from visible pieces to strokes.
  *
  *     pieces → segments, and a stroke each → chains → stylized strokes, if a style asks for them
+ *                                                   → dashes of hidden lines, if it asks for those
  *
  * Sinks take it from here (src/sink/). */
 #ifndef DP_STROKES_LINES_H
@@ -15,6 +16,12 @@ typedef struct dp_lines {
     dp_stroke *strokes;   /* one per segment */
     size_t count;         /* of the three */
     size_t pieces_cap, segments_cap, strokes_cap;
+
+    /* With hidden lines, what is inked of strokes: visible ones, unless they are stylized, then the
+     * dashes of hidden ones (hidden.c); else `strokes` are. */
+    bool inks_hidden;
+    dp_stroke *inked;
+    size_t inked_count, inked_cap;
     dp_color paper, surface; /* of the first style */
 
     bool stylizes; /* the style asks for stylized strokes */
@@ -35,6 +42,28 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *dr
 
 /* The order of pieces by polygon, edge and sample points, for sorting. */
 int dp_piece_order(const dp_piece *left, const dp_piece *right);
+
+/* The rule by which plain strokes are chained (lines.c). */
+dp_chain_rule dp_plain_chain_rule(void);
+
+/* Puts segments into the order of polygons and edges (lines.c). */
+void dp_sort_segments(dp_lines *drawing);
+
+/* Sets a segment's and its stroke's level, width and colour by the piece's (segments.c). */
+void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segment,
+                  dp_stroke *stroke);
+
+/* The strokes that plain ink takes. */
+static inline const dp_stroke *dp_inked(const dp_lines *d) {
+    return d->inks_hidden ? d->inked : d->strokes;
+}
+static inline size_t dp_inked_count(const dp_lines *d) {
+    return d->inks_hidden ? d->inked_count : d->count;
+}
+
+static inline bool dp_is_hidden_inked(const dp_lines *d) {
+    return d->inks_hidden && d->inked_count;
+}
 
 /* Puts segments into an order that does not depend on tiles, joins them to chains and numbers them,
  * once a picture: who asks for it pays for it, as plain ink does not need it (lines.c). False when

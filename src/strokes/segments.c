@@ -1,4 +1,4 @@
-/* From the tiles' pieces to visible feature segments.
+/* From the tiles' pieces to feature segments.
  *
  *     join pieces: a spine that crosses a tile border has a piece in each tile; the sample points
  *         of the second begin where those of the first end
@@ -24,7 +24,8 @@ enum { BLOCK = DP_TUNED(128, 7) };
 
 static const dp_array arrays[] = {
     DP_ARRAY(dp_lines, pieces, pieces_cap), DP_ARRAY(dp_lines, segments, segments_cap),
-    DP_ARRAY(dp_lines, strokes, strokes_cap), DP_ARRAY(dp_lines, sides, sides_cap)};
+    DP_ARRAY(dp_lines, strokes, strokes_cap), DP_ARRAY(dp_lines, sides, sides_cap),
+    DP_ARRAY(dp_lines, inked, inked_cap)};
 
 void dp_lines_free(dp_lines *drawing, const dp_allocator *memory) {
     dp_arrays_free(memory, drawing, DP_ARRAYS(arrays));
@@ -44,14 +45,15 @@ int dp_piece_order(const dp_piece *l, const dp_piece *r) {
     if (l->edge != r->edge) return ascending(l->edge, r->edge);
     if (l->b != r->b) return ascending(l->b, r->b);
     if (l->line != r->line) return ascending(l->line, r->line);
-    return ascending(l->k0, r->k0);
+    if (l->k0 != r->k0) return ascending(l->k0, r->k0);
+    return ascending(l->level, r->level);
 }
 
 static int by_edge(const void *left, const void *right) { return dp_piece_order(left, right); }
 
 static bool continues(const dp_piece *p, const dp_piece *q) {
     return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line &&
-           p->k1 == q->k0;
+           p->level == q->level && p->k1 == q->k0;
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
@@ -207,24 +209,32 @@ static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, u
     }
 }
 
+void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segment,
+                  dp_stroke *stroke) {
+    const dp_style *const style = dp_polygon_style(frame, piece->a);
+    const dp_line_style *const line = piece->level
+                                          ? &style->hidden.line[piece->level - 1][piece->line]
+                                          : &style->line[piece->line];
+    segment->level = stroke->level = piece->level;
+    segment->width = line->width;
+    segment->color = stroke->color = line->color;
+    stroke->half_width = line->width / 2;
+}
+
 static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_segment_batch *made,
                          uint32_t i, dp_segment *segment, dp_stroke *stroke) {
-    const dp_line_style *const line = &dp_polygon_style(frame, piece->a)->line[piece->line];
     segment->line = (dp_line)piece->line;
     segment->polygon = source_number(frame, piece->a);
     segment->other = source_number(frame, piece->b);
     segment->edge = piece->edge;
     segment->group = frame->polygons.groups ? frame->polygons.groups[piece->a] : 0;
-    segment->level = segment->chain = segment->place = 0;
+    segment->chain = segment->place = 0;
     segment->reversed = false;
-    segment->width = line->width;
-    segment->color = line->color;
     stroke->a = take_end(frame, made, i, 0, segment->a, segment->world_a);
     stroke->b = take_end(frame, made, i, 1, segment->b, segment->world_b);
     for (int k = 0; k < 2; k++) take_line_end(frame, made, i, piece, k, segment);
-    stroke->half_width = line->width / 2;
-    stroke->color = line->color;
     stroke->line = piece->line;
+    dp_take_look(frame, piece, segment, stroke);
     for (int k = 0; k < 2; k++) take_plane(made, i, k, piece, stroke->plane[k]);
 }
 
@@ -256,6 +266,7 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *st
         return false;
     store->count = count;
     store->chained = false;
+    store->inks_hidden = false;
     store->stylizes = dp_is_stylized(frame);
     store->paper = frame->styles[0].paper;
     store->surface = frame->styles[0].surface;

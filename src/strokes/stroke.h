@@ -1,4 +1,4 @@
-/* Strokes: visible feature segments as they are inked. */
+/* Strokes: feature segments as they are inked. */
 #ifndef DP_STROKES_STROKE_H
 #define DP_STROKES_STROKE_H
 
@@ -10,7 +10,8 @@ typedef struct dp_stroke {
     float half_width;  /* px */
     float plane[2][3]; /* d0, dx, dy of the polygons that meet at the spine; NaN: none */
     dp_color color;
-    uint8_t line; /* dp_line */
+    uint8_t line;  /* dp_line */
+    uint8_t level; /* as in dp_segment; 0: visible */
 } dp_stroke;
 
 /* How near a surface may come to a stroke without hiding it: depth, at (x, y) on the screen,

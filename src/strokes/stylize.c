@@ -208,6 +208,7 @@ static float light_of(const dp_frame *f, const dp_piece *piece) {
 static void find_distances(stylizer *h) {
     h->nearest = INFINITY, h->farthest = -INFINITY;
     for (size_t i = 0; i < h->drawing->count; i++) {
+        if (h->drawing->segments[i].level) continue;
         const float a = h->drawing->segments[i].a[2], b = h->drawing->segments[i].b[2];
         h->nearest = dp_minf(h->nearest, dp_minf(a, b)),
         h->farthest = dp_maxf(h->farthest, dp_maxf(a, b));
@@ -434,6 +435,11 @@ static bool find_lights(stylizer *h) {
     return true;
 }
 
+/* Hidden lines are dashed, not stylized (hidden.c). */
+static bool is_hidden(const dp_lines *d, const dp_chain *chain) {
+    return d->segments[d->chains.links[chain->first].segment].level;
+}
+
 bool dp_stylize(const dp_frame *frame, dp_lines *drawing) {
     dp_stylized_store *const store = &drawing->stylized;
     stylizer h = {
@@ -444,6 +450,8 @@ bool dp_stylize(const dp_frame *frame, dp_lines *drawing) {
     find_distances(&h);
     uint32_t id = 0;
     for (uint32_t c = 0; c < drawing->chains.chain_count; c++)
-        if (!draw_chain(&h, &drawing->chains.chains[c], &id)) return false;
+        if (!is_hidden(drawing, &drawing->chains.chains[c]) &&
+            !draw_chain(&h, &drawing->chains.chains[c], &id))
+            return false;
     return store->count < UINT32_MAX;
 }
