@@ -21,13 +21,28 @@ static void wrap(FILE *out, const char *text) {
     fputc('\n', out);
 }
 
-static void help_option(FILE *out, const option *o) {
-    char head[96];
+/* Prints an option and its words, in more lines where they are many; the column it ends in. */
+static int help_head(FILE *out, const option *o) {
     const char letter[] = {'-', o->letter, ',', ' ', 0};
-    snprintf(head, sizeof head, "  %s--%s%s%s", o->letter ? letter : "", o->name,
-             o->argument ? " " : "", o->argument ? o->argument : "");
-    fprintf(out, "%-*s", INDENT, head);
-    if (strlen(head) >= INDENT) fprintf(out, "\n%*s", INDENT, "");
+    int column = fprintf(out, "  %s--%s", o->letter ? letter : "", o->name);
+    const char *at = o->argument ? o->argument : "";
+    if (*at) column += fprintf(out, " ");
+    while (*at) {
+        int length = (int)strcspn(at, "|");
+        length += at[length] == '|';
+        if (column + length > COLUMNS) column = fprintf(out, "\n      ") - 1;
+        column += fprintf(out, "%.*s", length, at);
+        at += length;
+    }
+    return column;
+}
+
+static void help_option(FILE *out, const option *o) {
+    const int column = help_head(out, o);
+    if (column < INDENT)
+        fprintf(out, "%*s", INDENT - column, "");
+    else
+        fprintf(out, "\n%*s", INDENT, "");
     wrap(out, o->help);
 }
 

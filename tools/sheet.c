@@ -306,10 +306,19 @@ static const char *file_name(const char *path) {
     return !strcmp(path, "-") ? "" : slash && slash[1] ? slash + 1 : path;
 }
 
+/* What a model is called, where it has no title: its file's name without the ending. */
+static void name_model(const char *path, char name[TEXT_BYTES]) {
+    const char *const colon = strchr(path, ':'), *const file = file_name(path);
+    snprintf(name, TEXT_BYTES, "%s", !strncmp(path, "shape:", 6) && colon ? colon + 1 : file);
+    char *const dot = strrchr(name, '.');
+    if (dot && dot > name) *dot = 0;
+}
+
 static void put_frame(const tool_settings *s, double scale, page_plan *plan) {
     static const char *const units[] = {"mm", "mm", "cm", "m", "in", "ft"};
     const double usual = 10;
-    char text[32];
+    char text[32], name[TEXT_BYTES];
+    name_model(s->model, name);
     page_scale_text(scale, text);
     if (s->scale.paper > 0) snprintf(text, sizeof text, "%g:%g", s->scale.paper, s->scale.model);
     const title_block block = {
@@ -317,7 +326,7 @@ static void put_frame(const tool_settings *s, double scale, page_plan *plan) {
         .top = s->has_margin ? s->margin[MARGIN_TOP] : usual,
         .right = plan->mm_width - (s->has_margin ? s->margin[MARGIN_RIGHT] : usual),
         .bottom = plan->mm_height - (s->has_margin ? s->margin[MARGIN_BOTTOM] : usual),
-        .title = s->title ? s->title : file_name(s->model),
+        .title = s->title ? s->title : name,
         .model = file_name(s->model),
         .scale = text,
         .unit = units[s->unit],

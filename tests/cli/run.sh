@@ -758,7 +758,7 @@ outputs_beside() {
     run 0 shape:gear -o ./a=b.png --size 60x40
     is_png ./a=b.png
 }
-# A plane without the picture; and one picture at a time.
+# A plane without the picture; and one of a kind.
 planes_alone() {
     run 0 shape:cube $small -o depth=both.png -o out.png
     rm out.png
@@ -773,7 +773,6 @@ planes_alone() {
     run 0 shape:cube $small -o edge-map=map.png
     is_png map.png
     wrong shape:cube -o depth=- -o id=- -- 'only one output can go to standard output'
-    wrong shape:cube -o a.png -o b.png -- 'one picture at a time: "b.png" comes after "a.png"'
     wrong shape:cube -o depth=a.png -o depth=b.png -- 'one depth at a time'
     wrong make cube -o a.ply -o b.ply -- 'one model at a time'
     absent a.png
@@ -936,7 +935,308 @@ absurd_thresholds() {
     done
 }
 
-tests="strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+# ---- vectors, pages, sheets ----
+
+# is_vector FORMAT FILE: the file begins and ends as that format does.
+is_vector() {
+    local first last
+    case $1 in
+    svg) first='<?xml' last='</svg>' ;;
+    pdf) first='%PDF-1.' last='%%EOF' ;;
+    eps) first='%!PS-Adobe-3.0 EPSF-3.0' last='%%EOF' ;;
+    dxf) first='' last=EOF ;;
+    json) first='{' last='}' ;;
+    esac
+    [ "$(head -c ${#first} "$2")" = "$first" ] || fail "$2 does not begin with $first"
+    [ "$(tail -n 1 "$2" | tr -d '\r')" = "$last" ] || fail "$2 does not end with $last"
+}
+# png_dpi FILE: pixels per metre of its pHYs chunk; nothing without one.
+png_dpi() {
+    [ "$(tail -c +38 "$1" | head -c 4)" = pHYs ] || return
+    od -An -tu1 -j41 -N9 "$1" | awk '{print $1*16777216+$2*65536+$3*256+$4 "x" $5*16777216+$6*65536+$7*256+$8 "x" $9}'
+}
+# svg_size FILE: as its head has it.
+svg_size() { sed -n 's/.*<svg[^>]* width="\([^"]*\)" height="\([^"]*\)".*/\1x\2/p' "$1"; }
+
+vectors_by_ending() {
+    for format in svg pdf eps dxf json; do
+        run 0 shape:gear $small -o out.$format
+        silent out
+        is_vector $format out.$format
+        says err "drypoint: out.$format: "
+        says err ' paths, '
+        run 0 shape:gear $small -q -o - --format $format
+        silent err
+        cmp -s out out.$format || fail "$format: standard output differs"
+        run 0 shape:gear $small -q -o "OUT.${format^^}"
+        cmp -s "OUT.${format^^}" out.$format || fail "$format: capital letters differ"
+    done
+    run 0 shape:gear $small -o out.dxf
+    says err 'a unit is a millimetre'
+    run 0 shape:gear $small -q -o segments=paths.json
+    cmp -s paths.json out.json || fail "segments= differs from -o out.json"
+    run 0 shape:gear $small -o - --format png
+    is_png out
+    silent err
+}
+several_outputs() {
+    run 0 shape:bolt $small -o a.png -o b.png -o a.svg -o b.SVG -o segments=a.json -o depth=z.png -o trace=t.txt
+    is_png a.png
+    cmp -s a.png b.png || fail "two pictures of one run differ"
+    cmp -s a.svg b.SVG || fail "two drawings of one run differ"
+    says err 'a.json and 2 more: '
+    is_vector svg a.svg
+    is_png z.png
+    run 0 shape:bolt $small -q -o alone.svg # no pixels are drawn
+    cmp -s alone.svg a.svg || fail "the picture changes the paths"
+    run 0 shape:bolt $small -q -o - -o both.svg
+    is_png out
+    cmp -s both.svg a.svg || fail "standard output changes the paths"
+    run 0 shape:bolt $small -q -o - -o both.png --format svg
+    cmp -s out a.svg || fail "--format svg for standard output alone"
+    is_png both.png
+}
+wrong_outputs() {
+    wrong shape:cube -o a.svg -o ./a.svg -o ./a.svg -- 'two outputs go to ./a.svg'
+    wrong shape:cube -o - -o - -- 'only one output can go to standard output'
+    wrong shape:cube -o - --format svg -o segments=- -- 'only one output can go to standard output'
+    wrong shape:cube -o out.ai -- '-o out.ai: drawings are written as .png, .svg, .pdf, .eps, .dxf or .json; name it out.png'
+    wrong shape:cube -o - --format ai -- '--format: "ai" is none of png|svg|pdf|eps|dxf|json'
+    wrong shape:cube -o a.svg --format pdf -- '--format is for outputs whose name does not end in a format'
+    wrong shape:cube -o segments= -- 'a file is missing; give segments=FILE.json'
+    wrong shape:cube -o segment=a.json -- 'did you mean segments?'
+    wrong make cube -o a.svg -- 'a.ply'
+    wrong bench shape:cube --page A4 -- 'does not belong to'
+    wrong info shape:cube --sheet iso -- 'does not belong to'
+    run 0 make cube -o cube.obj
+    wrong cube.obj -o ./cube.obj --format svg -- 'is the model'
+    local many=()
+    for k in $(seq 1 17); do many+=(-o $k.svg); done
+    wrong shape:cube "${many[@]}" -- '17.svg is one too many'
+    absent a.svg
+}
+# A disk that is full leaves the old file; so does a run that fails.
+vectors_that_fail() {
+    echo old >out.svg
+    run 1 missing.obj -o out.svg
+    [ "$(cat out.svg)" = old ] || fail "the old file is gone"
+    (
+        trap '' XFSZ
+        ulimit -f 1
+        "$program" shape:gear -q -o out.svg 2>err
+    )
+    [ $? = 1 ] || fail "a file that is too large for the disk"
+    one_line
+    says err 'cannot write out.svg'
+    [ "$(cat out.svg)" = old ] || fail "the old file is gone"
+    no_temporary
+    run 1 shape:cube -o none/out.svg -o out.png
+    says err 'none/out.svg'
+    absent out.png
+    [ -w /dev/full ] || return
+    run 1 shape:gear $small -o /dev/full --format svg
+    one_line
+    says err 'No space left on device'
+    "$program" shape:gear $small -o - --format svg >/dev/full 2>err && fail "no error on a full standard output"
+    says err 'No space left on device'
+}
+empty_vectors() {
+    run 0 shape:cube $small --lines none -o out.svg
+    is_vector svg out.svg
+    says err 'out.svg: 0 paths'
+    says err 'nothing of the model is seen'
+    grep -q '<path' out.svg && fail "there is a path"
+    run 0 shape:cube $small --eye 0,0,5 --target 0,0,9 -o out.svg
+    says err 'nothing of the model is seen'
+    run 0 shape:cube $small --ink quads -o out.svg
+    says err 'with --ink quads there are no paths'
+    run 0 shape:cube $small --style gooch --stroke pencil -o out.svg
+    says err '--ground png puts it under the lines'
+    says err 'paths are plain'
+}
+cleaning() {
+    run 0 shape:gear $small -q -o all.svg --join 0 --min-length 0 --tolerance 0 --keep-coincident
+    run 0 shape:gear $small -q -o less.svg --join 0.5mm --min-length 4 --tolerance 0.1 --join-classes
+    [ "$(stat -c %s less.svg)" -lt "$(stat -c %s all.svg)" ] || fail "cleaning leaves out nothing"
+    run 0 shape:gear $small -o short.svg --min-length 4
+    says err '% dropped as shorter than 4 px'
+    run 0 shape:gear $small -o pen.svg --optimize
+    says err 'the pen travels'
+    wrong shape:cube -o out.svg --join -1 -- '--join: -1 is out of range'
+    wrong shape:cube -o out.svg --tolerance 2km -- '--tolerance: "2km" is not a length; give pixels like 2.5, or 0.5mm or 1pt'
+}
+# Sizes on paper: of PNGs by --dpi and pHYs, of SVGs in mm.
+pages() {
+    run 0 shape:cube -q --page A4-landscape -o a.png -o a.svg
+    [ "$(png_size a.png)" = 1754x1240 ] || fail "A4 at 150 dpi is $(png_size a.png)"
+    [ "$(png_dpi a.png)" = 5906x5906x1 ] || fail "150 dpi is $(png_dpi a.png)"
+    [ "$(svg_size a.svg)" = 297mmx210mm ] || fail "A4 is $(svg_size a.svg)"
+    run 0 shape:cube -q --page letter-portrait --dpi 72 -o a.png -o a.svg
+    [ "$(png_size a.png)" = 612x792 ] || fail "letter at 72 dpi is $(png_size a.png)"
+    [ "$(png_dpi a.png)" = 2835x2835x1 ] || fail "72 dpi is $(png_dpi a.png)"
+    [ "$(svg_size a.svg)" = 215.9mmx279.4mm ] || fail "letter is $(svg_size a.svg)"
+    run 0 shape:cube -q --page 4x3in --dpi 100 -o a.png -o a.svg
+    [ "$(png_size a.png)" = 400x300 ] || fail "4 x 3 in at 100 dpi is $(png_size a.png)"
+    [ "$(svg_size a.svg)" = 101.6mmx76.2mm ] || fail "4 x 3 in is $(svg_size a.svg)"
+    run 0 shape:bolt -q --page a5 --dpi 50 -o tall.svg # as the picture is
+    [ "$(svg_size tall.svg)" = 148mmx210mm ] || fail "a bolt's A5 is $(svg_size tall.svg)"
+    run 0 shape:bolt -q --page A5 --landscape --dpi 50 -o wide.svg
+    [ "$(svg_size wide.svg)" = 210mmx148mm ] || fail "--landscape is $(svg_size wide.svg)"
+    run 0 shape:cube -q $small -o plain.png
+    [ -z "$(png_dpi plain.png)" ] || fail "a picture without a page has a size on paper"
+    run 0 shape:cube -q $small --dpi 300 -o dense.png -o dense.svg
+    [ "$(png_dpi dense.png)" = 11811x11811x1 ] || fail "300 dpi is $(png_dpi dense.png)"
+    [ "$(svg_size dense.svg | cut -c 1-6)" = 13.546 ] || fail "160 px at 300 dpi are $(svg_size dense.svg)"
+    run 0 shape:cube -q --page A4 --dpi 40 --paper none -o none.png
+    run 0 shape:cube -q --page A4 --dpi 40 --eye 3,2,4 --fov 30 -o eye.png -o eye.svg
+    run 0 shape:cube -q --page A4 --dpi 40 --preset iso --page none $small -o none.png
+    [ "$(png_size none.png)" = 160x120 ] || fail "--page none: $(png_size none.png)"
+}
+wrong_pages() {
+    wrong shape:cube -o out.png --page A9 -- 'none of A0 to A5, letter, legal, tabloid and sizes like 200x100mm; did you mean A0?'
+    wrong shape:cube -o out.png --page ledger -- 'did you mean letter?'
+    wrong shape:cube -o out.png --page 200x100 -- '"200x100" has no unit'
+    wrong shape:cube -o out.png --page 200xmm -- 'is not a size'
+    wrong shape:cube -o out.png --page 1x1mm -- 'each side can be 5 to 10000 mm'
+    wrong shape:cube -o out.png --page A0 --dpi 1200 -- 'give another --dpi'
+    wrong shape:cube -o out.png --page A4 --margin 110 -- '--margin: nothing is left'
+    wrong shape:cube -o out.png --page A4 --margin 1,2,3 -- 'not one or four numbers'
+    wrong shape:cube -o out.png --page A4 --margin 1,2,3,4,5 -- 'not one or four numbers'
+    wrong shape:cube -o out.png --page A4 --margin -1 -- 'out of range'
+    wrong shape:cube -o out.png --margin 10 -- 'add --page A4'
+    wrong shape:cube -o out.png --landscape -- 'add --page A4'
+    wrong shape:cube -o out.png --page A4-portrait --landscape -- 'exclude each other'
+    wrong shape:cube -o out.png --page A4 --size 100x100 -- 'leave out --size'
+    wrong shape:cube -o out.png --dpi 5 -- '--dpi: 5 is out of range'
+    wrong shape:cube -o out.png --width 1km -- 'is not a width; give pixels like 2.5, or 0.5mm or 1pt'
+    wrong shape:cube -o out.png --width 30mm -- 'give a smaller --dpi'
+    wrong shape:cube -o out.png --width 300mm -- 'at most 100 mm'
+    wrong shape:cube -o out.png --width 0mm -- 'above 0'
+    run 0 shape:cube $small -o thin.svg --width 0.01mm
+    says err 'lines are at least half a pixel wide, 0.132 mm at 96 dpi'
+}
+widths_on_paper() {
+    run 0 shape:cube -q --page A5 --dpi 254 --width 0.5mm,ridge=1pt -o mm.png -o mm.svg
+    run 0 shape:cube -q --page A5 --dpi 254 --width 5,ridge=3.527777777px -o px.png -o px.svg
+    cmp -s mm.png px.png || fail "0.5 mm are not 5 pixels at 254 dpi"
+    cmp -s mm.svg px.svg || fail "0.5 mm are not 5 pixels at 254 dpi"
+    run 0 shape:cube -q --page A5 --dpi 254 -o usual.svg
+    run 0 shape:cube -q --page A5 --dpi 254 -o same.svg --width 0.35mm
+    cmp -s usual.svg same.svg || fail "the usual width on a page is not 0.35 mm"
+    run 0 shape:cube -q --page A5 --hidden dashed --hidden-width 0.2mm,ridge:1=0.4mm -o hidden.png
+}
+# boxes FILE: the views of an SVG in mm; the test ends without Python.
+boxes() { python3 "$here/svg_boxes.py" "$1" || fail "svg_boxes.py $1"; }
+scales() {
+    wrong shape:cube -o out.svg --scale 1 -- 'is not a scale; give one like 1:10 or 2:1, or fit'
+    wrong shape:cube -o out.svg --scale 0:1 -- 'both sides are above 0'
+    wrong shape:cube -o out.svg --unit mm -- '--unit says what a scale is of'
+    wrong shape:cube -o out.svg --scale 1:2 --unit km -- '--unit: "km" is none of mm|cm|m|in|ft'
+    wrong shape:cube -o out.svg --scale 1:2 --fov 30 -- 'a picture in perspective has no scale'
+    wrong shape:cube -o out.svg --scale 1:2 --ortho 3 -- 'both say how large'
+    wrong shape:cube -o out.svg --scale 1:2 --zoom 3 -- 'both say how large'
+    wrong shape:cube -o out.svg --page A4 --scale 1000:1 --view front -- 'and the page has 277 x 190 mm between its margins: 50:1 is the largest standard scale'
+    wrong shape:cube -o out.svg --page A4 --scale 2:1 --unit m --view front -- ': 1:20 is the largest standard scale'
+    run 0 shape:cube -q --page A4 --scale 1:20 --unit m --view front -o fits.svg
+    run 0 shape:cube -q --page A4 --scale 1000:1 --view front --target 1,1,1 -o detail.svg # a detail, on purpose
+    run 0 shape:cube -q --page A4 --eye 3,4,5 --scale 20:1 -o eye.svg
+    command -v python3 >/dev/null || return
+    boxes fits.svg >fits
+    awk 'NF != 4 || $3 - $1 < 99.99 || $3 - $1 > 100.01 || $4 - $2 < 99.99 || $4 - $2 > 100.01 ||
+        $1 + $3 < 209.8 || $1 + $3 > 210.2 { bad = 1 } END { exit bad || NR != 1 }' fits ||
+        fail "2 m at 1:20 in the middle of A4: $(cat fits)"
+    run 0 shape:cube -q --scale 10:1 --view front --margin 5 -o wrapped.svg -o wrapped.png
+    boxes wrapped.svg >wrapped
+    awk '$3 - $1 < 19.99 || $3 - $1 > 20.01 { bad = 1 } END { exit bad || NR != 1 }' wrapped ||
+        fail "2 mm at 10:1: $(cat wrapped)"
+    svg_size wrapped.svg | awk -F 'mm|x' '$1 < 30 || $1 > 31 { exit 1 }' || fail "a page around 20 mm: $(svg_size wrapped.svg)"
+    run 0 shape:cube -q --scale 10:1 --size 400x400 --view front -o sized.svg
+    boxes sized.svg >sized
+    awk '$3 - $1 < 19.99 || $3 - $1 > 20.01 { bad = 1 } END { exit bad }' sized || fail "with --size: $(cat sized)"
+}
+sheets() {
+    command -v python3 >/dev/null || return
+    for angle in third first; do
+        run 0 shape:bracket -q --sheet front,top,right,iso --angle $angle -o $angle.svg -o $angle.png
+        boxes $angle.svg >$angle
+        [ "$(wc -l <$angle)" = 4 ] || fail "$angle: not four views: $(cat $angle)"
+    done
+    # third angle: top above front, right to the right of it, iso in the corner; x0 y0 x1 y1
+    awk 'function same(a, b) { return a - b < 0.06 && b - a < 0.06 }
+        { for (k = 1; k <= 4; k++) v[NR, k] = $k }
+        END { top = v[1, 2] < v[2, 2] ? 1 : 2; front = 3 - top; right = v[3, 2] > v[4, 2] ? 3 : 4
+            exit !(same(v[top, 1], v[front, 1]) && same(v[top, 3], v[front, 3]) && v[top, 4] < v[front, 2] &&
+                same(v[right, 2], v[front, 2]) && same(v[right, 4], v[front, 4]) && v[right, 1] > v[front, 3] &&
+                same(v[right, 3] - v[right, 1], v[top, 4] - v[top, 2])) }' third || fail "third angle: $(cat third)"
+    awk 'function same(a, b) { return a - b < 0.06 && b - a < 0.06 }
+        { for (k = 1; k <= 4; k++) v[NR, k] = $k }
+        END { right = 1; top = v[2, 2] > v[3, 2] ? 2 : 3; front = 5 - top
+            exit !(same(v[top, 1], v[front, 1]) && same(v[top, 3], v[front, 3]) && v[top, 2] > v[front, 4] &&
+                same(v[right, 2], v[front, 2]) && same(v[right, 4], v[front, 4]) && v[right, 3] < v[front, 1]) }' first ||
+        fail "first angle: $(cat first)"
+    cmp -s third.png first.png && fail "--angle changes nothing"
+    [ "$(png_size third.png)" = 1754x1240 ] || fail "the sheet is $(png_size third.png)"
+    run 0 shape:bracket -q --sheet front,back,left,right,top,bottom,iso --page A3 -o all.svg
+    boxes all.svg >all
+    [ "$(wc -l <all)" = 7 ] || fail "not seven views: $(cat all)"
+    run 0 shape:bracket -q --sheet front,top,right,iso --scale 10:1 --title 'Bracket <1>' -o scaled.svg
+    says scaled.svg '<title>Bracket &lt;1&gt;</title>'
+    # z up: what was the front is seen from above
+    run 0 shape:bracket -q --sheet front --scale 20:1 -o y.svg
+    run 0 shape:bracket -q --sheet top --up 0,0,1 --scale 20:1 -o z.svg
+    boxes y.svg | awk '{ print $3 - $1, $4 - $2 }' >y
+    boxes z.svg | awk '{ print $3 - $1, $4 - $2 }' >z
+    cmp -s y z || fail "--up 0,0,1: $(cat y z)"
+    grep -q hidden y.svg || fail "no hidden lines"
+    run 0 shape:bracket -q --sheet iso -o iso.svg
+    grep -q hidden iso.svg && fail "hidden lines in the pictorial view"
+    run 0 shape:bracket -q --sheet front --hidden none -o none.svg
+    grep -q hidden none.svg && fail "--hidden none draws hidden lines"
+    silent err
+}
+wrong_sheets() {
+    wrong shape:cube -o out.svg --sheet front,topp -- 'did you mean top?'
+    wrong shape:cube -o out.svg --sheet front,front -- 'front is there twice'
+    wrong shape:cube -o out.svg --sheet front, -- '--sheet: "" is none of'
+    wrong shape:cube -o out.svg --angle first -- '--angle says where the views of a sheet lie'
+    wrong shape:cube -o out.svg --sheet front --view top -- '--sheet already says where from'
+    wrong shape:cube -o out.svg --sheet front --fov 30 -- 'the views of a sheet have one scale'
+    wrong shape:cube -o out.svg --sheet front --page none -- 'a sheet is a page'
+    wrong shape:cube -o out.svg --sheet front --mirror 0,1,0 -- 'a sheet has no mirror'
+    wrong shape:cube -o out.svg --sheet front -o depth=z.png -- '-o depth=z.png is of one view'
+    wrong shape:cube -o out.svg --sheet front,iso --scale 100:1 -- 'is the largest standard scale that fits'
+    wrong shape:cube -o out.svg --sheet front --page A5 --margin 60 -- 'fit at no standard scale'
+    absent out.svg
+}
+# One run after another, and any number of threads: the same bytes, also of the title block.
+sheets_for_any_threads() {
+    for threads in 1 2 7; do
+        run 0 shape:gear -q --sheet front,top,iso --dpi 60 --threads $threads -o $threads.svg -o $threads.png
+        run 0 shape:gear -q --optimize $small --threads $threads -o plain-$threads.svg
+        cmp -s 1.svg $threads.svg || fail "sheet: $threads threads differ from one"
+        cmp -s 1.png $threads.png || fail "PNG: $threads threads differ from one"
+        cmp -s plain-1.svg plain-$threads.svg || fail "$threads threads differ from one"
+    done
+    date=$(date +%Y)
+    grep -q "$date" 1.svg && fail "the year is in the file"
+}
+paper_presets() {
+    for preset in iso patent-us patent-epc axidraw laser; do
+        run 0 shape:bracket -q --preset $preset -o $preset.svg -o $preset.png
+        silent err
+        is_png $preset.png
+        run 0 bench shape:cube --preset $preset --frames 1 $small
+    done
+    [ "$(svg_size patent-us.svg)" = 215.9mmx279.4mm ] || fail "patent-us is $(svg_size patent-us.svg)"
+    [ "$(svg_size patent-epc.svg)" = 210mmx297mm ] || fail "patent-epc is $(svg_size patent-epc.svg)"
+    [ "$(grep -o 'stroke="#[0-9A-Fa-f]*"' laser.svg | sort -u | wc -l)" -ge 3 ] || fail "laser: one colour"
+    grep -q hidden iso.svg || fail "iso: no hidden lines"
+    run 0 shape:bracket -q --preset iso --sheet front,top -o sheet.svg # goes together
+    run 0 shape:bracket -q --preset iso --page A3 -o large.svg
+    svg_size large.svg | grep -q 420mm || fail "options do not change presets: $(svg_size large.svg)"
+}
+
+tests="vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
