@@ -1143,7 +1143,7 @@ scales() {
     command -v python3 >/dev/null || return
     boxes fits.svg >fits
     awk 'NF != 4 || $3 - $1 < 99.99 || $3 - $1 > 100.01 || $4 - $2 < 99.99 || $4 - $2 > 100.01 ||
-        $1 + $3 < 209.8 || $1 + $3 > 210.2 { bad = 1 } END { exit bad || NR != 1 }' fits ||
+        $1 + $3 < 296.8 || $1 + $3 > 297.2 { bad = 1 } END { exit bad || NR != 1 }' fits ||
         fail "2 m at 1:20 in the middle of A4: $(cat fits)"
     run 0 shape:cube -q --scale 10:1 --view front --margin 5 -o wrapped.svg -o wrapped.png
     boxes wrapped.svg >wrapped
