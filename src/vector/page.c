@@ -23,9 +23,9 @@ typedef struct format {
 
 static const format formats[DP_FORMAT_COUNT] = {
     [DP_FORMAT_SVG] = {"svg", dp_write_svg, .grounds = true},
-    [DP_FORMAT_PDF] = {"pdf", NULL, .grounds = true},
-    [DP_FORMAT_EPS] = {"eps", NULL, .grounds = true},
-    [DP_FORMAT_DXF] = {"dxf", NULL, .millimetres = true},
+    [DP_FORMAT_PDF] = {"pdf", dp_write_pdf, .grounds = true},
+    [DP_FORMAT_EPS] = {"eps", dp_write_eps, .grounds = true},
+    [DP_FORMAT_DXF] = {"dxf", dp_write_dxf, .millimetres = true},
     [DP_FORMAT_JSON] = {"json", NULL}};
 
 const char *dp_format_name(dp_format f) {
