@@ -11,6 +11,9 @@
 
 #include <string.h>
 
+/* How far a dot goes up: many programs draw a line that goes nowhere too thin, or not at all. */
+static const double DOT = 0.4;
+
 static const char box[] = "80d0n6n6d0d";
 
 /* From ' ' on. */
@@ -262,6 +265,8 @@ static size_t read_stroke(const char **strokes, double x, double y,
         points[count][0] = x + (s[0] - '0');
         points[count][1] = y + (s[1] - 'd');
     }
+    if (count == 2 && points[0][0] == points[1][0] && points[0][1] == points[1][1])
+        points[1][1] += DOT;
     *strokes = *s == ' ' ? s + 1 : s;
     return count;
 }

@@ -23,10 +23,10 @@ typedef struct format {
 
 static const format formats[DP_FORMAT_COUNT] = {
     [DP_FORMAT_SVG] = {"svg", dp_write_svg, .grounds = true},
-    [DP_FORMAT_PDF] = {"pdf", NULL, .grounds = true},
-    [DP_FORMAT_EPS] = {"eps", NULL, .grounds = true},
-    [DP_FORMAT_DXF] = {"dxf", NULL, .millimetres = true},
-    [DP_FORMAT_JSON] = {"json", NULL}};
+    [DP_FORMAT_PDF] = {"pdf", dp_write_pdf, .grounds = true},
+    [DP_FORMAT_EPS] = {"eps", dp_write_eps, .grounds = true},
+    [DP_FORMAT_DXF] = {"dxf", dp_write_dxf, .millimetres = true},
+    [DP_FORMAT_JSON] = {"json", dp_write_json}};
 
 const char *dp_format_name(dp_format f) {
     return (unsigned)f < DP_FORMAT_COUNT ? formats[f].name : "unknown";
@@ -125,8 +125,6 @@ dp_result dp_page_write(const dp_page *page, dp_format f, dp_text_writer *write,
     if ((page->view_count && !page->views) || (page->text_count && !page->texts) ||
         (page->rule_count && !page->rules))
         return dp_fail(diag, DP_ERR_ARGUMENT, "dp_page_write: a list of the page is NULL");
-    if (!formats[f].write)
-        return dp_fail(diag, DP_ERR_UNSUPPORTED, "%s is not written yet", formats[f].name);
     dp_page full = *page;
     dp_result wrong = check_views(page, diag);
     if (!wrong) wrong = check_marks(page, diag);
