@@ -1,0 +1,13 @@
+/* Joining the ends of parts: equal ones (nodes.c), then those over gaps (gaps.c). */
+#ifndef DP_VECTOR_JOIN_H
+#define DP_VECTOR_JOIN_H
+
+#include "vector/clean.h"
+
+#define DP_SHARPEST -0.7f /* cosine: a path does not go on at turns above 135 degrees */
+
+/* Both: false when memory is out. */
+bool dp_join_nodes(dp_cleaning *c);
+bool dp_join_gaps(dp_cleaning *c);
+
+#endif
