@@ -22,7 +22,8 @@ typedef struct dp_part {
 /* A chain of parts, drawn from end `start` on. */
 typedef struct dp_strand {
     uint32_t start, first; /* first: the part with the lowest number */
-    uint32_t layer;        /* those of lower ones are drawn first */
+    uint32_t level, layer; /* layer: those of lower ones are drawn first */
+    float length;          /* px, without gaps */
     dp_line line;
     bool closed;
 } dp_strand;
@@ -44,9 +45,9 @@ typedef struct dp_cleaning {
 
 /* Each phase: false when memory is out, for which everything but its own results is unchanged. */
 
-bool dp_find_parts(dp_cleaning *c);   /* coincide.c: what is drawn once */
-bool dp_join_ends(dp_cleaning *c);    /* join.c: equal ends, then gaps */
-bool dp_find_strands(dp_cleaning *c); /* strands.c */
+bool dp_find_parts(dp_cleaning *c);      /* strands.c: each segment is one */
+bool dp_drop_coincident(dp_cleaning *c); /* coincide.c */
+bool dp_find_strands(dp_cleaning *c);    /* strands.c: in drawing order */
 /* Leaves out points where the path stays within `tolerance` px; the first and, of an open path, the
  * last stay. Returns how many points there are then (simplify.c). */
 size_t dp_simplify(dp_path_point *points, size_t count, bool closed, float tolerance);

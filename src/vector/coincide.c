@@ -1,12 +1,15 @@
 /* What lies on each other on the screen is drawn once.
  *
- *     go through the segments: visible before hidden, outlines before creases, lower numbers first
- *         find the parts kept so far that lie under the segment (grid)
+ *     chain the segments, at any turn
+ *     go along the chains: visible before hidden, lower levels before higher ones, outlines before
+ *     creases, longer chains before shorter ones, which leaves them whole
+ *         find the parts kept so far that lie under a segment (grid)
  *         keep what of the segment none of them lies under
  *
  * Two lines lie on each other where they run side by side, turned by at most LEAN, and no more than
  * NEAR apart: on all of their common length, or on LONG px of it. Segments that share an end have
- * no common length.
+ * no common length. A chain that turns back and goes on beside itself, as outlines of fine meshes do,
+ * is left as it is there: to cut it would be worse.
  *
  * Data structure: a hash table of grid cells and directions, each a list of the kept parts that run
  * through the cell that way. Cells grow with the mean length of the segments, so that a segment
@@ -15,7 +18,7 @@
  *
  * Not handled: thousands of segments far shorter than a cell in one cell are compared each with
  * each that has its direction. */
-#include "vector/clean.h"
+#include "vector/join.h"
 
 #include "base/sort.h"
 
@@ -28,6 +31,7 @@ static const double LONG = 4;     /* px: lines that part or meet slowly share le
                                      and is not worth a gap in one of them */
 static const double TOUCH = 1e-3; /* px: less is no common length */
 static const double LEAST_CELL = 4; /* px */
+enum { CLOSE = 6 /* segments of a chain that may run beside each other */ };
 enum { WAYS = 16 /* directions that the grid tells apart; neighbours are wider than LEAN */ };
 
 typedef struct entry {
@@ -37,7 +41,13 @@ typedef struct entry {
 typedef struct range {
     double from, to; /* px along the segment */
     uint32_t part;
+    bool whole; /* all that the two have in common */
 } range;
+
+/* Where a segment lies in its chain, as it was before anything was cut. */
+typedef struct track {
+    uint32_t chain, place;
+} track;
 
 typedef struct grid {
     dp_cleaning *c;
@@ -46,13 +56,17 @@ typedef struct grid {
     size_t slots; /* a power of two */
     entry *entries;
     range *ranges; /* of the segment in question */
-    uint64_t *order;
-    size_t entries_cap, ranges_cap, heads_cap, order_cap, entry_count, range_count;
+    track *tracks; /* by segment */
+    size_t entries_cap, ranges_cap, heads_cap, tracks_cap, entry_count, range_count;
+    dp_part *kept;
+    size_t kept_cap;
+    uint32_t kept_count;
 } grid;
 
 static const dp_array arrays[] = {
     DP_ARRAY(grid, heads, heads_cap), DP_ARRAY(grid, entries, entries_cap),
-    DP_ARRAY(grid, ranges, ranges_cap), DP_ARRAY(grid, order, order_cap)};
+    DP_ARRAY(grid, ranges, ranges_cap), DP_ARRAY(grid, tracks, tracks_cap),
+    DP_ARRAY(grid, kept, kept_cap)};
 
 /* A straight line on the screen, from p on, `length` px in the unit direction u. */
 typedef struct line {
@@ -71,9 +85,9 @@ static line line_of(const dp_segment *s) {
     return line_between(a, b);
 }
 
-static line line_of_part(const dp_cleaning *c, uint32_t part) {
-    line l = line_of(&c->drawn->segments[c->parts[part].segment]);
-    const double from = c->parts[part].at[0] * l.length, to = c->parts[part].at[1] * l.length;
+static line line_of_part(const dp_cleaning *c, const dp_part *part) {
+    line l = line_of(&c->drawn->segments[part->segment]);
+    const double from = part->at[0] * l.length, to = part->at[1] * l.length;
     l.p[0] += from * l.u[0], l.p[1] += from * l.u[1];
     l.length = to - from;
     return l;
@@ -100,7 +114,7 @@ static uint32_t *head_of(const grid *g, int32_t x, int32_t y, int way) {
     return &g->heads[(h ^ h >> 13) & (g->slots - 1)];
 }
 
-typedef bool visit(grid *g, const line *l, int32_t x, int32_t y, uint32_t part);
+typedef bool visit(grid *g, const line *l, int32_t x, int32_t y, uint32_t item);
 
 /* Visits the cells within `margin` px of a line, column by column along its longer direction. */
 static bool walk(grid *g, const line *l, double margin, visit *visitor, uint32_t part) {
@@ -145,6 +159,7 @@ static bool shared(const line *s, const line *t, range *out) {
     double from = dp_max(0, dp_min(along[0], along[1])),
            to = dp_min(s->length, dp_max(along[0], along[1]));
     if (!(to - from > TOUCH)) return false;
+    out->whole = true;
     const double slope = (off[1] - off[0]) / (along[1] - along[0]);
     const double off_from = off[0] + slope * (from - along[0]),
                  off_to = off[0] + slope * (to - along[0]);
@@ -154,18 +169,26 @@ static bool shared(const line *s, const line *t, range *out) {
                      two = along[0] + (-NEAR - off[0]) / slope;
         from = dp_max(from, dp_min(one, two)), to = dp_min(to, dp_max(one, two));
         if (!(to - from >= LONG)) return false;
+        out->whole = false;
     }
     out->from = from, out->to = to;
     return true;
 }
 
-static bool look_way(grid *g, const line *l, int32_t x, int32_t y, int way) {
+/* Do two segments follow each other in a chain that turns back, and part slowly? */
+static bool parting(const grid *g, uint32_t segment, uint32_t part, const range *found) {
+    const track *const s = &g->tracks[segment], *const t = &g->tracks[g->kept[part].segment];
+    const uint32_t apart = s->place > t->place ? s->place - t->place : t->place - s->place;
+    return !found->whole && s->chain == t->chain && apart <= CLOSE;
+}
+
+static bool look_way(grid *g, const line *l, int32_t x, int32_t y, int way, uint32_t segment) {
     for (uint32_t e = *head_of(g, x, y, (way + WAYS) % WAYS); e; e = g->entries[e - 1].next) {
         const uint32_t part = g->entries[e - 1].part;
         range found = {.part = part};
         if (g->range_count && g->ranges[g->range_count - 1].part == part) continue;
-        const line under = line_of_part(g->c, part);
-        if (!shared(l, &under, &found)) continue;
+        const line under = line_of_part(g->c, &g->kept[part]);
+        if (!shared(l, &under, &found) || parting(g, segment, part, &found)) continue;
         if (!dp_reserve(g->c->memory, &g->ranges, &g->ranges_cap, g->range_count + 1,
                         sizeof *g->ranges))
             return false;
@@ -174,13 +197,12 @@ static bool look_way(grid *g, const line *l, int32_t x, int32_t y, int way) {
     return true;
 }
 
-static bool look(grid *g, const line *l, int32_t x, int32_t y, uint32_t part) {
+static bool look(grid *g, const line *l, int32_t x, int32_t y, uint32_t segment) {
     const double way = way_of(l) * (WAYS / 2), rest = way - floor(way),
                  reach = LEAN * 1.01 * (WAYS / 2);
-    (void)part;
-    return look_way(g, l, x, y, (int)way) &&
-           (rest >= reach || look_way(g, l, x, y, (int)way - 1)) &&
-           (rest <= 1 - reach || look_way(g, l, x, y, (int)way + 1));
+    return look_way(g, l, x, y, (int)way, segment) &&
+           (rest >= reach || look_way(g, l, x, y, (int)way - 1, segment)) &&
+           (rest <= 1 - reach || look_way(g, l, x, y, (int)way + 1, segment));
 }
 
 static int by_start(const void *left, const void *right) {
@@ -193,17 +215,16 @@ static int by_start(const void *left, const void *right) {
 /* ------- what is kept ------- */
 
 static bool keep(grid *g, uint32_t segment, const line *l, double from, double to) {
-    dp_cleaning *const c = g->c;
-    if (c->part_count >= DP_MOST_PARTS || !dp_reserve(c->memory, &c->parts, &c->parts_cap,
-                                                      c->part_count + (size_t)1, sizeof *c->parts))
+    if (g->kept_count >= DP_MOST_PARTS || !dp_reserve(g->c->memory, &g->kept, &g->kept_cap,
+                                                      g->kept_count + (size_t)1, sizeof *g->kept))
         return false;
     const bool first = from <= 0, last = to >= l->length;
-    c->parts[c->part_count] =
-        (dp_part){.at = {first ? 0 : from / l->length, last ? 1 : to / l->length},
-                  .segment = segment,
-                  .cut = (uint8_t)((first ? 0 : 1) | (last ? 0 : 2))};
-    const line kept = line_of_part(c, c->part_count);
-    return walk(g, &kept, 1.5 * NEAR, enter, c->part_count++);
+    dp_part *const part = &g->kept[g->kept_count];
+    *part = (dp_part){.at = {first ? 0 : from / l->length, last ? 1 : to / l->length},
+                      .segment = segment,
+                      .cut = (uint8_t)((first ? 0 : 1) | (last ? 0 : 2))};
+    const line kept = line_of_part(g->c, part);
+    return walk(g, &kept, 1.5 * NEAR, enter, g->kept_count++);
 }
 
 /* Keeps what lies between the ranges, but for slivers. */
@@ -225,24 +246,57 @@ static bool keep_rest(grid *g, uint32_t segment, const line *l) {
 static bool take(grid *g, uint32_t segment) {
     const line l = line_of(&g->c->drawn->segments[segment]);
     g->range_count = 0;
-    if (!(l.length > 0)) return true;
-    if (!walk(g, &l, 0, look, 0)) return false;
+    if (!walk(g, &l, 0, look, segment)) return false;
     if (g->range_count) dp_sort(g->ranges, g->range_count, sizeof *g->ranges, by_start);
     return keep_rest(g, segment, &l);
 }
 
-static bool is_crease(const dp_segment *s) {
+/* ------- in which order ------- */
+
+static bool make_grid(grid *g) {
+    const dp_cleaning *const c = g->c;
+    double length = 0;
+    for (uint32_t i = 0; i < c->part_count; i++) length += line_of_part(c, &c->parts[i]).length;
+    g->cell = dp_max(LEAST_CELL, length / (4 * (double)c->part_count));
+    g->slots = 64;
+    while ((double)g->slots < 2 * ((double)c->part_count + length / g->cell)) g->slots *= 2;
+    return dp_reserve_zeroed(c->memory, &g->heads, &g->heads_cap, g->slots, sizeof *g->heads) &&
+           dp_reserve(c->memory, &g->tracks, &g->tracks_cap, c->drawn->count, sizeof *g->tracks);
+}
+
+static bool is_crease(const dp_strand *s) {
     return s->line != DP_LINE_SILHOUETTE && s->line != DP_LINE_BORDER;
 }
 
-static int ascending(const void *left, const void *right) {
-    const uint64_t *const l = left, *const r = right;
-    return (*l > *r) - (*l < *r);
+static int by_rank(const void *left, const void *right) {
+    const dp_strand *const l = left, *const r = right;
+    if (l->level != r->level) return l->level < r->level ? -1 : 1;
+    if (is_crease(l) != is_crease(r)) return is_crease(l) ? 1 : -1;
+    if (l->length != r->length) return l->length > r->length ? -1 : 1;
+    return (l->first > r->first) - (l->first < r->first);
 }
 
-/* Levels beyond 2^30 do not occur. */
-static uint64_t rank_of(const dp_segment *s, uint32_t i) {
-    return ((uint64_t)s->level << 1 | is_crease(s)) << 32 | i;
+static void number_chains(grid *g) {
+    const dp_cleaning *const c = g->c;
+    for (uint32_t i = 0; i < c->strand_count; i++) {
+        uint32_t end = c->strands[i].start, place = 0;
+        do {
+            g->tracks[c->parts[end / 2].segment] = (track){i, place++};
+            end = c->partner[end ^ 1];
+        } while (end != DP_NOWHERE && end != c->strands[i].start);
+    }
+}
+
+static bool take_chains(grid *g) {
+    const dp_cleaning *const c = g->c;
+    for (uint32_t i = 0; i < c->strand_count; i++) {
+        uint32_t end = c->strands[i].start;
+        do {
+            if (!take(g, c->parts[end / 2].segment)) return false;
+            end = c->partner[end ^ 1];
+        } while (end != DP_NOWHERE && end != c->strands[i].start);
+    }
+    return true;
 }
 
 static int by_segment(const void *left, const void *right) {
@@ -251,43 +305,27 @@ static int by_segment(const void *left, const void *right) {
     return (l->at[0] > r->at[0]) - (l->at[0] < r->at[0]);
 }
 
-static bool make_grid(grid *g) {
-    const dp_drawn *const drawn = g->c->drawn;
-    double length = 0;
-    if (!dp_reserve(g->c->memory, &g->order, &g->order_cap, drawn->count, sizeof *g->order))
-        return false;
-    for (size_t i = 0; i < drawn->count; i++) {
-        length += line_of(&drawn->segments[i]).length;
-        g->order[i] = rank_of(&drawn->segments[i], (uint32_t)i);
-    }
-    g->cell = dp_max(LEAST_CELL, length / (4 * (double)drawn->count));
-    g->slots = 64;
-    while ((double)g->slots < 2 * ((double)drawn->count + length / g->cell)) g->slots *= 2;
-    return dp_reserve_zeroed(g->c->memory, &g->heads, &g->heads_cap, g->slots, sizeof *g->heads);
+/* What was kept takes the place of all parts. */
+static void exchange(grid *g) {
+    dp_cleaning *const c = g->c;
+    dp_part *const parts = c->parts;
+    const size_t cap = c->parts_cap;
+    if (g->kept_count) dp_sort(g->kept, g->kept_count, sizeof *g->kept, by_segment);
+    c->parts = g->kept, c->parts_cap = g->kept_cap, c->part_count = g->kept_count;
+    g->kept = parts, g->kept_cap = cap;
+    c->strand_count = 0;
 }
 
-static bool keep_apart(dp_cleaning *c) {
+bool dp_drop_coincident(dp_cleaning *c) {
     grid g = {.c = c};
-    const size_t count = c->drawn->count;
-    bool ok = make_grid(&g);
-    if (ok) dp_sort(g.order, count, sizeof *g.order, ascending);
-    for (size_t i = 0; ok && i < count; i++) ok = take(&g, (uint32_t)g.order[i]);
+    if (!c->part_count) return true;
+    bool ok = dp_join_nodes(c, -2) && dp_find_strands(c) && make_grid(&g);
+    if (ok) {
+        dp_sort(c->strands, c->strand_count, sizeof *c->strands, by_rank);
+        number_chains(&g);
+        ok = take_chains(&g);
+    }
+    if (ok) exchange(&g);
     dp_arrays_free(c->memory, &g, DP_ARRAYS(arrays));
-    if (ok && c->part_count) dp_sort(c->parts, c->part_count, sizeof *c->parts, by_segment);
     return ok;
-}
-
-static bool keep_all(dp_cleaning *c) {
-    if (!dp_reserve(c->memory, &c->parts, &c->parts_cap, c->drawn->count, sizeof *c->parts))
-        return false;
-    for (size_t i = 0; i < c->drawn->count; i++)
-        if (line_of(&c->drawn->segments[i]).length > 0)
-            c->parts[c->part_count++] = (dp_part){.at = {0, 1}, .segment = (uint32_t)i};
-    return true;
-}
-
-bool dp_find_parts(dp_cleaning *c) {
-    c->part_count = 0;
-    if (!c->drawn->count) return true;
-    return c->desc.keep_coincident ? keep_all(c) : keep_apart(c);
 }

@@ -9,7 +9,7 @@
  *
  * All of it is done by one thread, in the order of the segments: so a drawing depends on them
  * alone. */
-#include "vector/clean.h"
+#include "vector/join.h"
 
 #include "base/diag.h"
 
@@ -164,7 +164,8 @@ static const dp_array scratch[] = {DP_ARRAY(dp_cleaning, parts, parts_cap),
                                    DP_ARRAY(dp_cleaning, strands, strands_cap)};
 
 static bool clean(dp_drawing *d, dp_cleaning *c) {
-    bool ok = dp_find_parts(c) && dp_join_ends(c) && dp_find_strands(c);
+    bool ok = dp_find_parts(c) && (c->desc.keep_coincident || dp_drop_coincident(c)) &&
+              dp_join_nodes(c, -2) && dp_join_gaps(c) && dp_find_strands(c);
     for (uint32_t i = 0; ok && i < c->strand_count; i++) ok = put_path(d, c, &c->strands[i]);
     d->info.coincident = c->coincident;
     d->info.joined = c->joined;

@@ -25,7 +25,9 @@ static const double SIDEWAYS = 0.25; /* px: how far the other end may lie beside
 static const double TURN = 1;        /* px that a turn of 90 degrees counts for */
 static const double STEP = 30;    /* pixel sizes: ends further apart in depth lie on two surfaces */
 static const float ACROSS = 0.7f; /* cosine: over a step of depth lines must go on straight */
+static const float STRAIGHT = 0.9f; /* cosine */
 static const double CUT = 0.05;   /* px: where another line takes over, nothing else is joined */
+static const double FOLD = 0.02;
 enum { SEEN = 64, BEST = 6, LINKS = 16 };
 
 typedef struct open_end {
@@ -155,18 +157,27 @@ static bool is_cut(const dp_cleaning *c, uint32_t end) {
     return c->parts[end / 2].cut >> (end & 1) & 1;
 }
 
+/* Is a gap of (x, y) from p to q crossed forwards, or do both run side by side there and the one goes
+ * on where the other ends? */
+static bool runs_on(const open_end *p, const open_end *q, double x, double y, float turn) {
+    const double distance = dp_hypot(x, y), least = 0.5 * distance - SIDEWAYS;
+    const double ahead_p = x * (double)p->out[0] + y * (double)p->out[1],
+                 ahead_q = -x * (double)q->out[0] - y * (double)q->out[1];
+    if (ahead_p >= least && ahead_q >= least)
+        return turn >= DP_SHARPEST + 0.35f * (float)distance;
+    const double beside_p = fabs(x * (double)p->out[1] - y * (double)p->out[0]),
+                 beside_q = fabs(x * (double)q->out[1] - y * (double)q->out[0]);
+    return turn >= STRAIGHT && beside_p <= SIDEWAYS && beside_q <= SIDEWAYS;
+}
+
 /* What joining p with q costs, px; below 0: it may not be. */
 static double cost_of(const gaps *g, const open_end *p, const open_end *q, double *distance) {
     const double x = (double)q->x - (double)p->x, y = (double)q->y - (double)p->y;
     *distance = dp_hypot(x, y);
     if (*distance > g->reach || p->end / 2 == q->end / 2 || !may_change_pen(g, p, q)) return -1;
-    if ((is_cut(g->c, p->end) || is_cut(g->c, q->end)) && *distance > CUT) return -1;
-    const double ahead_p = x * (double)p->out[0] + y * (double)p->out[1],
-                 ahead_q = -x * (double)q->out[0] - y * (double)q->out[1];
-    const double least = 0.5 * *distance - SIDEWAYS;
-    if (ahead_p < least || ahead_q < least) return -1;
+    if (is_cut(g->c, p->end) && is_cut(g->c, q->end) && *distance > CUT) return -1;
     const float turn = -(p->out[0] * q->out[0] + p->out[1] * q->out[1]); /* cosine */
-    if (turn < DP_SHARPEST + 0.35f * (float)*distance) return -1;
+    if (*distance > FOLD && !runs_on(p, q, x, y, turn)) return -1;
     if (turn < ACROSS && steps_in_depth(g->c->drawn, p->d, q->d)) return -1;
     return *distance + TURN * (1 - (double)turn);
 }

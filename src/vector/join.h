@@ -6,8 +6,9 @@
 
 #define DP_SHARPEST -0.7f /* cosine: a path does not go on at turns above 135 degrees */
 
-/* Both: false when memory is out. */
-bool dp_join_nodes(dp_cleaning *c);
+/* Both: false when memory is out. Forgets how ends were joined before; at turns whose cosine is below
+ * `sharpest` none are. */
+bool dp_join_nodes(dp_cleaning *c, float sharpest);
 bool dp_join_gaps(dp_cleaning *c);
 
 #endif

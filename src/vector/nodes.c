@@ -29,6 +29,7 @@ typedef struct spoke {
 
 typedef struct nodes {
     dp_cleaning *c;
+    float sharpest; /* cosine */
     uint32_t *slots, *next;
     offer *offers;
     spoke *spokes;
@@ -95,7 +96,7 @@ static int straightest_first(const void *left, const void *right) {
 
 static bool add_offer(nodes *n, size_t *count, uint32_t e, uint32_t f) {
     const float straight = straightness(n->c, e, f);
-    if (e / 2 == f / 2 || !(straight >= DP_SHARPEST)) return true;
+    if (e / 2 == f / 2 || !(straight >= n->sharpest)) return true;
     if (!dp_reserve(n->c->memory, &n->offers, &n->offers_cap, *count + 1, sizeof *n->offers))
         return false;
     n->offers[(*count)++] = (offer){straight, e < f ? e : f, e < f ? f : e};
@@ -158,9 +159,12 @@ static bool pair_node(nodes *n, uint32_t first) {
     return count <= CROWD ? pair_few(n, first) : pair_crowd(n, first, count);
 }
 
-bool dp_join_nodes(dp_cleaning *c) {
-    nodes n = {.c = c, .slot_count = 64};
+bool dp_join_nodes(dp_cleaning *c, float sharpest) {
+    nodes n = {.c = c, .sharpest = sharpest, .slot_count = 64};
     const size_t ends = 2 * (size_t)c->part_count;
+    if (!dp_reserve(c->memory, &c->partner, &c->partner_cap, ends, sizeof *c->partner))
+        return false;
+    for (size_t e = 0; e < ends; e++) c->partner[e] = DP_NOWHERE;
     while (n.slot_count < 2 * ends) n.slot_count *= 2;
     bool ok = dp_reserve_zeroed(c->memory, &n.slots, &n.slots_cap, n.slot_count, sizeof *n.slots) &&
               dp_reserve(c->memory, &n.next, &n.next_cap, ends, sizeof *n.next);

@@ -44,6 +44,18 @@ dp_path_point dp_part_point(const dp_cleaning *c, uint32_t end) {
     return out;
 }
 
+bool dp_find_parts(dp_cleaning *c) {
+    const dp_drawn *const drawn = c->drawn;
+    if (!dp_reserve(c->memory, &c->parts, &c->parts_cap, drawn->count, sizeof *c->parts))
+        return false;
+    for (size_t i = 0; i < drawn->count; i++) {
+        const dp_segment *const s = &drawn->segments[i];
+        if (s->a[0] != s->b[0] || s->a[1] != s->b[1])
+            c->parts[c->part_count++] = (dp_part){.at = {0, 1}, .segment = (uint32_t)i};
+    }
+    return true;
+}
+
 /* ------- chains ------- */
 
 /* The end at which the chain through a part begins; that of the part itself where it is closed. */
@@ -65,7 +77,7 @@ static double length_of(const dp_cleaning *c, uint32_t part) {
 }
 
 /* Marks a chain's parts; the class that most of its length has. */
-static dp_line walk(const dp_cleaning *c, uint32_t start, uint8_t *visited) {
+static dp_line walk(const dp_cleaning *c, uint32_t start, uint8_t *visited, float *length) {
     double lengths[DP_LINE_COUNT] = {0};
     uint32_t end = start;
     do {
@@ -74,8 +86,12 @@ static dp_line walk(const dp_cleaning *c, uint32_t start, uint8_t *visited) {
         end = c->partner[end ^ 1];
     } while (end != DP_NOWHERE && end != start);
     int most = (int)dp_segment_at(c, start)->line;
-    for (int i = 0; i < DP_LINE_COUNT; i++)
+    double sum = 0;
+    for (int i = 0; i < DP_LINE_COUNT; i++) {
+        sum += lengths[i];
         if (lengths[i] > lengths[most]) most = i;
+    }
+    *length = (float)sum;
     return (dp_line)most;
 }
 
@@ -104,9 +120,9 @@ bool dp_find_strands(dp_cleaning *c) {
         if (!ok) break;
         dp_strand *const s = &c->strands[c->strand_count++];
         s->first = i, s->start = find_start(c, i, &s->closed);
-        s->line = walk(c, s->start, visited);
-        s->layer = (deepest - dp_segment_at(c, s->start)->level) * DP_LINE_COUNT +
-                   (uint32_t)rank_of(s->line);
+        s->line = walk(c, s->start, visited, &s->length);
+        s->level = dp_segment_at(c, s->start)->level;
+        s->layer = (deepest - s->level) * DP_LINE_COUNT + (uint32_t)rank_of(s->line);
     }
     if (ok && c->strand_count) dp_sort(c->strands, c->strand_count, sizeof *c->strands, by_layer);
     dp_free(c->memory, visited);
