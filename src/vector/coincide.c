@@ -27,7 +27,7 @@
 static const double NEAR = 0.02;  /* px */
 static const double LEAN = 0.04;  /* sine: two lines that cross more steeply are near each other on
                                      less than a pixel */
-static const double LONG = 4;     /* px: lines that part or meet slowly share less, which shows not
+static const double LONG = 1;     /* px: lines that part or meet slowly share less, which shows not
                                      and is not worth a gap in one of them */
 static const double TOUCH = 1e-3; /* px: less is no common length */
 static const double LEAST_CELL = 4; /* px */

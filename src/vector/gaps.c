@@ -167,7 +167,7 @@ static bool runs_on(const open_end *p, const open_end *q, double x, double y, fl
         return turn >= DP_SHARPEST + 0.35f * (float)distance;
     const double beside_p = fabs(x * (double)p->out[1] - y * (double)p->out[0]),
                  beside_q = fabs(x * (double)q->out[1] - y * (double)q->out[0]);
-    return turn >= STRAIGHT && beside_p <= SIDEWAYS && beside_q <= SIDEWAYS;
+    return fabsf(turn) >= STRAIGHT && beside_p <= SIDEWAYS && beside_q <= SIDEWAYS;
 }
 
 /* What joining p with q costs, px; below 0: it may not be. */
