@@ -14,6 +14,13 @@ dp_result dp_drawing_create(dp_context *c, const dp_drawing_desc *desc, dp_drawi
     size_t count;
     if (c->drawing.count && !dp_segments(c, &count))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the chains of a drawing");
-    return dp_drawing_make(&c->drawing, c->frame.target.width, c->frame.target.height, desc,
-                           &c->given, out, diag);
+    const dp_frame *const f = &c->frame;
+    const dp_drawn drawn = {.segments = c->drawing.segments,
+                            .count = c->drawing.count,
+                            .width = f->target.width,
+                            .height = f->target.height,
+                            .paper = c->drawing.paper,
+                            .perspective = f->view.perspective,
+                            .focal = f->view.focal};
+    return dp_drawing_make(&drawn, desc, &c->given, out, diag);
 }

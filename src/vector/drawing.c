@@ -1,8 +1,17 @@
-/* From a picture's lines to a cleaned drawing, and what it tells of itself. */
-#include "vector/drawing.h"
+/* From a picture's segments to a cleaned drawing, and what it tells of itself.
+ *
+ *     find the parts of segments that are drawn: what lies on each other once (coincide.c)
+ *     join their ends: where they are equal (nodes.c), then over gaps (gaps.c)
+ *     find the chains, in the order of their layers (strands.c)
+ *     write each as a path: its points without those that change nothing (simplify.c); what is
+ *         short then is dropped
+ *     order the paths for a pen (order.c)
+ *
+ * All of it is done by one thread, in the order of the segments: so a drawing depends on them
+ * alone. */
+#include "vector/join.h"
 
 #include "base/diag.h"
-#include "sink/raster.h"
 
 #include <math.h>
 
@@ -40,77 +49,151 @@ bool dp_drawing_path(const dp_drawing *drawing, size_t index, dp_path *path) {
     return true;
 }
 
-/* The point at which a segment begins in its chain, or ends. */
-static dp_path_point point_of(const dp_segment *s, int end) {
-    const float *const at = end ? s->b : s->a;
-    const double *const world = end ? s->world_b : s->world_a;
-    return (dp_path_point){at[0],   at[1],      at[2],
-                           s->edge, s->polygon, {world[0], world[1], world[2]}};
+/* ------- desc ------- */
+
+static float or_default(float value, float standard) { return value == 0 ? standard : value; }
+
+static dp_drawing_desc resolve(const dp_drawing_desc *desc) {
+    dp_drawing_desc full = desc ? *desc : (dp_drawing_desc){0};
+    full.join = or_default(full.join, 2);
+    full.min_length = or_default(full.min_length, 1);
+    full.tolerance = or_default(full.tolerance, 0.02f);
+    return full;
 }
 
-static float length_of(const dp_drawing *d, const dp_stored_path *p) {
-    double sum = 0;
-    for (size_t i = 0; i + !p->closed < p->count; i++) {
-        const dp_path_point *const a = &d->points[p->first + i],
-                                   *const b = &d->points[p->first + (i + 1) % p->count];
-        const double x = (double)b->x - (double)a->x, y = (double)b->y - (double)a->y;
-        sum += sqrt(x * x + y * y);
-    }
-    return (float)sum;
+static bool is_sound(const dp_drawing_desc *desc) {
+    return !desc ||
+           (isfinite(desc->join) && isfinite(desc->min_length) && isfinite(desc->tolerance));
 }
 
-static void put_chain(dp_drawing *d, const dp_lines *lines, const dp_chain *chain) {
-    const dp_link *const links = lines->chains.links + chain->first;
-    const dp_segment *const head = &lines->segments[links->segment],
-                            *const tail = &lines->segments[links[chain->count - 1].segment];
-    const int start = links->reversed, end = !links[chain->count - 1].reversed;
-    dp_stored_path *const p = &d->paths[d->info.paths++];
-    *p = (dp_stored_path){.line = head->line,
-                          .level = head->level,
-                          .group = head->group,
-                          .width = head->width,
-                          .color = head->color,
-                          .closed = chain->closed,
-                          .end = {head->end[start], tail->end[end]},
-                          .hider = {head->hider[start], tail->hider[end]},
-                          .first = d->info.points,
-                          .count = chain->count + !chain->closed};
-    for (uint32_t i = 0; i < chain->count; i++)
-        d->points[d->info.points++] =
-            point_of(&lines->segments[links[i].segment], links[i].reversed);
-    if (!chain->closed) d->points[d->info.points++] = point_of(tail, end);
-    if (!chain->closed) d->points[d->info.points - 1].polygon = UINT64_MAX;
-    p->length = length_of(d, p);
-    d->info.length += (double)p->length;
+/* ------- paths ------- */
+
+/* How a line that `level` surfaces hide is dashed. */
+static void find_dash(const dp_segment *s, float dash[2]) {
+    dash[0] = s->level ? 12 * s->width : 0, dash[1] = s->level ? 3 * s->width : 0;
 }
 
-static bool put_chains(dp_drawing *d, const dp_lines *lines) {
-    const uint32_t count = lines->chains.chain_count;
-    if (!dp_reserve(&d->memory, &d->paths, &d->paths_cap, count, sizeof *d->paths) ||
-        !dp_reserve(&d->memory, &d->points, &d->points_cap, lines->count + count,
-                    sizeof *d->points))
+static bool put_point(dp_drawing *d, const dp_path_point *point) {
+    if (!dp_reserve(&d->memory, &d->points, &d->points_cap, d->info.points + 1, sizeof *d->points))
         return false;
-    for (int k = 0; k < DP_LINE_COUNT; k++)
-        for (uint32_t c = 0; c < count; c++) {
-            const dp_chain *const chain = &lines->chains.chains[c];
-            if (lines->segments[lines->chains.links[chain->first].segment].line == dp_layers[k])
-                put_chain(d, lines, chain);
-        }
+    d->points[d->info.points++] = *point;
     return true;
 }
 
-dp_result dp_drawing_make(const dp_lines *lines, uint32_t width, uint32_t height,
-                          const dp_drawing_desc *desc, const dp_allocator *memory, dp_drawing **out,
-                          dp_diag *diag) {
+/* Puts the points of a chain, with both ends of each gap; a closed one's first is not repeated. */
+static bool put_points(dp_drawing *d, const dp_cleaning *c, const dp_strand *strand) {
+    uint32_t end = strand->start;
+    for (;;) {
+        const dp_path_point from = dp_part_point(c, end);
+        if (!put_point(d, &from)) return false;
+        const uint32_t next = c->partner[end ^ 1];
+        dp_path_point to = dp_part_point(c, end ^ 1);
+        to.polygon = UINT64_MAX, to.edge = UINT32_MAX;
+        if (next != DP_NOWHERE) {
+            const dp_point on = dp_part_end(c, next);
+            if ((on.x != to.x || on.y != to.y) && !put_point(d, &to)) return false;
+        } else if (!put_point(d, &to)) {
+            return false;
+        }
+        if (next == DP_NOWHERE || next == strand->start) return true;
+        end = next;
+    }
+}
+
+static double length_of(const dp_path_point *points, size_t count, bool closed) {
+    double sum = 0;
+    for (size_t i = 0; i + !closed < count; i++) {
+        const dp_path_point *const a = &points[i], *const b = &points[(i + 1) % count];
+        sum += dp_hypot((double)b->x - (double)a->x, (double)b->y - (double)a->y);
+    }
+    return sum;
+}
+
+static void put_end(const dp_cleaning *c, uint32_t end, dp_stored_path *p, int k) {
+    const dp_segment *const s = dp_segment_at(c, end);
+    const bool cut = c->parts[end / 2].cut >> (end & 1) & 1;
+    p->end[k] = cut || p->closed ? DP_END_VERTEX : s->end[end & 1];
+    p->hider[k] = cut || p->closed ? UINT64_MAX : s->hider[end & 1];
+}
+
+static uint32_t last_end(const dp_cleaning *c, uint32_t start) {
+    uint32_t end = start;
+    while (c->partner[end ^ 1] != DP_NOWHERE && c->partner[end ^ 1] != start)
+        end = c->partner[end ^ 1];
+    return end ^ 1;
+}
+
+static bool put_path(dp_drawing *d, const dp_cleaning *c, const dp_strand *strand) {
+    const size_t first = d->info.points;
+    const dp_segment *const head = dp_segment_at(c, strand->start);
+    if (!put_points(d, c, strand)) return false;
+    dp_path_point *const points = d->points + first;
+    size_t count = d->info.points - first;
+    const double whole = length_of(points, count, strand->closed);
+    count = dp_simplify(points, count, strand->closed, c->desc.tolerance);
+    const double length = length_of(points, count, strand->closed);
+    d->info.points = first + count;
+    if (count < 2 || length < (double)c->desc.min_length) {
+        d->info.points = first;
+        d->info.dropped++, d->info.dropped_length += whole;
+        return true;
+    }
+    if (!dp_reserve(&d->memory, &d->paths, &d->paths_cap, d->info.paths + 1, sizeof *d->paths))
+        return false;
+    dp_stored_path *const p = &d->paths[d->info.paths++];
+    *p = (dp_stored_path){.line = strand->line,
+                          .level = head->level,
+                          .group = head->group,
+                          .width = head->width,
+                          .length = (float)length,
+                          .color = head->color,
+                          .closed = strand->closed,
+                          .first = first,
+                          .count = count};
+    find_dash(head, p->dash);
+    put_end(c, strand->start, p, 0), put_end(c, last_end(c, strand->start), p, 1);
+    d->info.length += length;
+    if (p->level > d->info.levels) d->info.levels = p->level;
+    return true;
+}
+
+/* ------- the story ------- */
+
+static const dp_array scratch[] = {DP_ARRAY(dp_cleaning, parts, parts_cap),
+                                   DP_ARRAY(dp_cleaning, partner, partner_cap),
+                                   DP_ARRAY(dp_cleaning, strands, strands_cap)};
+
+static bool clean(dp_drawing *d, dp_cleaning *c) {
+    bool ok = dp_find_parts(c) && (c->desc.keep_coincident || dp_drop_coincident(c)) &&
+              dp_join_nodes(c, -2) && dp_join_gaps(c) && dp_find_strands(c);
+    for (uint32_t i = 0; ok && i < c->strand_count; i++) ok = put_path(d, c, &c->strands[i]);
+    d->info.coincident = c->coincident;
+    d->info.joined = c->joined;
+    d->info.joined_length = c->joined_length;
+    dp_arrays_free(c->memory, c, DP_ARRAYS(scratch));
+    return ok;
+}
+
+dp_result dp_drawing_make(const dp_drawn *drawn, const dp_drawing_desc *desc,
+                          const dp_allocator *memory, dp_drawing **out, dp_diag *diag) {
+    *out = NULL;
+    if (!is_sound(desc))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_drawing_desc: a number is not finite");
+    if (drawn->count > DP_MOST_PARTS)
+        return dp_fail(diag, DP_ERR_LIMIT, "%zu segments are more than a drawing takes",
+                       drawn->count);
     dp_drawing *const d = dp_alloc_zeroed(memory, sizeof *d);
-    (void)desc;
     if (!d) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a drawing");
+    dp_cleaning c = {.memory = memory, .drawn = drawn, .desc = resolve(desc)};
     d->memory = *memory;
-    d->info = (dp_drawing_info){
-        .width = width, .height = height, .paper = lines->paper, .segments = lines->count};
-    if (!put_chains(d, lines)) {
+    d->info = (dp_drawing_info){.width = drawn->width,
+                                .height = drawn->height,
+                                .paper = drawn->paper,
+                                .segments = drawn->count};
+    if (!clean(d, &c) || !dp_order_paths(d, c.desc.optimize)) {
         dp_drawing_destroy(d);
-        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a drawing");
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a drawing of %zu segments",
+                       drawn->count);
     }
     *out = d;
     return DP_OK;

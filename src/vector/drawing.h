@@ -27,9 +27,19 @@ struct dp_drawing {
     size_t paths_cap, points_cap;
 };
 
-/* Makes a drawing of chained lines (dp_chain_lines). */
-dp_result dp_drawing_make(const dp_lines *lines, uint32_t width, uint32_t height,
-                          const dp_drawing_desc *desc, const dp_allocator *memory, dp_drawing **out,
-                          dp_diag *diag);
+/* What a drawing is made of: the segments of a picture, in an order that does not depend on
+ * threads. Their coordinates are finite. */
+typedef struct dp_drawn {
+    const dp_segment *segments;
+    size_t count;
+    uint32_t width, height; /* px */
+    dp_color paper;
+    bool perspective;
+    double focal; /* as in dp_view; 0: depth says nothing of what may be joined */
+} dp_drawn;
+
+/* desc may be NULL. DP_ERR_ARGUMENT (a number of it is not finite), DP_ERR_MEMORY, DP_ERR_LIMIT. */
+dp_result dp_drawing_make(const dp_drawn *drawn, const dp_drawing_desc *desc,
+                          const dp_allocator *memory, dp_drawing **out, dp_diag *diag);
 
 #endif
