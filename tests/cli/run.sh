@@ -945,7 +945,7 @@ is_vector() {
     pdf) first='%PDF-1.' last='%%EOF' ;;
     eps) first='%!PS-Adobe-3.0 EPSF-3.0' last='%%EOF' ;;
     dxf) first='' last=EOF ;;
-    json) first='{' last='}' ;;
+    json) first='{' last=']}' ;;
     esac
     [ "$(head -c ${#first} "$2")" = "$first" ] || fail "$2 does not begin with $first"
     [ "$(tail -n 1 "$2" | tr -d '\r')" = "$last" ] || fail "$2 does not end with $last"
@@ -984,7 +984,7 @@ several_outputs() {
     is_png a.png
     cmp -s a.png b.png || fail "two pictures of one run differ"
     cmp -s a.svg b.SVG || fail "two drawings of one run differ"
-    says err 'a.json and 2 more: '
+    says err 'a.svg and 2 more: '
     is_vector svg a.svg
     is_png z.png
     run 0 shape:bolt $small -q -o alone.svg # no pixels are drawn
