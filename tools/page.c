@@ -2,14 +2,14 @@
  *
  *     given             the picture                          its camera
  *     nothing           --size                               as tools/view.c says
- *     --page            what the margins leave of the page   the same, or, with --scale, orthographic
+ *     --page            what the margins leave of the page   the same; orthographic with --scale
  *     --scale           as large as the drawing              orthographic
  *     --scale, --size   --size                               orthographic
  *     --sheet           tools/sheet.c
  *
  * All is in whole pixels of 25.4 mm / --dpi, so that PNGs and vectors have the same lines in the
- * same places. With --scale the drawing lies in the middle of the picture, unless --target says what
- * does. */
+ * same places. With --scale, and with --ortho 0 on a page, which makes the drawing as large as the
+ * margins allow, it lies in the middle of the picture, unless --target says what does. */
 #include "page.h"
 #include "commands.h"
 #include "report.h"
@@ -151,9 +151,9 @@ typedef struct picture {
     const tool_settings *s;
     page_plan *plan;
     page_view *view;
-    bool scaled;
-    double mm_per_unit;                    /* scaled: mm on paper for one of the model's */
-    view_box box;                          /* of the model, in camera space */
+    bool flat;          /* the drawing has a scale: by --scale, or as large as the page allows */
+    double mm_per_unit; /* flat: mm on paper for one of the model's */
+    view_box box;       /* of the model, in camera space */
     double left, top, mm_width, mm_height; /* of the place for it, mm */
 } picture;
 
@@ -232,14 +232,14 @@ static int lie_on_page(picture *p) {
 
 /* The page is as large as the drawing and its margins, in whole pixels. */
 static int wrap_drawing(picture *p) {
-    const double *const m = margins(p->s), mm = p->plan->mm_per_px;
+    const double mm = p->plan->mm_per_px;
+    double m[4];
+    for (int k = 0; k < 4; k++) m[k] = mm * round(margins(p->s)[k] / mm);
     p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
     p->mm_width = mm * ceil(drawn_width(p, p->mm_per_unit) / mm);
     p->mm_height = mm * ceil(drawn_height(p, p->mm_per_unit) / mm);
-    p->plan->mm_width =
-        mm * (round(m[MARGIN_LEFT] / mm) + round(m[MARGIN_RIGHT] / mm)) + p->mm_width;
-    p->plan->mm_height =
-        mm * (round(m[MARGIN_TOP] / mm) + round(m[MARGIN_BOTTOM] / mm)) + p->mm_height;
+    p->plan->mm_width = m[MARGIN_LEFT] + p->mm_width + m[MARGIN_RIGHT];
+    p->plan->mm_height = m[MARGIN_TOP] + p->mm_height + m[MARGIN_BOTTOM];
     const int code = page_pixels(p->plan);
     return code ? code : place(p);
 }
@@ -252,16 +252,16 @@ static void fill_size(picture *p) {
     p->mm_height = target.height * p->plan->mm_per_px;
 }
 
-/* Looks at the model from where it will be seen, orthographically if scaled. */
+/* Looks at the model from where it will be seen, orthographically if that is flat. */
 static int measure(picture *p, dp_source *source, const dp_extent *extent, bool *whole) {
     tool_settings own = *p->s;
     dp_camera *const camera = &p->view->camera;
     dp_diag diag;
-    own.has_ortho |= p->scaled;
+    own.has_ortho |= p->flat;
     const int code = make_camera(&own, extent, 1, camera);
     if (code) return code;
     p->box = view_box_of(camera, extent);
-    *whole = p->scaled && !p->s->has_target;
+    *whole = p->flat && !p->s->has_target;
     if (!*whole || p->s->has_mirror || !dp_source_rewindable(source)) return 0;
     if (!view_boxes(source, camera, 1, &p->box, &diag)) return 0;
     return report_failure(p->s->model, &diag);
@@ -270,7 +270,7 @@ static int measure(picture *p, dp_source *source, const dp_extent *extent, bool 
 static int look(picture *p, const dp_extent *extent, bool whole) {
     static const double eye_axis[2] = {0, 0};
     const double aspect = (double)p->view->width / p->view->height;
-    if (!p->scaled) return make_camera(p->s, extent, aspect, &p->view->camera);
+    if (!p->flat) return make_camera(p->s, extent, aspect, &p->view->camera);
     const double centre[2] = {0.5 * (p->box.min[0] + p->box.max[0]),
                               0.5 * (p->box.min[1] + p->box.max[1])};
     const double height = p->view->height * p->plan->mm_per_px / p->mm_per_unit;
@@ -280,22 +280,37 @@ static int look(picture *p, const dp_extent *extent, bool whole) {
     return EXIT_USAGE;
 }
 
+/* Is an orthographic view to be as large as the page allows? */
+static bool is_fitted(const tool_settings *s) {
+    return s->page.width > 0 && s->has_ortho && !(s->ortho > 0) && !s->has_eye && !s->has_target;
+}
+
+static void fit_page(picture *p) {
+    const double lines = page_widest(p->s, p->plan), width = view_box_width(&p->box),
+                 height = view_box_height(&p->box);
+    const double by_width = width > 0 ? (p->mm_width - lines) / width : INFINITY,
+                 by_height = height > 0 ? (p->mm_height - lines) / height : INFINITY;
+    const double mm = fmin(by_width, by_height) * (p->s->zoom > 0 ? p->s->zoom : 1);
+    p->mm_per_unit = isfinite(mm) && mm > 0 ? mm : 1;
+}
+
 static int make_picture(const tool_settings *s, dp_source *source, const dp_extent *extent,
                         page_plan *plan) {
-    picture p = {.s = s, .plan = plan, .view = &plan->views[0], .scaled = s->scale.paper > 0};
-    const bool on_page = s->page.width > 0;
+    const bool on_page = s->page.width > 0, scaled = s->scale.paper > 0;
+    picture p = {.s = s, .plan = plan, .view = &plan->views[0], .flat = scaled || is_fitted(s)};
     bool whole = false;
-    if (p.scaled) p.mm_per_unit = page_scale(s, s->scale.paper / s->scale.model);
+    if (scaled) p.mm_per_unit = page_scale(s, s->scale.paper / s->scale.model);
     plan->view_count = 1;
-    int code = on_page || p.scaled ? measure(&p, source, extent, &whole) : 0;
+    int code = on_page || scaled ? measure(&p, source, extent, &whole) : 0;
     if (code) return code;
     if (on_page)
         code = lie_on_page(&p);
-    else if (p.scaled && !s->width)
+    else if (scaled && !s->width)
         code = wrap_drawing(&p);
     else
         fill_size(&p);
-    if (!code && whole && on_page) code = check_fits(&p);
+    if (!code && scaled && whole && on_page) code = check_fits(&p);
+    if (!scaled && p.flat) fit_page(&p);
     return code ? code : look(&p, extent, whole);
 }
 

@@ -945,7 +945,7 @@ is_vector() {
     pdf) first='%PDF-1.' last='%%EOF' ;;
     eps) first='%!PS-Adobe-3.0 EPSF-3.0' last='%%EOF' ;;
     dxf) first='' last=EOF ;;
-    json) first='{' last=']}' ;;
+    json) first='{' last='"rules":[]}' ;;
     esac
     [ "$(head -c ${#first} "$2")" = "$first" ] || fail "$2 does not begin with $first"
     [ "$(tail -n 1 "$2" | tr -d '\r')" = "$last" ] || fail "$2 does not end with $last"
