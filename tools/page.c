@@ -8,8 +8,8 @@
  *     --sheet           tools/sheet.c
  *
  * All is in whole pixels of 25.4 mm / --dpi, so that PNGs and vectors have the same lines in the
- * same places. With --scale, and with --ortho 0 on a page, which makes the drawing as large as the
- * margins allow, it lies in the middle of the picture, unless --target says what does. */
+ * same places. On a page the drawing reaches from margin to margin, or has its --scale, and lies in
+ * the middle, unless --eye and --target say otherwise. */
 #include "page.h"
 #include "commands.h"
 #include "report.h"
@@ -151,8 +151,8 @@ typedef struct picture {
     const tool_settings *s;
     page_plan *plan;
     page_view *view;
-    bool flat;          /* the drawing has a scale: by --scale, or as large as the page allows */
-    double mm_per_unit; /* flat: mm on paper for one of the model's */
+    bool sized;         /* the drawing has a size: by --scale, or what the page allows */
+    double mm_per_unit; /* then: mm on paper for one of the box's */
     view_box box;       /* of the model, in camera space */
     double left, top, mm_width, mm_height; /* of the place for it, mm */
 } picture;
@@ -252,37 +252,60 @@ static void fill_size(picture *p) {
     p->mm_height = target.height * p->plan->mm_per_px;
 }
 
-/* Looks at the model from where it will be seen, orthographically if that is flat. */
+/* Looks at the model from where it will be seen. */
 static int measure(picture *p, dp_source *source, const dp_extent *extent, bool *whole) {
     tool_settings own = *p->s;
     dp_camera *const camera = &p->view->camera;
     dp_diag diag;
-    own.has_ortho |= p->flat;
+    own.has_ortho |= own.scale.paper > 0;
     const int code = make_camera(&own, extent, 1, camera);
     if (code) return code;
     p->box = view_box_of(camera, extent);
-    *whole = p->flat && !p->s->has_target;
+    *whole = p->sized && !p->s->has_target;
     if (!*whole || p->s->has_mirror || !dp_source_rewindable(source)) return 0;
     if (!view_boxes(source, camera, 1, &p->box, &diag)) return 0;
     return report_failure(p->s->model, &diag);
 }
 
+/* Makes a perspective picture of the box's middle, at the drawing's scale: as with a lens that is
+ * shifted, the eye stays where it is. */
+static dp_result shift_lens(const picture *p, const dp_extent *extent, const double centre[2]) {
+    dp_camera *const camera = &p->view->camera;
+    double near_z, far_z, *const m = camera->projection;
+    dp_camera_near_far(camera, extent->min, extent->max, &near_z, &far_z);
+    const dp_result wrong = dp_camera_perspective(camera, 90, 1, near_z, far_z);
+    if (wrong) return wrong;
+    m[0] = 2 * p->mm_per_unit / (p->view->width * p->plan->mm_per_px);
+    m[5] = 2 * p->mm_per_unit / (p->view->height * p->plan->mm_per_px);
+    m[8] = m[0] * centre[0], m[9] = m[5] * centre[1]; /* times z, which is divided by -z */
+    return DP_OK;
+}
+
+static dp_result aim(const picture *p, const dp_extent *extent, const double centre[2]) {
+    const double aspect = (double)p->view->width / p->view->height,
+                 height = p->view->height * p->plan->mm_per_px / p->mm_per_unit;
+    return p->view->camera.projection[11] != 0
+               ? shift_lens(p, extent, centre)
+               : page_aim(&p->view->camera, extent, centre, height, aspect);
+}
+
 static int look(picture *p, const dp_extent *extent, bool whole) {
     static const double eye_axis[2] = {0, 0};
     const double aspect = (double)p->view->width / p->view->height;
-    if (!p->flat) return make_camera(p->s, extent, aspect, &p->view->camera);
+    if (!p->sized) return make_camera(p->s, extent, aspect, &p->view->camera);
     const double centre[2] = {0.5 * (p->box.min[0] + p->box.max[0]),
                               0.5 * (p->box.min[1] + p->box.max[1])};
-    const double height = p->view->height * p->plan->mm_per_px / p->mm_per_unit;
-    if (!page_aim(&p->view->camera, extent, whole ? centre : eye_axis, height, aspect)) return 0;
-    wrong_usage("--scale: at this scale the model is too small or too large to be seen; give "
-                "another, or --unit");
+    if (!aim(p, extent, whole ? centre : eye_axis)) return 0;
+    wrong_usage(
+        "at this scale the model is too small or too large to be seen; give another --scale, "
+        "or --unit");
     return EXIT_USAGE;
 }
 
-/* Is an orthographic view to be as large as the page allows? */
+/* Is the drawing to be as large as the page allows? */
 static bool is_fitted(const tool_settings *s) {
-    return s->page.width > 0 && s->has_ortho && !(s->ortho > 0) && !s->has_eye && !s->has_target;
+    return s->page.width > 0 && !(s->scale.paper > 0) && !(s->ortho > 0) && !s->has_eye &&
+           !s->has_target;
 }
 
 static void fit_page(picture *p) {
@@ -297,7 +320,7 @@ static void fit_page(picture *p) {
 static int make_picture(const tool_settings *s, dp_source *source, const dp_extent *extent,
                         page_plan *plan) {
     const bool on_page = s->page.width > 0, scaled = s->scale.paper > 0;
-    picture p = {.s = s, .plan = plan, .view = &plan->views[0], .flat = scaled || is_fitted(s)};
+    picture p = {.s = s, .plan = plan, .view = &plan->views[0], .sized = scaled || is_fitted(s)};
     bool whole = false;
     if (scaled) p.mm_per_unit = page_scale(s, s->scale.paper / s->scale.model);
     plan->view_count = 1;
@@ -310,7 +333,7 @@ static int make_picture(const tool_settings *s, dp_source *source, const dp_exte
     else
         fill_size(&p);
     if (!code && scaled && whole && on_page) code = check_fits(&p);
-    if (!scaled && p.flat) fit_page(&p);
+    if (!scaled && p.sized) fit_page(&p);
     return code ? code : look(&p, extent, whole);
 }
 

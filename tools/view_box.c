@@ -1,14 +1,21 @@
-/* How far a model reaches in views: all its corners in camera space, in double precision. */
+/* How far a model reaches in views: all its corners on the picture's plane, in double precision. */
 #include "view_box.h"
 
 #include <math.h>
 
 static const view_box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
+static double row_of(const dp_camera *camera, int row, const double p[3]) {
+    const double *const m = camera->view + row;
+    return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12];
+}
+
 static void take(view_box *box, const dp_camera *camera, const double p[3]) {
-    const double *const m = camera->view;
+    const bool perspective = camera->projection[11] != 0;
+    const double depth = perspective ? -row_of(camera, 2, p) : 1;
+    if (!(depth > 0)) return; /* behind the eye */
     for (int k = 0; k < 2; k++) {
-        const double at = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+        const double at = row_of(camera, k, p) / depth;
         box->min[k] = fmin(box->min[k], at);
         box->max[k] = fmax(box->max[k], at);
     }

@@ -6,7 +6,8 @@
 #include <drypoint/source.h>
 
 typedef struct view_box {
-    double min[2], max[2]; /* camera space, x and y: world units */
+    double min[2],
+        max[2]; /* camera space, x and y: world units; in perspective, x / -z and y / -z */
 } view_box;
 
 /* Of the corners of a source that can be read again, for `count` cameras in one reading. A model

@@ -1141,6 +1141,12 @@ scales() {
     run 0 shape:cube -q --page A4 --scale 1000:1 --view front --target 1,1,1 -o detail.svg # a detail, on purpose
     run 0 shape:cube -q --page A4 --eye 3,4,5 --scale 20:1 -o eye.svg
     command -v python3 >/dev/null || return
+    for camera in '--fov 50' '--ortho 0' '--view iso'; do # from margin to margin
+        run 0 shape:stairs -q --page 160x120mm --margin 10 --width 0.2mm $camera -o whole.svg
+        boxes whole.svg | awk '{ x = $3 - $1; y = $4 - $2; if (($1 + $3 - 160) ^ 2 > 0.1 || ($2 + $4 - 120) ^ 2 > 0.1) bad = 1
+            if (!(x > 139.5 && x < 140 && y < 100) && !(y > 99.5 && y < 100 && x < 140)) bad = 1 } END { exit bad || NR != 1 }' ||
+            fail "$camera does not fill the page: $(boxes whole.svg)"
+    done
     boxes fits.svg >fits
     awk 'NF != 4 || $3 - $1 < 99.99 || $3 - $1 > 100.01 || $4 - $2 < 99.99 || $4 - $2 > 100.01 ||
         $1 + $3 < 296.8 || $1 + $3 > 297.2 { bad = 1 } END { exit bad || NR != 1 }' fits ||
