@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char *name_of(const char *path) {
+const char *output_name(const char *path) {
     const char *const slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
 }
@@ -23,7 +23,7 @@ bool output_in_place(const char *path) {
 }
 
 bool output_has_ending(const char *path, const char *ending) {
-    const char *const dot = strrchr(name_of(path), '.');
+    const char *const dot = strrchr(output_name(path), '.');
     return dot && !strcasecmp(dot, ending);
 }
 
@@ -34,7 +34,7 @@ bool output_same(const char *path, const char *other) {
 }
 
 int output_stem(const char *path) {
-    const char *const dot = strrchr(name_of(path), '.');
+    const char *const dot = strrchr(output_name(path), '.');
     return (int)(dot ? (size_t)(dot - path) : strlen(path));
 }
 
@@ -42,7 +42,7 @@ bool output_possible(const char *path) {
     char directory[PATH_MAX];
     struct stat status;
     if (output_in_place(path)) return true;
-    const int length = (int)(name_of(path) - path);
+    const int length = (int)(output_name(path) - path);
     snprintf(directory, sizeof directory, "%.*s", length ? length : 1, length ? path : ".");
     if (stat(directory, &status))
         return wrong_usage("cannot write %s: %s: %s; make the directory first", path, directory,

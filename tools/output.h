@@ -6,6 +6,8 @@
 
 /* Is it standard output, a device or a pipe? These are written in place, and have no ending. */
 bool output_in_place(const char *path);
+/* The path without its directories. */
+const char *output_name(const char *path);
 /* Does the path end so (".png", say), in any case? */
 bool output_has_ending(const char *path, const char *ending);
 /* Length of the path without its ending. */

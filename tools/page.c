@@ -22,7 +22,8 @@
 
 enum { PIXELS_MOST = 32768 };
 
-static const double usual_margin = 10, usual_width = 0.35, sheet_width = 0.5; /* mm */
+static const double usual_margins[4] = {10, 10, 10, 10};   /* mm */
+static const double usual_width = 0.35, sheet_width = 0.5; /* mm */
 
 /* ---- scales ---- */
 
@@ -215,13 +216,12 @@ static void turn(const tool_settings *s, bool wide, page_plan *plan) {
     plan->mm_height = wide ? small : large;
 }
 
-static const double *margins(const tool_settings *s) {
-    static const double usual[4] = {usual_margin, usual_margin, usual_margin, usual_margin};
-    return s->has_margin ? s->margin : usual;
+const double *page_margins(const tool_settings *s) {
+    return s->has_margin ? s->margin : usual_margins;
 }
 
 static int lie_on_page(picture *p) {
-    const double *const m = margins(p->s);
+    const double *const m = page_margins(p->s);
     turn(p->s, view_box_width(&p->box) >= view_box_height(&p->box), p->plan);
     p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
     p->mm_width = p->plan->mm_width - m[MARGIN_LEFT] - m[MARGIN_RIGHT];
@@ -234,7 +234,7 @@ static int lie_on_page(picture *p) {
 static int wrap_drawing(picture *p) {
     const double mm = p->plan->mm_per_px;
     double m[4];
-    for (int k = 0; k < 4; k++) m[k] = mm * round(margins(p->s)[k] / mm);
+    for (int k = 0; k < 4; k++) m[k] = mm * round(page_margins(p->s)[k] / mm);
     p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
     p->mm_width = mm * ceil(drawn_width(p, p->mm_per_unit) / mm);
     p->mm_height = mm * ceil(drawn_height(p, p->mm_per_unit) / mm);

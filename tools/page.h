@@ -41,6 +41,8 @@ float page_length(const page_plan *plan, const tool_length *length);
 
 /* ---- for sheet.c ---- */
 
+/* mm: top, right, bottom, left. */
+const double *page_margins(const tool_settings *s);
 /* mm on paper for one unit of the model, at a scale. */
 double page_scale(const tool_settings *s, double scale);
 /* The largest of 1:1, 1:2, 1:5, 1:10, … and 2:1, 5:1, … at which what fits() says so of still fits;

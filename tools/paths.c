@@ -2,6 +2,7 @@
  * about them. */
 #include "paths.h"
 #include "files.h"
+#include "output.h"
 #include "progress.h"
 #include "report.h"
 
@@ -23,11 +24,6 @@ int paths_make(const tool_settings *s, const page_plan *plan, dp_context *contex
 }
 
 /* ---- files ---- */
-
-static const char *file_name(const char *path) {
-    const char *const slash = strrchr(path, '/');
-    return slash && slash[1] ? slash + 1 : path;
-}
 
 static void fill_views(const page_plan *plan, const view_paths *paths, dp_view_on_page *views) {
     for (int k = 0; k < plan->view_count; k++) {
@@ -66,7 +62,7 @@ int paths_write(const tool_settings *s, const page_plan *plan, const view_paths 
                           .text_count = plan->text_count,
                           .rules = plan->rules,
                           .rule_count = plan->rule_count,
-                          .title = s->title ? s->title : file_name(s->model)};
+                          .title = s->title ? s->title : output_name(s->model)};
     int code = 0;
     for (uint32_t k = 0; k < s->file_count && !code; k++) {
         const int format = files_format(s, s->files[k]);

@@ -12,6 +12,7 @@
  * The views turn with --up: front is what lies on +z, right what lies on +x, when +y is up; for
  * another direction all three are turned by the shortest way there. With 0,0,1 front is on -y. */
 #include "sheet.h"
+#include "output.h"
 #include "report.h"
 #include "view_box.h"
 
@@ -23,6 +24,8 @@ enum { COLUMNS = 4, ROWS = 3, MIDDLE = 1 };
 
 static const double least_gap = 8, largest_gap = 25; /* mm, between views */
 static const double inset = 4;                       /* mm, from the frame to views, at least */
+
+static const tool_page usual_page = {"A4", 210, 297, TURN_AUTO};
 
 typedef struct span {
     double from, to; /* camera space; from > to: there is none */
@@ -292,8 +295,7 @@ static bool put_views(const layout *l, const dp_extent *extent, double mm_per_un
 /* ---- the sheet ---- */
 
 static void size_page(const tool_settings *s, page_plan *plan) {
-    static const tool_page usual = {"A4", 210, 297, TURN_AUTO};
-    const tool_page *const page = s->page.width > 0 ? &s->page : &usual;
+    const tool_page *const page = s->page.width > 0 ? &s->page : &usual_page;
     const bool tall = page->turn == TURN_PORTRAIT ||
                       (page->turn == TURN_AS_IS && page->height > page->width && !s->landscape);
     const double small = fmin(page->width, page->height), large = fmax(page->width, page->height);
@@ -301,14 +303,9 @@ static void size_page(const tool_settings *s, page_plan *plan) {
     plan->mm_height = tall ? large : small;
 }
 
-static const char *file_name(const char *path) {
-    const char *const slash = strrchr(path, '/');
-    return !strcmp(path, "-") ? "" : slash && slash[1] ? slash + 1 : path;
-}
-
 /* What a model is called, where it has no title: its file's name without the ending. */
 static void name_model(const char *path, char name[TEXT_BYTES]) {
-    const char *const colon = strchr(path, ':'), *const file = file_name(path);
+    const char *const colon = strchr(path, ':'), *const file = output_name(path);
     snprintf(name, TEXT_BYTES, "%s", !strncmp(path, "shape:", 6) && colon ? colon + 1 : file);
     char *const dot = strrchr(name, '.');
     if (dot && dot > name) *dot = 0;
@@ -316,29 +313,27 @@ static void name_model(const char *path, char name[TEXT_BYTES]) {
 
 static void put_frame(const tool_settings *s, double scale, page_plan *plan) {
     static const char *const units[] = {"mm", "mm", "cm", "m", "in", "ft"};
-    const double usual = 10;
+    const double *const m = page_margins(s);
     char text[32], name[TEXT_BYTES];
     name_model(s->model, name);
     page_scale_text(scale, text);
     if (s->scale.paper > 0) snprintf(text, sizeof text, "%g:%g", s->scale.paper, s->scale.model);
-    const title_block block = {
-        .left = s->has_margin ? s->margin[MARGIN_LEFT] : usual,
-        .top = s->has_margin ? s->margin[MARGIN_TOP] : usual,
-        .right = plan->mm_width - (s->has_margin ? s->margin[MARGIN_RIGHT] : usual),
-        .bottom = plan->mm_height - (s->has_margin ? s->margin[MARGIN_BOTTOM] : usual),
-        .title = s->title ? s->title : name,
-        .model = file_name(s->model),
-        .scale = text,
-        .unit = units[s->unit],
-        .page = s->page.name ? s->page.name : "A4",
-        .first_angle = s->angle == ANGLE_FIRST};
+    const title_block block = {.left = m[MARGIN_LEFT],
+                               .top = m[MARGIN_TOP],
+                               .right = plan->mm_width - m[MARGIN_RIGHT],
+                               .bottom = plan->mm_height - m[MARGIN_BOTTOM],
+                               .title = s->title ? s->title : name,
+                               .model = strcmp(s->model, "-") ? output_name(s->model) : "",
+                               .scale = text,
+                               .unit = units[s->unit],
+                               .page = s->page.name ? s->page.name : usual_page.name,
+                               .first_angle = s->angle == ANGLE_FIRST};
     title_draw(&block, plan);
 }
 
 static void find_place(layout *l, const page_plan *plan) {
     const tool_settings *const s = l->s;
-    double m[4];
-    for (int k = 0; k < 4; k++) m[k] = s->has_margin ? s->margin[k] : 10;
+    const double *const m = page_margins(s);
     l->left = m[MARGIN_LEFT] + inset, l->top = m[MARGIN_TOP] + inset;
     l->width = plan->mm_width - m[MARGIN_RIGHT] - inset - l->left;
     l->height = plan->mm_height - m[MARGIN_BOTTOM] - title_height - inset - l->top;

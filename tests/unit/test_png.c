@@ -56,6 +56,35 @@ static int read_back(uint8_t rgba[BYTES]) {
     return channels;
 }
 
+/* A picture says how large it is on paper, where that is known: px per metre. */
+static void resolutions_are_told(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t dpi, per_metre;
+    } cases[] = {{0, 0}, {72, 2835}, {96, 3780}, {150, 5906}, {300, 11811}, {1000000, 39370079}};
+    uint8_t rgba[BYTES], bytes[64];
+    dp_diag diag;
+    paint(rgba, true, true);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const dp_io_picture picture = {
+            .rgba = rgba, .width = WIDTH, .height = HEIGHT, .dpi = cases[k].dpi};
+        assert_int_equal(dp_io_write_picture(path, &picture, &diag), DP_OK);
+        FILE *const file = fopen(path, "rb");
+        assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
+        fclose(file);
+        const bool told = !memcmp(bytes + 37, "pHYs", 4);
+        assert_int_equal(told, cases[k].dpi > 0);
+        for (int axis = 0; told && axis < 2; axis++) {
+            const uint8_t *const at = bytes + 41 + 4 * axis;
+            assert_int_equal((uint32_t)at[0] << 24 | at[1] << 16 | at[2] << 8 | at[3],
+                             cases[k].per_metre);
+        }
+    }
+    const dp_io_picture dense = {.rgba = rgba, .width = WIDTH, .height = HEIGHT, .dpi = 1000001};
+    assert_int_equal(dp_io_write_picture(path, &dense, &diag), DP_ERR_ARGUMENT);
+    assert_non_null(strstr(diag.message, "1000000 are the most"));
+}
+
 static void pixels_come_back(void **state) {
     (void)state;
     static const struct {
@@ -206,15 +235,11 @@ static void wrong_calls_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(pixels_come_back),
-        TEST(rows_may_be_padded),
-        TEST(cancelling_keeps_the_old_file),
-        TEST(permissions_stay),
-        TEST(links_stay_links),
-        TEST(a_full_disk_is_an_error),
-        TEST(devices_are_written_in_place),
-        TEST(bad_places_are_errors),
-        TEST(wrong_calls_are_refused),
+        TEST(resolutions_are_told),    TEST(pixels_come_back),
+        TEST(rows_may_be_padded),      TEST(cancelling_keeps_the_old_file),
+        TEST(permissions_stay),        TEST(links_stay_links),
+        TEST(a_full_disk_is_an_error), TEST(devices_are_written_in_place),
+        TEST(bad_places_are_errors),   TEST(wrong_calls_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
