@@ -141,6 +141,8 @@ void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths 
     if (s->optimize) {
         add(&to, "; the pen travels %.0f", i.travel * unit, name);
         add(&to, " between paths instead of %.0f", i.travel_before * unit, name);
+        if (i.travel_before > 0)
+            add(&to, ", %.0f %% less", 100 * (1 - i.travel / i.travel_before), "");
     }
     note("%s%s", file, to.text);
     if (!i.paths) note("%s: nothing of the model is seen, and no line is in it", file);
