@@ -191,12 +191,12 @@ static dp_page_style style_of_path(const dp_plan *plan, const dp_view_on_page *v
                                    const dp_stored_path *p, uint32_t layer) {
     const double mm = dp_view_scale(view), own = (double)p->width * mm;
     dp_page_style s = {.layer = layer, .color = p->color, .width = width_of(plan, own)};
-    const double width = (double)s.width / DP_FIXED_ONE; /* units */
-    double stretch = mm / plan->unit;                    /* of dashes, px to units */
+    const double ends = plan->thin ? 0 : (double)s.width / DP_FIXED_ONE; /* units, both */
+    double stretch = mm / plan->unit; /* of dashes, px to units */
     if (own > 0 && own < plan->page->least_width) stretch *= plan->page->least_width / own;
     const double on = (double)p->dash[0] * stretch, off = (double)p->dash[1] * stretch;
     if (!(off > 0) || !(on >= 0)) return s;
-    s.dash[0] = on > width ? dp_fixed(on - width) : 0;
+    s.dash[0] = on > ends ? dp_fixed(on - ends) : 0;
     s.dash[1] = dp_fixed(on + off) - s.dash[0];
     if (s.dash[1] <= 0) s.dash[0] = s.dash[1] = 0;
     return s;
@@ -241,7 +241,8 @@ static bool list_styles(dp_plan *plan) {
 
 dp_result dp_plan_make(dp_plan *plan, const dp_page *page, bool millimetres, bool grounds,
                        const dp_allocator *memory, dp_diag *diag) {
-    *plan = (dp_plan){.page = page, .memory = *memory, .up = millimetres, .grounds = grounds};
+    *plan = (dp_plan){.page = page, .memory = *memory, .grounds = grounds};
+    plan->up = plan->thin = millimetres;
     plan->unit = millimetres ? 1 : page->view_count ? dp_view_scale(&page->views[0]) : 25.4 / 96;
     plan->width = page->width / plan->unit;
     plan->height = page->height / plan->unit;
