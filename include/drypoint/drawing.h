@@ -65,7 +65,7 @@ typedef struct dp_path {
     float width; /* px, the whole line */
     dp_color color;
     float dash[2]; /* px drawn and px not, by turns, from the path's start; 0 and 0: a whole line.
-                      What is drawn has round ends: where dash[0] is 0 it is a dot */
+                      What is drawn has round ends beyond that: where dash[0] is 0 it is a dot */
     bool closed;            /* the last point is joined to the first, which is not repeated */
     dp_line_end end[2];     /* at the first point and at the last; of closed paths DP_END_VERTEX */
     uint64_t hider[2];      /* as in dp_segment */

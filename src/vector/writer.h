@@ -76,7 +76,6 @@ typedef struct dp_plan {
     double unit;           /* mm, of the page's units */
     double width, height;  /* units */
     bool up;               /* y counts from the lower edge */
-    bool thin;             /* lines have no width: dashes have no round ends */
     bool grounds;          /* grounds are taken */
     dp_layer *layers;      /* [layer_count], from the bottom up */
     dp_page_style *styles; /* [style_count], in the order in which they come */
@@ -85,8 +84,7 @@ typedef struct dp_plan {
     uint32_t last; /* the style that was found last */
 } dp_plan;
 
-/* Units are pixels of the first view, with y down; with `millimetres` those, with y up and lines
- * without a width. */
+/* Units are pixels of the first view, with y down; with `millimetres` those, with y up. */
 dp_result dp_plan_make(dp_plan *plan, const dp_page *page, bool millimetres, bool grounds,
                        const dp_allocator *memory, dp_diag *diag);
 void dp_plan_free(dp_plan *plan);

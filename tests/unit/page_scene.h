@@ -69,10 +69,10 @@ static inline void scene_lines(page_scene *s) {
         scene_path(s, DP_LINE_RIDGE, 2, 0.5f, red, SCENE_PLACES(2, 4, 37, 6, 36.5f, 27));
     p->dash[1] = 2;
     p = scene_path(s, DP_LINE_VALLEY, 1, 0.5f, black, SCENE_PLACES(3, 20, 38, 8));
-    p->dash[0] = 6, p->dash[1] = 1.5f;
+    p->dash[0] = 5.5f, p->dash[1] = 2;
     p = scene_path(s, DP_LINE_SILHOUETTE, 1, 1, 0x0000C880u,
                    SCENE_PLACES(6, 16, 20, 16, 20, 27, 6, 27));
-    p->dash[0] = 4, p->dash[1] = 2, p->closed = true;
+    p->dash[0] = 3, p->dash[1] = 3, p->closed = true;
     scene_path(s, DP_LINE_VALLEY, 0, 0.5f, black, SCENE_PLACES(3, 26, 9, 24.125f, 15, 26));
     scene_path(s, DP_LINE_INTERSECTION, 0, 0.5f, blue, SCENE_PLACES(22, 12, 34, 13.3333f));
     scene_path(s, DP_LINE_RIDGE, 0, 0.5f, black, SCENE_PLACES(8, 14, 17.0004f, 14, 17, 14));

@@ -308,7 +308,7 @@ static void lines_are_wide_enough(void **state) {
     page.least_width = 2 * 25.4 / 96; /* two pixels */
     const char *const svg = write_text(&page, DP_FORMAT_SVG);
     assert_holds(svg, ".dp-valley{stroke:#000;stroke-width:2;}");
-    /* of 0.5, 6 drawn and 1.5 not: all four times */
+    /* of 0.5, 5.5 drawn and 2 not: all four times */
     assert_holds(svg, ".dp-valley-hidden-1{stroke:#000;stroke-width:2;stroke-dasharray:22,8;}");
     assert_holds(svg, "stroke-width:3;}"); /* as it was */
 }
