@@ -155,9 +155,11 @@ typedef struct dp_page {
     dp_compressor *compress; /* NULL: PDF is not compressed */
 } dp_page;
 
-/* Writes a page, piece by piece: memory does not grow with it. The bytes depend on the page alone.
- * A drawing without paths makes a valid file without lines. DP_ERR_ARGUMENT (sizes are not finite
- * or not above 0, a ground without its PNG for SVG), DP_ERR_MEMORY, and whatever `write` returns. */
+/* Writes a page, piece by piece: memory does not grow with it (but for a PDF's ground, three bytes a
+ * pixel) and comes from the first view's drawing's allocator. The bytes depend on the page alone. A
+ * drawing without paths makes a valid file without lines; paths beyond the page are written as they
+ * are. DP_ERR_ARGUMENT (sizes are not finite, not above 0 or beyond a kilometre, a path's point is
+ * not finite, a ground without its PNG for SVG), DP_ERR_MEMORY, and whatever `write` returns. */
 DP_API dp_result dp_page_write(const dp_page *page, dp_format format, dp_text_writer *write,
                                void *user, dp_diag *diag);
 
