@@ -49,8 +49,8 @@ typedef struct dp_diag {
 /* Where memory comes from; if any member is NULL, malloc, realloc and free for all three. Blocks
  * must be aligned as malloc's are. `user` is passed to each call. Calls may come from several
  * threads at once. An object that is given an allocator takes all its memory from it, with these
- * exceptions: threads' stacks come from the system; libpng, Assimp and the writers of drypoint/io.h
- * use malloc. */
+ * exceptions: threads' stacks come from the system; libpng, zlib, Assimp and the writers of
+ * drypoint/io.h use malloc. */
 typedef struct dp_allocator {
     void *(*alloc)(size_t size, void *user);
     void *(*realloc)(void *block, size_t size, void *user); /* block may be NULL */

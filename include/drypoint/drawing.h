@@ -65,7 +65,7 @@ typedef struct dp_path {
     float width; /* px, the whole line */
     dp_color color;
     float dash[2]; /* px drawn and px not, by turns, from the path's start; 0 and 0: a whole line.
-                      What is drawn has round ends: where dash[0] is 0 it is a dot */
+                      What is drawn has round ends beyond that: where dash[0] is 0 it is a dot */
     bool closed;            /* the last point is joined to the first, which is not repeated */
     dp_line_end end[2];     /* at the first point and at the last; of closed paths DP_END_VERTEX */
     uint64_t hider[2];      /* as in dp_segment */
@@ -160,9 +160,11 @@ typedef struct dp_page {
     dp_compressor *compress; /* NULL: PDF is not compressed */
 } dp_page;
 
-/* Writes a page, piece by piece: memory does not grow with it. The bytes depend on the page alone.
- * A drawing without paths makes a valid file without lines. DP_ERR_ARGUMENT (sizes are not finite
- * or not above 0, a ground without its PNG for SVG), DP_ERR_MEMORY, and whatever `write` returns. */
+/* Writes a page, piece by piece: memory does not grow with it (but for a PDF's ground, three bytes a
+ * pixel) and comes from the first view's drawing's allocator. The bytes depend on the page alone. A
+ * drawing without paths makes a valid file without lines; paths beyond the page are written as they
+ * are. DP_ERR_ARGUMENT (sizes are not finite, not above 0 or beyond a kilometre, a path's point is
+ * not finite, a ground without its PNG for SVG), DP_ERR_MEMORY, and whatever `write` returns. */
 DP_API dp_result dp_page_write(const dp_page *page, dp_format format, dp_text_writer *write,
                                void *user, dp_diag *diag);
 

@@ -1,7 +1,8 @@
-/* drypoint/io.h: files, in the component libdrypoint_io (needs libpng and Assimp).
+/* drypoint/io.h: files, in the component libdrypoint_io (needs libpng, zlib and Assimp).
  *
  * The core library reads STL, PLY, OBJ and OFF itself (drypoint/source.h). This component reads
- * every format that Assimp knows, and writes pictures as PNG and models as PLY, STL and OBJ. */
+ * every format that Assimp knows, and writes pictures as PNG, pages of lines (SVG, PDF, …), and
+ * models as PLY, STL and OBJ. */
 #ifndef DRYPOINT_IO_H
 #define DRYPOINT_IO_H
 

@@ -109,17 +109,8 @@ static void put_type_name(const dxf *self, int code, size_t style) {
     dp_put_char(self->out, '\n');
 }
 
-/* What is seen of a dash is longer than its spine, by the width of a line; here lines have none. */
-static void seen_dash(const dp_page_style *s, int64_t dash[2]) {
-    dash[0] = s->dash[0] ? s->dash[0] + s->width : 0;
-    dash[1] = s->dash[0] + s->dash[1] - dash[0];
-}
-
 static bool are_dashed_alike(const dp_page_style *a, const dp_page_style *b) {
-    int64_t left[2], right[2];
-    seen_dash(a, left);
-    seen_dash(b, right);
-    return left[0] == right[0] && left[1] == right[1];
+    return a->dash[0] == b->dash[0] && a->dash[1] == b->dash[1];
 }
 
 static bool name_types(dxf *self) {
@@ -161,11 +152,9 @@ static void put_types(const dxf *self) {
     for (size_t i = 0; i < self->plan->style_count; i++) {
         const dp_page_style *const s = &self->plan->styles[i];
         uint32_t *const known = is_dotted(s) ? &dotted : &dashed;
-        int64_t dash[2];
         if (self->types[i] <= *known) continue;
         *known = self->types[i];
-        seen_dash(s, dash);
-        put_type(self, i, is_dotted(s) ? ". . . . ." : "__ __ __", dash);
+        put_type(self, i, is_dotted(s) ? ". . . . ." : "__ __ __", s->dash);
     }
     put_name(out, 0, "ENDTAB");
 }

@@ -26,7 +26,7 @@ static const format formats[DP_FORMAT_COUNT] = {
     [DP_FORMAT_PDF] = {"pdf", dp_write_pdf, .grounds = true},
     [DP_FORMAT_EPS] = {"eps", dp_write_eps, .grounds = true},
     [DP_FORMAT_DXF] = {"dxf", dp_write_dxf, .millimetres = true},
-    [DP_FORMAT_JSON] = {"json", dp_write_json}};
+    [DP_FORMAT_JSON] = {"json", dp_write_json, .grounds = false}};
 
 const char *dp_format_name(dp_format f) {
     return (unsigned)f < DP_FORMAT_COUNT ? formats[f].name : "unknown";

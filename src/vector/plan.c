@@ -3,10 +3,9 @@
  * Layers lie sorted. Styles are found by hash; one that is found again and again, as neighbours of
  * one layer are, is found at once. Styles that look alike in thousandths of a unit are one.
  *
- * Dashes: dp_path.dash is what is seen, round ends included, as ISO 128 measures it, but a pen's
- * dashes are of its spine. So a width is taken off what is drawn and added to what is not; what is
- * shorter than the line is wide is a dot, as often as before. Lines that are written wider than they
- * are (dp_page.least_width) have their dashes longer by as much: else they would close. */
+ * Dashes are of the spine, as those of the raster picture (strokes/hidden.c) and of every format here
+ * are: round ends lie beyond. Lines that are written wider than they are (dp_page.least_width) have
+ * their dashes longer by as much: else they would close. */
 #include "vector/writer.h"
 
 #include "base/diag.h"
@@ -191,14 +190,11 @@ static dp_page_style style_of_path(const dp_plan *plan, const dp_view_on_page *v
                                    const dp_stored_path *p, uint32_t layer) {
     const double mm = dp_view_scale(view), own = (double)p->width * mm;
     dp_page_style s = {.layer = layer, .color = p->color, .width = width_of(plan, own)};
-    const double width = (double)s.width / DP_FIXED_ONE; /* units */
-    double stretch = mm / plan->unit;                    /* of dashes, px to units */
+    double stretch = mm / plan->unit; /* of dashes, px to units */
     if (own > 0 && own < plan->page->least_width) stretch *= plan->page->least_width / own;
-    const double on = (double)p->dash[0] * stretch, off = (double)p->dash[1] * stretch;
-    if (!(off > 0) || !(on >= 0)) return s;
-    s.dash[0] = on > width ? dp_fixed(on - width) : 0;
-    s.dash[1] = dp_fixed(on + off) - s.dash[0];
-    if (s.dash[1] <= 0) s.dash[0] = s.dash[1] = 0;
+    const int64_t on = dp_fixed((double)p->dash[0] * stretch),
+                  off = dp_fixed((double)p->dash[1] * stretch);
+    if (on >= 0 && off > 0) s.dash[0] = on, s.dash[1] = off;
     return s;
 }
 
