@@ -85,7 +85,7 @@ typedef struct dp_target {
  * between polygons of one part; beyond 64 readings edges are given up, and where lines alone do not
  * fit they are thinned (dp_stats.edges_lost). Polygons of more than three corners are streamed as
  * triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
- * adjacency, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source is
+ * adjacency, hidden lines, polar stroke textures) is drawn from memory. With dp_style.passes = 1 the source is
  * read once, and what hides lines is known only as finely as the picture's samples. A source that
  * can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1. Sources of one
  * stable batch are drawn from where they lie, whatever their size.
@@ -109,12 +109,13 @@ DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera
 typedef enum dp_line_end {
     DP_END_VERTEX = 0, /* a vertex of its edge */
     DP_END_CROSSING,   /* of an intersection: one of the two polygons ends there */
-    DP_END_HIDDEN,     /* a nearer polygon hides it from there on */
-    DP_END_PICTURE     /* the picture's edge, or the near or the far plane */
+    DP_END_HIDDEN, /* a nearer polygon hides it from there on; of a hidden line: there it becomes
+                          visible, or its level changes */
+    DP_END_PICTURE /* the picture's edge, or the near or the far plane */
 } dp_line_end;
 
-/* A visible piece of a feature line, as found by the last dp_draw with DP_INK_STROKES, or with
- * DP_EDGES_ADJACENCY. */
+/* A piece of a feature line, as found by the last dp_draw with DP_INK_STROKES, or with
+ * DP_EDGES_ADJACENCY: a visible one, or, with dp_style.hidden, one that is hidden. */
 typedef struct dp_segment {
     dp_line line;
     float a[3], b[3]; /* both ends on the screen: x right, y down, px; third: distance along
@@ -129,12 +130,14 @@ typedef struct dp_segment {
     dp_line_end end[2]; /* at a and at b */
     uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
                           that hide the line within two pixels of its end; UINT64_MAX: not known, as
-                          where the source is streamed, and now and then where tiles meet */
-    uint32_t level;     /* how many surfaces hide it; always 0 in this version: it is visible */
-    uint32_t chain;     /* number of its chain: segments that a pen draws in one go; from 0 on */
-    uint32_t place;     /* its place in the chain, from 0 on */
-    bool reversed;      /* in its chain it is drawn from b to a */
-    float width;        /* px */
+                          where the source is streamed, and now and then where tiles meet; of
+                          hidden lines never */
+    uint32_t level; /* how many front-facing surfaces hide it, 1 at least where anything does, and
+                           dp_hidden.levels at most; 0: it is visible */
+    uint32_t chain; /* number of its chain: segments that a pen draws in one go; from 0 on */
+    uint32_t place; /* its place in the chain, from 0 on */
+    bool reversed;  /* in its chain it is drawn from b to a */
+    float width;    /* px; both by class and, of hidden lines, by level */
     dp_color color;
 } dp_segment;
 

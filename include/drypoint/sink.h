@@ -28,14 +28,14 @@ typedef struct dp_sheet {
     size_t segments;
 } dp_sheet;
 
-/* A chain of segments of one class and colour, drawn without lifting the pen. Consecutive segments
+/* A chain of segments of one class, level and colour, drawn without lifting the pen. Consecutive segments
  * meet at one point; those of stylized strokes (strokes.h) may leave a gap of a few px, over which
  * the stroke runs. */
 typedef struct dp_chain_stroke {
     dp_line line;
     uint32_t chain; /* as in dp_segment */
     uint32_t group; /* of the first segment */
-    uint32_t level; /* how many surfaces hide it; always 0 in this version: it is visible */
+    uint32_t level; /* of all its segments; 0: visible */
     float width;    /* px, the whole line, of the first segment */
     dp_color color;
     bool closed;                       /* the last segment ends where the first begins */
@@ -48,7 +48,9 @@ typedef struct dp_chain_stroke {
  * function may be NULL, all of them too. A function must not call anything that draws with, or sends
  * from, the same context; to stop, it returns DP_ERR_CANCELLED, or what has failed. They are called in this order, from the
  * thread that sends: begin, surface, then for each class that has strokes, from the bottom up
- * (valleys, intersections, ridges, borders, silhouettes), layer and its strokes, then end. What is
+ * (valleys, intersections, ridges, borders, silhouettes), layer and its strokes, then end. Hidden
+ * lines come before, the highest level first, and each level has its own layers in that order: which
+ * level a layer is of, its strokes tell. What is
  * pointed to is borrowed until the function returns. They may ask the context for its segments and
  * statistics, or send to another sink, but not draw with it. A result other than DP_OK ends the
  * drawing; its reason goes into `diag`, which may be NULL. */
@@ -89,7 +91,8 @@ typedef dp_result dp_text_writer(void *user, const char *text, size_t size, dp_d
  *
  * `stroke` is followed by the number of its chain, and has `closed` at its end where it is closed.
  * `from` begins it, each `to` ends one segment; where a segment does not begin where the one before
- * ended (stylized strokes), a line `gap` says where it begins. Positions are x and y, px, and the
+ * ended (stylized strokes), a line `gap` says where it begins. `level` is 0 for visible lines;
+ * hidden ones come first, with layers of their own. Positions are x and y, px, and the
  * distance along the line of sight. `edge` gives polygon and corner of the source, `crossing` the
  * polygon of an intersection, `other` the second polygon where it is known. What ends a segment comes
  * last: `vertex` (left out where the stroke runs on), `crossing`, `picture` or `hidden`, by a polygon

@@ -77,23 +77,27 @@ typedef struct dp_line_style {
     dp_color color; /* 0 means black */
 } dp_line_style;
 
-/* How lines look that something hides (docs/vector.md). Strokes only. */
+/* How lines look that something hides (docs/lines.md). With DP_INK_STROKES and DP_EDGES_EMERGENT. */
 typedef enum dp_hidden_look {
     DP_HIDDEN_NONE = 0, /* not drawn, not looked for */
-    DP_HIDDEN_DASHED,   /* 12 widths drawn, 3 not (ISO 128-2) */
-    DP_HIDDEN_DOTTED,   /* dots, 3 widths apart */
+    DP_HIDDEN_DASHED,   /* 12 widths drawn, 3 not (ISO 128-2); a little more or less, so that lines
+                           begin and end with a dash */
+    DP_HIDDEN_DOTTED,   /* round dots, one every 3 widths */
     DP_HIDDEN_THIN,     /* whole, but narrow */
     DP_HIDDEN_SOLID     /* whole, and as wide as visible ones */
 } dp_hidden_look;
 
 enum { DP_LEVELS = 8 /* the most that are told apart */ };
 
-/* Hidden lines. A line's level says how many front-facing surfaces lie between it and the eye, and
- * is 1 at least where anything hides it; `levels` or more count as `levels`. */
+/* Hidden lines, drawn below visible ones, which they do not change. A line's level says how many
+ * front-facing surfaces lie between it and the eye, and is 1 at least where anything hides it;
+ * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Of
+ * groups (immediate.h) the first one's look, levels and smooth are those of all. */
 typedef struct dp_hidden {
     dp_hidden_look look;
     uint32_t levels; /* 1 to DP_LEVELS; 0 means 1: hidden by anything */
-    bool smooth;     /* also folds so slight that drawing offices leave them out (docs/lines.md) */
+    bool smooth;     /* also folds of less than 40 degrees, which drawing offices leave out
+                        (docs/lines.md) */
     /* By level - 1 and class. width: 0 means half the visible line's, or the same if solid; color: 0
      * means the visible line's. */
     dp_line_style line[DP_LEVELS][DP_LINE_COUNT];

@@ -207,13 +207,13 @@ static dp_result resolve_edge_map(dp_edge_map *m, dp_diag *diag) {
 /* Hidden lines are those of the tiles' edge tables, drawn as strokes. */
 static dp_result check_hidden(const dp_style *style, dp_diag *diag) {
     if (!style->hidden.look) return DP_OK;
-    if (style->ink == DP_INK_QUADS)
-        return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "hidden lines are drawn as strokes; with quads as ink there are none");
     if (style->edges == DP_EDGES_ADJACENCY)
         return dp_fail(
             diag, DP_ERR_ARGUMENT,
             "hidden lines emerge from the tiles; with lines by adjacency there are none");
+    if (style->ink == DP_INK_QUADS)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "hidden lines are drawn as strokes; with quads as ink there are none");
     return DP_OK;
 }
 

@@ -83,7 +83,7 @@ static uint32_t find_shown(const dp_hidden_store *own, uint32_t key) {
 
 /* The level of a candidate's sample point k. */
 static uint8_t *level_at(const dp_finder *w, const dp_candidate *c, uint32_t k) {
-    return &w->lines.probes.level[c->probe + (k - c->k0)];
+    return &w->lines.level[c->probe + (k - c->k0)];
 }
 
 /* What a piece of the same spine shows is not hidden. */
@@ -174,10 +174,9 @@ static void find_candidates(dp_finder *w) {
 /* Where one level is all, the first polygon that hides a point is enough. */
 static bool count_levels(dp_finder *w) {
     const uint32_t levels = w->tile.frame->hidden;
-    if (!DP_TILE_RESERVE(&w->tile, w, lines.probes.level, lines.probe_level_cap,
-                         w->lines.probe_count))
+    if (!DP_TILE_RESERVE(&w->tile, w, lines.level, lines.level_cap, w->lines.probe_count))
         return false;
-    if (w->lines.probe_count) memset(w->lines.probes.level, 0, w->lines.probe_count);
+    if (w->lines.probe_count) memset(w->lines.level, 0, w->lines.probe_count);
     w->lines.levels = levels > 1 ? levels : 0;
     dp_hide_points(w);
     w->lines.levels = 0;

@@ -356,38 +356,56 @@ void dp_find_intersections(dp_finder *w) {
 
 /* ------- crossings that nobody sees ------- */
 
-/* Cells of DP_CELL px that a polygon's box touches. */
+/* The tile's polygons by square cells, so large that most hold few of them. */
+typedef struct grid {
+    uint32_t cell; /* px */
+    uint32_t side; /* cells */
+    uint32_t first[DP_CELLS * DP_CELLS + 1];
+} grid;
+
+/* Cells that a polygon's box touches. */
 typedef struct cell_box {
     uint32_t x0, y0, x1, y1;
 } cell_box;
 
-static cell_box cells_of(const dp_tile_polygon *p) {
-    return (cell_box){p->x0 / DP_CELL, p->y0 / DP_CELL, p->x1 / DP_CELL, p->y1 / DP_CELL};
+static cell_box cells_of(const grid *g, const dp_tile_polygon *p) {
+    return (cell_box){p->x0 / g->cell, p->y0 / g->cell, p->x1 / g->cell, p->y1 / g->cell};
 }
 
-/* Lists the tile's polygons by cell (counting sort). */
-static bool list_by_cell(dp_finder *w, uint32_t first[DP_CELLS * DP_CELLS + 1]) {
+/* Counts the polygons of each cell, or lists them from the end of the cell's run towards its start. */
+static void visit_cells(dp_finder *w, grid *g, bool counting) {
     const dp_tile *const t = &w->tile;
-    uint32_t sum = 0;
-    for (int counting = 1; counting >= 0; counting--) {
-        for (uint32_t i = t->seen_count; i-- > 0;) {
-            const dp_tile_polygon *const p = &t->polygons[t->seen[i]];
-            if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
-            const cell_box c = cells_of(p);
-            for (uint32_t y = c.y0; y <= c.y1; y++)
-                for (uint32_t x = c.x0; x <= c.x1; x++) {
-                    if (counting)
-                        first[y * DP_CELLS + x]++;
-                    else
-                        w->intersecting.listed[--first[y * DP_CELLS + x]] = t->seen[i];
-                }
-        }
-        for (uint32_t i = 0; counting && i < DP_CELLS * DP_CELLS; i++) first[i] = sum += first[i];
-        if (counting && !DP_TILE_RESERVE(&w->tile, w, intersecting.listed, intersecting.listed_cap,
-                                         (size_t)sum + DP_INTERSECTING_ROOM))
-            return false;
+    for (uint32_t i = t->seen_count; i-- > 0;) {
+        const dp_tile_polygon *const p = &t->polygons[t->seen[i]];
+        if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
+        const cell_box c = cells_of(g, p);
+        for (uint32_t y = c.y0; y <= c.y1; y++)
+            for (uint32_t x = c.x0; x <= c.x1; x++) {
+                if (counting)
+                    g->first[y * g->side + x]++;
+                else
+                    w->intersecting.listed[--g->first[y * g->side + x]] = t->seen[i];
+            }
     }
-    first[DP_CELLS * DP_CELLS] = sum;
+}
+
+/* A vector or two of polygons are as soon compared as sorted. */
+enum { FEW = 32, MANY = 512 };
+
+/* Lists the tile's polygons by cell (counting sort). */
+static bool list_by_cell(dp_finder *w, grid *g) {
+    const uint32_t count = w->tile.seen_count;
+    uint32_t sum = 0;
+    memset(g, 0, sizeof *g);
+    g->side = count <= FEW ? 1 : count <= MANY ? DP_CELLS / 4 : DP_CELLS;
+    g->cell = DP_TILE / g->side;
+    visit_cells(w, g, true);
+    for (uint32_t i = 0; i < g->side * g->side; i++) g->first[i] = sum += g->first[i];
+    if (!DP_TILE_RESERVE(&w->tile, w, intersecting.listed, intersecting.listed_cap,
+                         (size_t)sum + DP_INTERSECTING_ROOM))
+        return false;
+    visit_cells(w, g, false);
+    g->first[g->side * g->side] = sum;
     return true;
 }
 
@@ -409,32 +427,57 @@ static bool put_cell(dp_finder *w, const uint32_t *polygon, uint32_t count) {
 }
 
 /* Is this the first of the cells that both touch? */
-static bool meet_first(const dp_tile_polygon *p, const dp_tile_polygon *q, uint32_t x, uint32_t y) {
-    const cell_box a = cells_of(p), b = cells_of(q);
+static bool meet_first(const grid *g, const dp_tile_polygon *p, const dp_tile_polygon *q,
+                       uint32_t cell) {
+    const cell_box a = cells_of(g, p), b = cells_of(g, q);
+    const uint32_t x = cell % g->side, y = cell / g->side;
     return x == (a.x0 > b.x0 ? a.x0 : b.x0) && y == (a.y0 > b.y0 ? a.y0 : b.y0);
 }
 
-static void cross_in_cell(dp_finder *w, uint32_t x, uint32_t y) {
+/* Does an edge of p have all of q on its other side on the screen? Corners that both share lie on it,
+ * exactly. */
+static bool parts(const dp_tile *t, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+    const dp_vertex *const a = t->points + p->point, *const b = t->points + q->point;
+    const float turn = p->flags & DP_POLYGON_FRONT ? -1.0f : 1.0f; /* y runs down */
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_vertex s = a[i], e = a[i + 1 == p->points ? 0 : i + 1];
+        const float ex = turn * (e.x - s.x), ey = turn * (e.y - s.y);
+        bool inside = false;
+        for (uint32_t k = 0; k < q->points && !inside; k++)
+            inside = ex * (b[k].y - s.y) - ey * (b[k].x - s.x) > 0;
+        if (!inside) return true;
+    }
+    return false;
+}
+
+/* Do the two lie side by side on the screen, as neighbours on a surface do? Then they do not cross. */
+static bool lie_apart(const dp_tile *t, const dp_tile_polygon *p, const dp_tile_polygon *q) {
+    if ((p->flags | q->flags) & (DP_POLYGON_EDGE_ON | DP_POLYGON_CLIPPED)) return false;
+    return parts(t, p, q) || parts(t, q, p);
+}
+
+static void cross_in_cell(dp_finder *w, const grid *g, uint32_t cell) {
     const dp_intersecting *const own = &w->intersecting;
     for (uint32_t i = 0; i < own->count && !w->tile.failed; i++) {
         const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)->meet(own, i, own->count);
         for (uint32_t k = 0; k < met; k++) {
             const uint32_t a = own->polygon[i], b = own->polygon[own->met[k]];
-            if (meet_first(&w->tile.polygons[a], &w->tile.polygons[b], x, y)) test_pair(w, a, b);
+            const dp_tile_polygon *const p = &w->tile.polygons[a], *const q = &w->tile.polygons[b];
+            if (meet_first(g, p, q, cell) && !lie_apart(&w->tile, p, q)) test_pair(w, a, b);
         }
     }
 }
 
 /* No sample says where these are: all pairs of a cell are tested. */
 void dp_find_crossings(dp_finder *w) {
-    uint32_t first[DP_CELLS * DP_CELLS + 1] = {0};
+    grid g;
     w->intersecting.crossing_count = 0;
-    if (!(w->tile.frame->lines & DP_INTERSECTION) || !list_by_cell(w, first)) return;
-    for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) {
-        const uint32_t count = first[i + 1] - first[i];
+    if (!(w->tile.frame->lines & DP_INTERSECTION) || !list_by_cell(w, &g)) return;
+    for (uint32_t i = 0; i < g.side * g.side; i++) {
+        const uint32_t count = g.first[i + 1] - g.first[i];
         if (count < 2) continue;
-        if (!put_cell(w, w->intersecting.listed + first[i], count)) return;
-        cross_in_cell(w, i % DP_CELLS, i / DP_CELLS);
+        if (!put_cell(w, w->intersecting.listed + g.first[i], count)) return;
+        cross_in_cell(w, &g, i);
     }
     add_crossings(w);
 }

@@ -22,7 +22,6 @@ typedef struct dp_candidate {
  * limit is then infinite. */
 typedef struct dp_probes {
     float *x, *y, *limit;
-    uint8_t *level; /* where hidden lines are looked for: DP_LEVEL_… */
 } dp_probes;
 
 /* What is known of a sample point: the number of front faces that lie nearer, and whether anything
@@ -71,12 +70,12 @@ typedef struct dp_line_store {
     dp_candidate *candidates;
     dp_probes probes;
     const uint32_t (*owners)[2]; /* by candidate: polygons that do not hide it; NULL: its a and b */
-    uint32_t
-        levels; /* not 0: points are not hidden by the first polygon before them, but by this many
-                        front faces; others are counted in probes.level (hide.inc) */
-    bool streamed; /* the tile does not hold the polygons that have hidden the sample points */
+    uint8_t *level;              /* for hidden lines, by sample point: DP_LEVEL_… */
+    uint32_t levels; /* not 0: points are hidden by this many front faces, not by the first polygon;
+                        others are counted in `level` (hide.inc) */
+    bool streamed;   /* the tile does not hold the polygons that have hidden the sample points */
     dp_probe_groups groups;
-    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, probe_level_cap;
+    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, level_cap;
     uint32_t candidate_count, probe_count;
 } dp_line_store;
 

@@ -3,7 +3,8 @@
  *     set visible strokes aside, in the order in which plain ink has always taken them
  *     chain hidden segments, whatever their level: a run shorter than CRUMB takes the level of the
  *         longer run beside it
- *     chain them, whatever their class: what is shorter than CRUMB altogether is dropped
+ *     chain them, whatever their class: what is shorter than CRUMB altogether is dropped, and
+ *         segments of one edge that have one level now are joined
  *     chain all (lines.c); cut each hidden chain at its corners, and each part into dashes
  *
  * A dash is as long as ISO 128-2 has it, but the pattern is stretched or shrunk so that a part begins
@@ -127,11 +128,27 @@ static bool find_crumbs(hidden_part *h) {
     return true;
 }
 
+/* Appends segment i to segment `to`, which it goes on. */
+static void append(dp_lines *d, size_t to, size_t i) {
+    const dp_segment *const from = &d->segments[i];
+    dp_segment *const s = &d->segments[to];
+    d->pieces[to].k1 = d->pieces[i].k1, d->pieces[to].hider[1] = d->pieces[i].hider[1];
+    d->strokes[to].b = d->strokes[i].b;
+    memcpy(s->b, from->b, sizeof s->b);
+    memcpy(s->world_b, from->world_b, sizeof s->world_b);
+    s->end[1] = from->end[1], s->hider[1] = from->hider[1];
+}
+
+/* Drops what is marked, and joins what has one level now. */
 static void drop_crumbs(const hidden_part *h) {
     dp_lines *const d = h->lines;
     size_t kept = 0;
     for (size_t i = 0, k = 0; i < d->count; i++) {
         if (k < h->count && h->segment[k] == i && h->dropped[k++]) continue;
+        if (d->pieces[i].level && kept && dp_piece_goes_on(&d->pieces[kept - 1], &d->pieces[i])) {
+            append(d, kept - 1, i);
+            continue;
+        }
         if (kept < i)
             d->pieces[kept] = d->pieces[i], d->segments[kept] = d->segments[i],
             d->strokes[kept] = d->strokes[i];

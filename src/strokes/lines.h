@@ -43,6 +43,9 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *dr
 /* The order of pieces by polygon, edge and sample points, for sorting. */
 int dp_piece_order(const dp_piece *left, const dp_piece *right);
 
+/* Is q the next part of what p is a part of? */
+bool dp_piece_goes_on(const dp_piece *p, const dp_piece *q);
+
 /* The rule by which plain strokes are chained (lines.c). */
 dp_chain_rule dp_plain_chain_rule(void);
 

@@ -51,7 +51,7 @@ int dp_piece_order(const dp_piece *l, const dp_piece *r) {
 
 static int by_edge(const void *left, const void *right) { return dp_piece_order(left, right); }
 
-static bool continues(const dp_piece *p, const dp_piece *q) {
+bool dp_piece_goes_on(const dp_piece *p, const dp_piece *q) {
     return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line &&
            p->level == q->level && p->k1 == q->k0;
 }
@@ -80,7 +80,7 @@ static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_lines *
         dp_sort(store->pieces + closed, total - closed, sizeof *store->pieces, by_edge);
     size_t last = closed;
     for (size_t i = closed; i < total; i++) {
-        if (i > closed && continues(&store->pieces[last - 1], &store->pieces[i])) {
+        if (i > closed && dp_piece_goes_on(&store->pieces[last - 1], &store->pieces[i])) {
             store->pieces[last - 1].k1 = store->pieces[i].k1;
             store->pieces[last - 1].hider[1] = store->pieces[i].hider[1];
         } else {

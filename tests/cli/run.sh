@@ -786,6 +786,51 @@ widths_of_classes() {
     wrong shape:cube -o out.png --width 2,3 -- 'only the first value can be for all classes'
     wrong shape:cube -o out.png --color 'ridge=#FF0000,#00FF00' -- 'which class "#00FF00" is for'
 }
+# Lines that something hides: their looks, levels, widths and colours.
+hidden_lines() {
+    run 0 shape:gear $small -o plain.png -o trace=plain.txt
+    run 0 shape:gear $small -o none.png --hidden none --levels 3
+    cmp -s plain.png none.png || fail "--hidden none changes the picture"
+    for look in dashed dotted thin solid; do
+        run 0 shape:gear $small -o $look.png --hidden $look
+        cmp -s plain.png $look.png && fail "--hidden $look changes nothing"
+    done
+    cmp -s thin.png solid.png && fail "thin is solid"
+    cmp -s dashed.png dotted.png && fail "dashed is dotted"
+    run 0 shape:gear $small -o trace=one.txt --hidden dashed
+    says one.txt 'level 1 width 1'
+    grep -q 'level 2' one.txt && fail "there is a second level"
+    run 0 shape:gear $small -o trace=three.txt --hidden dashed --levels 3
+    says three.txt 'level 2 width 1'
+    grep -q 'level 4' three.txt && fail "there is a fourth level"
+    run 0 shape:gear $small -o trace=looks.txt --hidden solid --levels 3 --hidden-width '1.5,ridge=3,:2=4,ridge:2=5' \
+        --hidden-color '#010203,:3=#040506'
+    says looks.txt 'level 1 width 1.5 color #010203ff'
+    says looks.txt 'level 1 width 3 color #010203ff'
+    says looks.txt 'level 2 width 4 color #010203ff'
+    says looks.txt 'level 2 width 5 color #010203ff'
+    says looks.txt 'level 3 width 3 color #040506ff'
+    run 0 shape:bolt $small -o smooth.png --hidden thin --hidden-smooth
+    run 0 shape:bolt $small -o rough.png --hidden thin
+    cmp -s smooth.png rough.png && fail "--hidden-smooth changes nothing"
+    silent err
+}
+wrong_hidden_lines() {
+    wrong shape:cube -o out.png --hidden dahsed -- 'did you mean dashed?'
+    wrong shape:cube -o out.png --levels 9 -- '--levels: 9 is out of range'
+    wrong shape:cube -o out.png --hidden-width 2,3 -- 'only the first value can be for all lines'
+    wrong shape:cube -o out.png --hidden-width ridge:9=2 -- '":9" is no level'
+    wrong shape:cube -o out.png --hidden-width ridge:=2 -- 'is no level'
+    wrong shape:cube -o out.png --hidden-width rigde:1=2 -- 'did you mean ridge?'
+    wrong shape:cube -o out.png --hidden-width 100 -- '--hidden-width: 100 is out of range'
+    wrong shape:cube -o out.png --hidden-color :1=red -- '--hidden-color: "red" is not a colour'
+    for option in "--ink quads" "--edges adjacency"; do
+        "$program" shape:cube $small -o out.png --hidden dashed $option 2>err && fail "$option is allowed"
+        one_line
+        says err 'hidden lines'
+        absent out.png
+    done
+}
 # The lines as text: alone, beside a picture, to standard output; and no half a file.
 traces() {
     run 0 shape:cube $small -o trace=alone.txt
@@ -1242,7 +1287,7 @@ paper_presets() {
     svg_size large.svg | grep -q 420mm || fail "options do not change presets: $(svg_size large.svg)"
 }
 
-tests="vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+tests="vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
