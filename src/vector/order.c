@@ -2,7 +2,8 @@
  *
  *     from where the pen is, draw the path that begins nearest, again and again (grid); open paths
  *     begin at either end, closed ones at any point
- *     turn runs of WINDOW paths at most round where that is shorter (2-opt: Croes 1958)
+ *     turn runs of WINDOW paths at most round where that is shorter (2-opt: Croes 1958), and draw
+ *         single ones up to WINDOW others earlier or later (Or 1976)
  *     turn and rotate the points of the paths
  *
  * Data structure: a grid of the points at which paths of the layer can begin. When half of them are
@@ -14,7 +15,7 @@
 
 #include <math.h>
 
-enum { WINDOW = 50, PASSES = 3, PER_CELL = 2 };
+enum { WINDOW = 50, PASSES = 5, PER_CELL = 2 };
 
 typedef struct start {
     float x, y; /* px */
@@ -206,28 +207,84 @@ static void turn_run(touring *t, size_t i, size_t k) {
     if (i == k) t->stops[i] = turned(t->d, t->stops[i]);
 }
 
-/* Turns runs round; those that begin the layer come from `pen`. */
-static bool improve(touring *t, size_t first, size_t last, const float pen[2]) {
+/* The way from one stop to the next; to or from nowhere it is none. */
+static double leg(const stop *from, const stop *to) {
+    return from && to ? way(from->out, to->in) : 0;
+}
+
+/* Where the layer begins and ends: nowhere but the pen, after the first layer, is a stop. */
+typedef struct tour {
+    size_t first, last;
+    const stop *pen; /* NULL: anywhere */
+} tour;
+
+static const stop *before(const touring *t, const tour *r, size_t i) {
+    return i > r->first ? &t->stops[i - 1] : r->pen;
+}
+
+static const stop *after(const touring *t, const tour *r, size_t i) {
+    return i + 1 < r->last ? &t->stops[i + 1] : NULL;
+}
+
+static bool turn_runs(touring *t, const tour *r, size_t i) {
+    const size_t end = r->last - i > WINDOW ? i + WINDOW : r->last;
     bool any = false;
-    for (size_t i = first; i < last; i++) {
-        const size_t end = last - i > WINDOW ? i + WINDOW : last;
-        for (size_t k = i; k < end; k++) {
-            const float *const from = i > first ? t->stops[i - 1].out : pen,
-                               *const to = k + 1 < last ? t->stops[k + 1].in : NULL;
-            const double before = way(from, t->stops[i].in) + (to ? way(t->stops[k].out, to) : 0);
-            const double after = way(from, t->stops[k].out) + (to ? way(t->stops[i].in, to) : 0);
-            if (!(after < before - 1e-9 * before)) continue;
-            turn_run(t, i, k);
-            any = true;
-        }
+    for (size_t k = i; k < end; k++) {
+        const stop *const from = before(t, r, i), *const to = after(t, r, k);
+        const stop head = turned(t->d, t->stops[i]), tail = turned(t->d, t->stops[k]);
+        const double now = leg(from, &t->stops[i]) + leg(&t->stops[k], to),
+                     then = leg(from, &tail) + leg(&head, to);
+        if (!(then < now - 1e-9 * now)) continue;
+        turn_run(t, i, k);
+        any = true;
     }
     return any;
 }
 
+/* Puts stop i behind stop k, and those between one to the left. */
+static void carry(touring *t, size_t i, size_t k, stop s) {
+    for (; i < k; i++) t->stops[i] = t->stops[i + 1];
+    for (; i > k; i--) t->stops[i] = t->stops[i - 1];
+    t->stops[k] = s;
+}
+
+/* Draws one path at another time: the gap between stops k and k + 1 that it fits into best. */
+static bool move_stop(touring *t, const tour *r, size_t i) {
+    const stop *const from = before(t, r, i), *const to = after(t, r, i);
+    const stop ways[2] = {t->stops[i], turned(t->d, t->stops[i])};
+    const double saved = leg(from, &t->stops[i]) + leg(&t->stops[i], to) - leg(from, to);
+    const size_t low = i - r->first > WINDOW ? i - WINDOW : r->first,
+                 high = r->last - i > WINDOW ? i + WINDOW : r->last;
+    double least = saved - 1e-9 * saved;
+    size_t best = i;
+    int turn = 0;
+    for (size_t k = low; k < high; k++) {
+        if (k == i) continue;
+        /* where it then is stop k */
+        const stop *const p = k < i ? before(t, r, k) : &t->stops[k], *const n =
+                                                                          k < i ? &t->stops[k]
+                                                                                : after(t, r, k);
+        for (int w = 0; w < 2; w++) {
+            const double cost = leg(p, &ways[w]) + leg(&ways[w], n) - leg(p, n);
+            if (cost < least) least = cost, best = k, turn = w;
+        }
+    }
+    if (best != i) carry(t, i, best, ways[turn]);
+    return best != i;
+}
+
+static bool improve(touring *t, const tour *r) {
+    bool any = false;
+    for (size_t i = r->first; i < r->last; i++) any |= turn_runs(t, r, i);
+    for (size_t i = r->first; i < r->last; i++) any |= move_stop(t, r, i);
+    return any;
+}
+
 static bool order_layer(touring *t, size_t first, size_t last, float pen[2]) {
-    const float from[2] = {pen[0], pen[1]};
+    const stop from = {.out = {pen[0], pen[1]}};
+    const tour r = {first, last, first ? &from : NULL};
     if (!draw_nearest(t, first, last, pen)) return false;
-    for (int pass = 0; pass < PASSES && improve(t, first, last, from); pass++) {
+    for (int pass = 0; pass < PASSES && improve(t, &r); pass++) {
     }
     pen[0] = t->stops[last - 1].out[0], pen[1] = t->stops[last - 1].out[1];
     return true;
