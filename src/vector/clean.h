@@ -56,12 +56,29 @@ void dp_rotate_points(dp_path_point *points, size_t count, size_t first);
 /* Measures the way between paths; with `optimize` it shortens it first (order.c). */
 bool dp_order_paths(dp_drawing *d, bool optimize);
 
-/* An end of a part: on the screen, and all of it. */
-dp_point dp_part_end(const dp_cleaning *c, uint32_t end); /* d: distance, world units */
-dp_path_point dp_part_point(const dp_cleaning *c, uint32_t end);
-
 static inline const dp_segment *dp_segment_at(const dp_cleaning *c, uint32_t end) {
     return &c->drawn->segments[c->parts[end / 2].segment];
+}
+
+/* An end of a part: on the screen (d: distance, world units), and all of it (strands.c). */
+dp_point dp_cut_end(const dp_cleaning *c, uint32_t end);
+dp_path_point dp_part_point(const dp_cleaning *c, uint32_t end);
+
+static inline bool dp_is_cut(const dp_cleaning *c, uint32_t end) {
+    return c->parts[end / 2].cut >> (end & 1) & 1;
+}
+
+static inline dp_point dp_part_end(const dp_cleaning *c, uint32_t end) {
+    const dp_segment *const s = dp_segment_at(c, end);
+    const float *const at = end & 1 ? s->b : s->a;
+    return dp_is_cut(c, end) ? dp_cut_end(c, end) : (dp_point){at[0], at[1], at[2]};
+}
+
+/* Where a hash table keeps a cell of a grid: cells of a block of 8 x 8 lie side by side. */
+static inline uint32_t dp_cell_hash(int32_t x, int32_t y) {
+    uint32_t h = ((uint32_t)x >> 3) * 0x9e3779b1u ^ ((uint32_t)y >> 3) * 0x85ebca77u;
+    h ^= h >> 15, h *= 0x2c1b3c6du;
+    return (h ^ h >> 13) << 6 ^ ((uint32_t)x & 7) << 3 ^ ((uint32_t)y & 7);
 }
 
 /* Pen, paper and depth of one path: what never changes on it. */

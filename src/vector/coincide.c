@@ -55,8 +55,10 @@ typedef struct grid {
     uint32_t *heads;
     size_t slots; /* a power of two */
     entry *entries;
-    range *ranges; /* of the segment in question */
-    track *tracks; /* by segment */
+    range *ranges;     /* of the segment in question */
+    double from, to;   /* px along the line that is looked at: what of it the column holds */
+    double covered[2]; /* px along it: a run of it that is covered */
+    track *tracks;     /* by segment */
     size_t entries_cap, ranges_cap, heads_cap, tracks_cap, entry_count, range_count;
     dp_part *kept;
     size_t kept_cap;
@@ -108,27 +110,26 @@ static int32_t cell_of(const grid *g, double px) {
 }
 
 static uint32_t *head_of(const grid *g, int32_t x, int32_t y, int way) {
-    uint32_t h =
-        (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u ^ (uint32_t)way * 0xc2b2ae3du;
-    h ^= h >> 15, h *= 0x2c1b3c6du;
-    return &g->heads[(h ^ h >> 13) & (g->slots - 1)];
+    return &g->heads[(dp_cell_hash(x, y) + (uint32_t)way * 0x9e3779b1u) & (g->slots - 1)];
 }
 
 typedef bool visit(grid *g, const line *l, int32_t x, int32_t y, uint32_t item);
 
-/* Visits the cells within `margin` px of a line, column by column along its longer direction. */
+/* Visits the cells within `margin` px of a line, from its start on, column by column along its longer
+ * direction; but for those in which it is known to be covered. */
 static bool walk(grid *g, const line *l, double margin, visit *visitor, uint32_t part) {
     const int across = fabs(l->u[0]) >= fabs(l->u[1]) ? 0 : 1, up = !across;
-    const double end = l->p[across] + l->u[across] * l->length;
+    const double u = l->u[across], end = l->p[across] + u * l->length;
     const double low = dp_min(l->p[across], end), high = dp_max(l->p[across], end);
-    const int32_t last = cell_of(g, high + margin);
-    const double slope = l->u[across] != 0 ? l->u[up] / l->u[across] : 0;
-    for (int32_t i = cell_of(g, low - margin); i <= last; i++) {
+    const int32_t first = cell_of(g, low - margin), last = cell_of(g, high + margin);
+    for (int32_t n = 0; n <= last - first; n++) {
+        const int32_t i = u > 0 ? first + n : last - n;
         const double from = dp_max(low, i * g->cell - margin),
                      to = dp_min(high, (i + 1.0) * g->cell + margin);
-        const double a = l->p[up] + slope * (from - l->p[across]),
-                     b = l->p[up] + slope * (to - l->p[across]);
+        const double one = (from - l->p[across]) / u, two = (to - l->p[across]) / u;
+        const double a = l->p[up] + l->u[up] * one, b = l->p[up] + l->u[up] * two;
         const int32_t top = cell_of(g, dp_max(a, b) + margin);
+        g->from = dp_min(one, two), g->to = dp_max(one, two);
         for (int32_t k = cell_of(g, dp_min(a, b) - margin); k <= top; k++)
             if (!visitor(g, l, across ? k : i, across ? i : k, part)) return false;
     }
@@ -182,17 +183,44 @@ static bool parting(const grid *g, uint32_t segment, uint32_t part, const range 
     return !found->whole && s->chain == t->chain && apart <= CLOSE;
 }
 
+/* Is it known that the line is covered where it runs through this column? */
+static bool is_covered(const grid *g) { return g->covered[0] <= g->from && g->covered[1] >= g->to; }
+
+static bool add_range(grid *g, const range *found) {
+    if (found->from >= g->covered[0] && found->to <= g->covered[1]) return true;
+    if (found->from <= g->covered[1] && found->to >= g->covered[0]) {
+        g->covered[0] = dp_min(g->covered[0], found->from);
+        g->covered[1] = dp_max(g->covered[1], found->to);
+    } else if (found->to > g->covered[1]) {
+        g->covered[0] = found->from, g->covered[1] = found->to;
+    }
+    if (!dp_reserve(g->c->memory, &g->ranges, &g->ranges_cap, g->range_count + 1,
+                    sizeof *g->ranges))
+        return false;
+    g->ranges[g->range_count++] = *found;
+    return true;
+}
+
+/* Says soon of most segments that they do not lie under a line. */
+static bool is_apart(const line *l, const dp_segment *t) {
+    const double x = (double)t->b[0] - (double)t->a[0], y = (double)t->b[1] - (double)t->a[1];
+    const double turn = l->u[0] * y - l->u[1] * x;
+    const double a = ((double)t->a[1] - l->p[1]) * l->u[0] - ((double)t->a[0] - l->p[0]) * l->u[1];
+    return turn * turn > 1.01 * LEAN * LEAN * (x * x + y * y) ||
+           (a > 1.01 * NEAR && a + turn > 1.01 * NEAR) ||
+           (a < -1.01 * NEAR && a + turn < -1.01 * NEAR);
+}
+
 static bool look_way(grid *g, const line *l, int32_t x, int32_t y, int way, uint32_t segment) {
-    for (uint32_t e = *head_of(g, x, y, (way + WAYS) % WAYS); e; e = g->entries[e - 1].next) {
+    for (uint32_t e = *head_of(g, x, y, (way + WAYS) % WAYS); e && !is_covered(g);
+         e = g->entries[e - 1].next) {
         const uint32_t part = g->entries[e - 1].part;
         range found = {.part = part};
+        if (is_apart(l, &g->c->drawn->segments[g->kept[part].segment])) continue;
         if (g->range_count && g->ranges[g->range_count - 1].part == part) continue;
         const line under = line_of_part(g->c, &g->kept[part]);
         if (!shared(l, &under, &found) || parting(g, segment, part, &found)) continue;
-        if (!dp_reserve(g->c->memory, &g->ranges, &g->ranges_cap, g->range_count + 1,
-                        sizeof *g->ranges))
-            return false;
-        g->ranges[g->range_count++] = found;
+        if (!add_range(g, &found)) return false;
     }
     return true;
 }
@@ -246,6 +274,7 @@ static bool keep_rest(grid *g, uint32_t segment, const line *l) {
 static bool take(grid *g, uint32_t segment) {
     const line l = line_of(&g->c->drawn->segments[segment]);
     g->range_count = 0;
+    g->covered[0] = g->covered[1] = -1;
     if (!walk(g, &l, 0, look, segment)) return false;
     if (g->range_count) dp_sort(g->ranges, g->range_count, sizeof *g->ranges, by_start);
     return keep_rest(g, segment, &l);
@@ -257,7 +286,7 @@ static bool make_grid(grid *g) {
     const dp_cleaning *const c = g->c;
     double length = 0;
     for (uint32_t i = 0; i < c->part_count; i++) length += line_of_part(c, &c->parts[i]).length;
-    g->cell = dp_max(LEAST_CELL, length / (4 * (double)c->part_count));
+    g->cell = dp_max(LEAST_CELL, length / (8 * (double)c->part_count));
     g->slots = 64;
     while ((double)g->slots < 2 * ((double)c->part_count + length / g->cell)) g->slots *= 2;
     return dp_reserve_zeroed(c->memory, &g->heads, &g->heads_cap, g->slots, sizeof *g->heads) &&

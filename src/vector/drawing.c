@@ -111,7 +111,7 @@ static double length_of(const dp_path_point *points, size_t count, bool closed) 
 
 static void put_end(const dp_cleaning *c, uint32_t end, dp_stored_path *p, int k) {
     const dp_segment *const s = dp_segment_at(c, end);
-    const bool cut = c->parts[end / 2].cut >> (end & 1) & 1;
+    const bool cut = dp_is_cut(c, end);
     p->end[k] = cut || p->closed ? DP_END_VERTEX : s->end[end & 1];
     p->hider[k] = cut || p->closed ? UINT64_MAX : s->hider[end & 1];
 }

@@ -26,7 +26,7 @@ static const double TURN = 1;        /* px that a turn of 90 degrees counts for 
 static const double STEP = 30;    /* pixel sizes: ends further apart in depth lie on two surfaces */
 static const float ACROSS = 0.7f; /* cosine: over a step of depth lines must go on straight */
 static const float STRAIGHT = 0.9f; /* cosine */
-static const double CUT = 0.05;   /* px: where another line takes over, nothing else is joined */
+static const double CUT = 0.05;     /* px: where another line takes over, nothing else is joined */
 static const double FOLD = 0.02;
 enum { SEEN = 64, BEST = 6, LINKS = 16 };
 
@@ -38,7 +38,14 @@ typedef struct open_end {
     uint32_t next; /* in its cell's list: 1 + its number, or 0 */
     uint32_t mate; /* that it has been joined with, or DP_NOWHERE */
     float length;  /* px, of its chain */
+    uint32_t pen;  /* a hash of it */
 } open_end;
+
+/* An open end in its cell. */
+typedef struct spot {
+    float x, y; /* px */
+    uint32_t open;
+} spot;
 
 typedef struct bridge {
     float cost, distance; /* px */
@@ -50,14 +57,15 @@ typedef struct gaps {
     double reach; /* px */
     double cell;
     open_end *opens;
-    uint32_t *heads;
+    spot *spots;
+    uint32_t *heads; /* [slots + 1] where in spots a slot's begin */
     bridge *bridges;
-    size_t count, opens_cap, heads_cap, bridges_cap, bridge_count, slots;
+    size_t count, opens_cap, spots_cap, heads_cap, bridges_cap, bridge_count, slots;
 } gaps;
 
-static const dp_array arrays[] = {DP_ARRAY(gaps, opens, opens_cap),
-                                  DP_ARRAY(gaps, heads, heads_cap),
-                                  DP_ARRAY(gaps, bridges, bridges_cap)};
+static const dp_array arrays[] = {
+    DP_ARRAY(gaps, opens, opens_cap), DP_ARRAY(gaps, spots, spots_cap),
+    DP_ARRAY(gaps, heads, heads_cap), DP_ARRAY(gaps, bridges, bridges_cap)};
 
 /* ------- open ends ------- */
 
@@ -88,10 +96,19 @@ static uint32_t walk(const dp_cleaning *c, uint32_t end, double *length) {
     }
 }
 
+static uint32_t pen_of(const gaps *g, uint32_t end) {
+    const dp_segment *const s = dp_segment_at(g->c, end);
+    uint32_t width;
+    memcpy(&width, &s->width, sizeof width);
+    const uint32_t line = g->c->desc.join_classes ? 0 : (uint32_t)s->line;
+    return (s->color * 0x9e3779b1u ^ width) * 0x85ebca77u + 8 * s->level + line;
+}
+
 static uint32_t add_open(gaps *g, uint32_t end) {
     const dp_point p = dp_part_end(g->c, end);
     open_end *const o = &g->opens[g->count];
-    *o = (open_end){.x = p.x, .y = p.y, .d = p.d, .end = end, .mate = DP_NOWHERE};
+    *o = (open_end){
+        .x = p.x, .y = p.y, .d = p.d, .end = end, .mate = DP_NOWHERE, .pen = pen_of(g, end)};
     find_direction(g->c, o);
     return (uint32_t)g->count++;
 }
@@ -120,22 +137,25 @@ static int32_t cell_of(const gaps *g, float px) {
     return (int32_t)floor(dp_max(-1e9, dp_min(1e9, (double)px / g->cell)));
 }
 
-static uint32_t *head_of(const gaps *g, int32_t x, int32_t y) {
-    uint32_t h = (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u;
-    h ^= h >> 15, h *= 0x2c1b3c6du;
-    return &g->heads[(h ^ h >> 13) & (g->slots - 1)];
+static uint32_t *slot_of(const gaps *g, int32_t x, int32_t y) {
+    return &g->heads[dp_cell_hash(x, y) & (g->slots - 1)];
 }
 
-/* Lists come in ascending order. */
+/* Open ends sorted by the slot of their cell, each slot's in ascending order. */
 static bool find_cells(gaps *g) {
     g->slots = 64;
-    while (g->slots < 2 * g->count) g->slots *= 2;
-    if (!dp_reserve_zeroed(g->c->memory, &g->heads, &g->heads_cap, g->slots, sizeof *g->heads))
+    while (g->slots < g->count) g->slots *= 2;
+    if (!dp_reserve_zeroed(g->c->memory, &g->heads, &g->heads_cap, g->slots + 1,
+                           sizeof *g->heads) ||
+        !dp_reserve(g->c->memory, &g->spots, &g->spots_cap, g->count, sizeof *g->spots))
         return false;
+    for (size_t i = 0; i < g->count; i++)
+        ++*slot_of(g, cell_of(g, g->opens[i].x), cell_of(g, g->opens[i].y));
+    for (size_t s = 0, sum = 0; s <= g->slots; s++) sum += g->heads[s], g->heads[s] = (uint32_t)sum;
     for (size_t i = g->count; i-- > 0;) {
-        uint32_t *const head = head_of(g, cell_of(g, g->opens[i].x), cell_of(g, g->opens[i].y));
-        g->opens[i].next = *head;
-        *head = (uint32_t)i + 1;
+        const open_end *const o = &g->opens[i];
+        g->spots[--*slot_of(g, cell_of(g, o->x), cell_of(g, o->y))] =
+            (spot){o->x, o->y, (uint32_t)i};
     }
     return true;
 }
@@ -153,18 +173,13 @@ static bool may_change_pen(const gaps *g, const open_end *p, const open_end *q) 
     return dp_same_pen(s, t) && (g->c->desc.join_classes || s->line == t->line);
 }
 
-static bool is_cut(const dp_cleaning *c, uint32_t end) {
-    return c->parts[end / 2].cut >> (end & 1) & 1;
-}
-
 /* Is a gap of (x, y) from p to q crossed forwards, or do both run side by side there and the one goes
  * on where the other ends? */
 static bool runs_on(const open_end *p, const open_end *q, double x, double y, float turn) {
     const double distance = dp_hypot(x, y), least = 0.5 * distance - SIDEWAYS;
     const double ahead_p = x * (double)p->out[0] + y * (double)p->out[1],
                  ahead_q = -x * (double)q->out[0] - y * (double)q->out[1];
-    if (ahead_p >= least && ahead_q >= least)
-        return turn >= DP_SHARPEST + 0.35f * (float)distance;
+    if (ahead_p >= least && ahead_q >= least) return turn >= DP_SHARPEST + 0.35f * (float)distance;
     const double beside_p = fabs(x * (double)p->out[1] - y * (double)p->out[0]),
                  beside_q = fabs(x * (double)q->out[1] - y * (double)q->out[0]);
     return fabsf(turn) >= STRAIGHT && beside_p <= SIDEWAYS && beside_q <= SIDEWAYS;
@@ -174,12 +189,12 @@ static bool runs_on(const open_end *p, const open_end *q, double x, double y, fl
 static double cost_of(const gaps *g, const open_end *p, const open_end *q, double *distance) {
     const double x = (double)q->x - (double)p->x, y = (double)q->y - (double)p->y;
     *distance = dp_hypot(x, y);
-    if (*distance > g->reach || p->end / 2 == q->end / 2 || !may_change_pen(g, p, q)) return -1;
-    if (is_cut(g->c, p->end) && is_cut(g->c, q->end) && *distance > CUT) return -1;
+    if (*distance > g->reach || p->end / 2 == q->end / 2 || p->pen != q->pen) return -1;
+    if (dp_is_cut(g->c, p->end) && dp_is_cut(g->c, q->end) && *distance > CUT) return -1;
     const float turn = -(p->out[0] * q->out[0] + p->out[1] * q->out[1]); /* cosine */
     if (*distance > FOLD && !runs_on(p, q, x, y, turn)) return -1;
     if (turn < ACROSS && steps_in_depth(g->c->drawn, p->d, q->d)) return -1;
-    return *distance + TURN * (1 - (double)turn);
+    return may_change_pen(g, p, q) ? *distance + TURN * (1 - (double)turn) : -1;
 }
 
 static void offer(const gaps *g, bridge best[BEST], int *n, uint32_t from, uint32_t to) {
@@ -194,16 +209,22 @@ static void offer(const gaps *g, bridge best[BEST], int *n, uint32_t from, uint3
     best[at] = (bridge){(float)cost, (float)distance, from, to};
 }
 
+static bool is_near(const gaps *g, uint32_t from, const spot *s) {
+    const double x = (double)s->x - (double)g->opens[from].x,
+                 y = (double)s->y - (double)g->opens[from].y;
+    return s->open != from && x * x + y * y <= 1.01 * g->reach * g->reach;
+}
+
 /* An offer comes twice where it is among the best of both. */
 static bool offer_bridges(gaps *g, uint32_t from) {
     const int32_t x = cell_of(g, g->opens[from].x), y = cell_of(g, g->opens[from].y);
     bridge best[BEST];
     int n = 0;
     for (int32_t k = 0; k < 9; k++) {
-        int seen = 0;
-        for (uint32_t i = *head_of(g, x + k % 3 - 1, y + k / 3 - 1); i && seen++ < SEEN;
-             i = g->opens[i - 1].next)
-            if (i - 1 != from) offer(g, best, &n, from, i - 1);
+        const uint32_t *const slot = slot_of(g, x + k % 3 - 1, y + k / 3 - 1);
+        const uint32_t last = slot[1] - slot[0] > SEEN ? slot[0] + SEEN : slot[1];
+        for (uint32_t i = slot[0]; i < last; i++)
+            if (is_near(g, from, &g->spots[i])) offer(g, best, &n, from, g->spots[i].open);
     }
     if (!dp_reserve(g->c->memory, &g->bridges, &g->bridges_cap, g->bridge_count + (size_t)n,
                     sizeof *g->bridges))
@@ -246,7 +267,7 @@ bool dp_join_gaps(dp_cleaning *c) {
     if (!(g.reach > 0) && !c->desc.join_classes) return true;
     g.cell = dp_max(g.reach, 1e-3);
     bool ok = find_opens(&g) && find_cells(&g);
-    for (uint32_t i = 0; ok && i < g.count; i++) ok = offer_bridges(&g, i);
+    for (size_t i = 0; ok && i < g.count; i++) ok = offer_bridges(&g, g.spots[i].open);
     if (ok && g.bridge_count > 1) dp_sort(g.bridges, g.bridge_count, sizeof *g.bridges, by_cost);
     for (size_t i = 0; ok && i < g.bridge_count; i++) join(&g, &g.bridges[i]);
     dp_arrays_free(c->memory, &g, DP_ARRAYS(arrays));

@@ -21,12 +21,10 @@ static double share_in_space(const dp_cleaning *c, const dp_segment *s, double a
     return b / (a + b);
 }
 
-dp_point dp_part_end(const dp_cleaning *c, uint32_t end) {
+dp_point dp_cut_end(const dp_cleaning *c, uint32_t end) {
     const dp_part *const part = &c->parts[end / 2];
     const dp_segment *const s = &c->drawn->segments[part->segment];
     const double at = part->at[end & 1];
-    if (at <= 0) return (dp_point){s->a[0], s->a[1], s->a[2]};
-    if (at >= 1) return (dp_point){s->b[0], s->b[1], s->b[2]};
     return (dp_point){mix(s->a[0], s->b[0], at), mix(s->a[1], s->b[1], at),
                       mix(s->a[2], s->b[2], share_in_space(c, s, at))};
 }
