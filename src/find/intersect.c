@@ -356,60 +356,63 @@ void dp_find_intersections(dp_finder *w) {
 
 /* ------- crossings that nobody sees ------- */
 
-/* The tile's polygons by square cells, so large that most hold few of them. */
-typedef struct grid {
-    uint32_t cell; /* px */
-    uint32_t side; /* cells */
-    uint32_t first[DP_CELLS * DP_CELLS + 1];
-} grid;
+/* The tile's polygons by stripes of columns, those of each by the first row of their boxes. Large ones
+ * lie in several stripes. */
+typedef struct stripes {
+    uint32_t width; /* px */
+    uint32_t count;
+    uint32_t first[DP_CELLS * DP_TILE + 1]; /* by stripe and row: its first polygon in the list */
+} stripes;
 
-/* Cells that a polygon's box touches. */
-typedef struct cell_box {
-    uint32_t x0, y0, x1, y1;
-} cell_box;
-
-static cell_box cells_of(const grid *g, const dp_tile_polygon *p) {
-    return (cell_box){p->x0 / g->cell, p->y0 / g->cell, p->x1 / g->cell, p->y1 / g->cell};
+/* The first and the last stripe of a box (dp_tile_polygon.box), and the bin of it in the first. */
+static inline uint32_t first_stripe(const stripes *s, uint32_t box) {
+    return (box & 255) / s->width;
+}
+static inline uint32_t last_stripe(const stripes *s, uint32_t box) {
+    return (box >> 16 & 255) / s->width;
+}
+static inline uint32_t bin_of(uint32_t stripe, uint32_t box) {
+    return stripe * DP_TILE + (box >> 8 & 255);
 }
 
-/* Counts the polygons of each cell, or lists them from the end of the cell's run towards its start. */
-static void visit_cells(dp_finder *w, grid *g, bool counting) {
-    const dp_tile *const t = &w->tile;
-    for (uint32_t i = t->seen_count; i-- > 0;) {
-        const dp_tile_polygon *const p = &t->polygons[t->seen[i]];
-        if (!(p->flags & DP_POLYGON_TOUCHES)) continue;
-        const cell_box c = cells_of(g, p);
-        for (uint32_t y = c.y0; y <= c.y1; y++)
-            for (uint32_t x = c.x0; x <= c.x1; x++) {
-                if (counting)
-                    g->first[y * g->side + x]++;
-                else
-                    w->intersecting.listed[--g->first[y * g->side + x]] = t->seen[i];
-            }
+/* Counts the polygons of each bin, or lists them from the end of the bin's run towards its start. */
+static void visit_stripes(dp_finder *w, stripes *s, bool counting) {
+    const uint32_t *const boxes = dp_seen_words(&w->tile, DP_SEEN_BOX);
+    const uint32_t *const flags = dp_seen_words(&w->tile, DP_SEEN_FLAGS);
+    for (uint32_t i = w->tile.seen_count; i-- > 0;) {
+        if (!(flags[i] & DP_POLYGON_TOUCHES)) continue;
+        const uint32_t last = last_stripe(s, boxes[i]);
+        for (uint32_t k = first_stripe(s, boxes[i]); k <= last; k++) {
+            uint32_t *const bin = &s->first[bin_of(k, boxes[i])];
+            if (counting)
+                ++*bin;
+            else
+                w->intersecting.listed[--*bin] = w->tile.seen[i];
+        }
     }
 }
 
-/* A vector or two of polygons are as soon compared as sorted. */
-enum { FEW = 32, MANY = 512 };
+/* So few polygons are as soon compared as sorted. */
+enum { FEW = 64 };
 
-/* Lists the tile's polygons by cell (counting sort). */
-static bool list_by_cell(dp_finder *w, grid *g) {
-    const uint32_t count = w->tile.seen_count;
+/* Lists the tile's polygons by stripe and row (counting sort). */
+static bool list_by_stripe(dp_finder *w, stripes *s) {
     uint32_t sum = 0;
-    memset(g, 0, sizeof *g);
-    g->side = count <= FEW ? 1 : count <= MANY ? DP_CELLS / 4 : DP_CELLS;
-    g->cell = DP_TILE / g->side;
-    visit_cells(w, g, true);
-    for (uint32_t i = 0; i < g->side * g->side; i++) g->first[i] = sum += g->first[i];
+    s->count = w->tile.seen_count <= FEW ? 1 : DP_CELLS;
+    s->width = DP_TILE / s->count;
+    const uint32_t bins = s->count * DP_TILE;
+    memset(s->first, 0, (bins + 1) * sizeof *s->first);
+    visit_stripes(w, s, true);
+    for (uint32_t i = 0; i < bins; i++) s->first[i] = sum += s->first[i];
+    s->first[bins] = sum;
     if (!DP_TILE_RESERVE(&w->tile, w, intersecting.listed, intersecting.listed_cap,
                          (size_t)sum + DP_INTERSECTING_ROOM))
         return false;
-    visit_cells(w, g, false);
-    g->first[g->side * g->side] = sum;
+    visit_stripes(w, s, false);
     return true;
 }
 
-static bool put_cell(dp_finder *w, const uint32_t *polygon, uint32_t count) {
+static bool put_stripe(dp_finder *w, const uint32_t *polygon, uint32_t count) {
     dp_intersecting *const own = &w->intersecting;
     const size_t room = (size_t)count + DP_INTERSECTING_ROOM;
     own->count = count, own->stride = (uint32_t)room;
@@ -424,14 +427,6 @@ static bool put_cell(dp_finder *w, const uint32_t *polygon, uint32_t count) {
         put_keys(w, &w->tile.polygons[polygon[i]], i);
     }
     return true;
-}
-
-/* Is this the first of the cells that both touch? */
-static bool meet_first(const grid *g, const dp_tile_polygon *p, const dp_tile_polygon *q,
-                       uint32_t cell) {
-    const cell_box a = cells_of(g, p), b = cells_of(g, q);
-    const uint32_t x = cell % g->side, y = cell / g->side;
-    return x == (a.x0 > b.x0 ? a.x0 : b.x0) && y == (a.y0 > b.y0 ? a.y0 : b.y0);
 }
 
 /* Does an edge of p have all of q on its other side on the screen? Corners that both share lie on it,
@@ -456,28 +451,35 @@ static bool lie_apart(const dp_tile *t, const dp_tile_polygon *p, const dp_tile_
     return parts(t, p, q) || parts(t, q, p);
 }
 
-static void cross_in_cell(dp_finder *w, const grid *g, uint32_t cell) {
+/* Pairs of a stripe, but for those that an earlier one holds too; `bins`: of the stripe's rows. */
+static void cross_in_stripe(dp_finder *w, const stripes *s, uint32_t stripe, const uint32_t *bins) {
     const dp_intersecting *const own = &w->intersecting;
+    const uint32_t left = stripe * s->width;
     for (uint32_t i = 0; i < own->count && !w->tile.failed; i++) {
-        const uint32_t met = dp_find_kernels_for(w->tile.frame->lanes)->meet(own, i, own->count);
+        const uint32_t a = own->polygon[i];
+        const dp_tile_polygon *const p = &w->tile.polygons[a];
+        const uint32_t met =
+            dp_find_kernels_for(w->tile.frame->lanes)->meet(own, i, bins[p->y1 + 1] - bins[0]);
         for (uint32_t k = 0; k < met; k++) {
-            const uint32_t a = own->polygon[i], b = own->polygon[own->met[k]];
-            const dp_tile_polygon *const p = &w->tile.polygons[a], *const q = &w->tile.polygons[b];
-            if (meet_first(g, p, q, cell) && !lie_apart(&w->tile, p, q)) test_pair(w, a, b);
+            const uint32_t b = own->polygon[own->met[k]];
+            const dp_tile_polygon *const q = &w->tile.polygons[b];
+            if ((p->x0 < left && q->x0 < left) || lie_apart(&w->tile, p, q)) continue;
+            test_pair(w, a, b);
         }
     }
 }
 
-/* No sample says where these are: all pairs of a cell are tested. */
+/* No sample says where these are: all pairs are tested whose boxes meet. */
 void dp_find_crossings(dp_finder *w) {
-    grid g;
+    stripes s;
     w->intersecting.crossing_count = 0;
-    if (!(w->tile.frame->lines & DP_INTERSECTION) || !list_by_cell(w, &g)) return;
-    for (uint32_t i = 0; i < g.side * g.side; i++) {
-        const uint32_t count = g.first[i + 1] - g.first[i];
+    if (!(w->tile.frame->lines & DP_INTERSECTION) || !list_by_stripe(w, &s)) return;
+    for (uint32_t i = 0; i < s.count; i++) {
+        const uint32_t *const bins = s.first + i * DP_TILE;
+        const uint32_t count = bins[DP_TILE] - bins[0];
         if (count < 2) continue;
-        if (!put_cell(w, w->intersecting.listed + g.first[i], count)) return;
-        cross_in_cell(w, &g, i);
+        if (!put_stripe(w, w->intersecting.listed + bins[0], count)) return;
+        cross_in_stripe(w, &s, i, bins);
     }
     add_crossings(w);
 }
