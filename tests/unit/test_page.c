@@ -559,6 +559,24 @@ static void old_files_stay(void **state) {
     assert_holds(diag.message, "/dev/full");
 }
 
+static void standard_output_is_a_file(void **state) {
+    (void)state;
+    const dp_page page = *scene_make(&scene, false);
+    const char *const svg = write_text(&page, DP_FORMAT_SVG);
+    fflush(stdout);
+    const int kept = dup(STDOUT_FILENO);
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(dup2(fileno(file), STDOUT_FILENO) >= 0);
+    const dp_result result = dp_io_write_page("-", &page, DP_FORMAT_SVG, NULL);
+    assert_true(dup2(kept, STDOUT_FILENO) >= 0);
+    close(kept);
+    fclose(file);
+    assert_int_equal(result, DP_OK);
+    assert_int_equal(read_file(content, sizeof content), paper.size);
+    assert_string_equal(content, svg);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_pages_are_refused),
@@ -578,6 +596,8 @@ int main(void) {
         cmocka_unit_test(letters_lie_in_their_boxes),
         cmocka_unit_test_setup_teardown(grounds_become_pngs, enter_directory, leave_directory),
         cmocka_unit_test_setup_teardown(pdf_is_compressed, enter_directory, leave_directory),
+        cmocka_unit_test_setup_teardown(standard_output_is_a_file, enter_directory,
+                                        leave_directory),
         cmocka_unit_test_setup_teardown(old_files_stay, enter_directory, leave_directory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
