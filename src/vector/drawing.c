@@ -44,15 +44,14 @@ bool dp_drawing_path(const dp_drawing *drawing, size_t index, dp_path *path) {
 static dp_path_point point_of(const dp_segment *s, int end) {
     const float *const at = end ? s->b : s->a;
     const double *const world = end ? s->world_b : s->world_a;
-    return (dp_path_point){at[0],   at[1],      at[2],
-                           s->edge, s->polygon, {world[0], world[1], world[2]}};
+    return (dp_path_point){at[0], at[1], at[2], s->edge, s->polygon, {world[0], world[1], world[2]}};
 }
 
 static float length_of(const dp_drawing *d, const dp_stored_path *p) {
     double sum = 0;
     for (size_t i = 0; i + !p->closed < p->count; i++) {
         const dp_path_point *const a = &d->points[p->first + i],
-                                   *const b = &d->points[p->first + (i + 1) % p->count];
+                            *const b = &d->points[p->first + (i + 1) % p->count];
         const double x = (double)b->x - (double)a->x, y = (double)b->y - (double)a->y;
         sum += sqrt(x * x + y * y);
     }
@@ -62,7 +61,7 @@ static float length_of(const dp_drawing *d, const dp_stored_path *p) {
 static void put_chain(dp_drawing *d, const dp_lines *lines, const dp_chain *chain) {
     const dp_link *const links = lines->chains.links + chain->first;
     const dp_segment *const head = &lines->segments[links->segment],
-                            *const tail = &lines->segments[links[chain->count - 1].segment];
+                     *const tail = &lines->segments[links[chain->count - 1].segment];
     const int start = links->reversed, end = !links[chain->count - 1].reversed;
     dp_stored_path *const p = &d->paths[d->info.paths++];
     *p = (dp_stored_path){.line = head->line,
