@@ -27,15 +27,15 @@ extern "C" {
  * (one class, one level), chains are joined over gaps, what is short is dropped, points are left
  * out where a line is straight. Zero is the default. */
 typedef struct dp_drawing_desc {
-    float join;            /* px: gaps up to this are closed; 0 means 2; below 0: none are */
-    float min_length;      /* px: paths shorter than this are dropped, after joining; 0 means 1;
+    float join;           /* px: gaps up to this are closed; 0 means 2; below 0: none are */
+    float min_length;     /* px: paths shorter than this are dropped, after joining; 0 means 1;
                               below 0: none are */
-    float tolerance;       /* px: a point is left out where the path stays this near to it; 0 means
+    float tolerance;      /* px: a point is left out where the path stays this near to it; 0 means
                               0.02; below 0: none are */
-    bool join_classes;     /* gaps are closed, and paths go on, between classes too; a path is then
+    bool join_classes;    /* gaps are closed, and paths go on, between classes too; a path is then
                               of the class that most of its length has */
-    bool keep_coincident;  /* lines that lie on others on the screen stay */
-    bool optimize;         /* orders and turns paths so that a pen travels little between them */
+    bool keep_coincident; /* lines that lie on others on the screen stay */
+    bool optimize;        /* orders and turns paths so that a pen travels little between them */
 } dp_drawing_desc;
 
 /* A cleaned drawing. It stands for itself: neither the context nor the source need to live on. */
@@ -66,9 +66,9 @@ typedef struct dp_path {
     dp_color color;
     float dash[2]; /* px drawn and px not, by turns, from the path's start; 0 and 0: a whole line.
                       What is drawn has round ends beyond that: where dash[0] is 0 it is a dot */
-    bool closed;            /* the last point is joined to the first, which is not repeated */
-    dp_line_end end[2];     /* at the first point and at the last; of closed paths DP_END_VERTEX */
-    uint64_t hider[2];      /* as in dp_segment */
+    bool closed;   /* the last point is joined to the first, which is not repeated */
+    dp_line_end end[2]; /* at the first point and at the last; of closed paths DP_END_VERTEX */
+    uint64_t hider[2];  /* as in dp_segment */
     const dp_path_point *points; /* [count], at least 2; borrowed from the drawing */
     size_t count;
     float length; /* px, closing line included */
@@ -78,14 +78,14 @@ typedef struct dp_path {
 typedef struct dp_drawing_info {
     uint32_t width, height; /* px, of the picture */
     dp_color paper;
-    uint32_t levels;   /* the highest level of any path */
-    size_t segments;   /* it was made from */
+    uint32_t levels; /* the highest level of any path */
+    size_t segments; /* it was made from */
     size_t paths, points;
     double length;     /* px, of all paths */
     double coincident; /* px that were left out because they lay on other lines */
     size_t joined;     /* gaps closed */
     double joined_length;
-    size_t dropped;    /* chains shorter than min_length */
+    size_t dropped; /* chains shorter than min_length */
     double dropped_length;
     double travel;        /* px between paths, in their order */
     double travel_before; /* the same before they were ordered; 0 without `optimize` */

@@ -20,6 +20,7 @@ dp_result dp_drawing_create(dp_context *c, const dp_drawing_desc *desc, dp_drawi
                             .width = f->target.width,
                             .height = f->target.height,
                             .paper = c->drawing.paper,
+                            .hidden_look = c->drawing.hidden_look,
                             .perspective = f->view.perspective,
                             .focal = f->view.focal};
     return dp_drawing_make(&drawn, desc, &c->given, out, diag);

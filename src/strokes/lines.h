@@ -23,6 +23,7 @@ typedef struct dp_lines {
     dp_stroke *inked;
     size_t inked_count, inked_cap;
     dp_color paper, surface; /* of the first style */
+    dp_hidden_look hidden_look;
 
     bool stylizes; /* the style asks for stylized strokes */
 

@@ -269,6 +269,7 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *st
     store->inks_hidden = false;
     store->stylizes = dp_is_stylized(frame);
     store->paper = frame->styles[0].paper;
+    store->hidden_look = frame->styles[0].hidden.look;
     store->surface = frame->styles[0].surface;
     job j = {frame, found, store};
     dp_parallel(frame->threads, (uint32_t)(count / BLOCK + (count % BLOCK != 0)), make_block, &j);

@@ -12,6 +12,7 @@
 #include "vector/join.h"
 
 #include "base/diag.h"
+#include "strokes/hidden.h"
 
 #include <math.h>
 
@@ -67,11 +68,6 @@ static bool is_sound(const dp_drawing_desc *desc) {
 }
 
 /* ------- paths ------- */
-
-/* How a line that `level` surfaces hide is dashed. */
-static void find_dash(const dp_segment *s, float dash[2]) {
-    dash[0] = s->level ? 12 * s->width : 0, dash[1] = s->level ? 3 * s->width : 0;
-}
 
 static bool put_point(dp_drawing *d, const dp_path_point *point) {
     if (!dp_reserve(&d->memory, &d->points, &d->points_cap, d->info.points + 1, sizeof *d->points))
@@ -150,7 +146,7 @@ static bool put_path(dp_drawing *d, const dp_cleaning *c, const dp_strand *stran
                           .closed = strand->closed,
                           .first = first,
                           .count = count};
-    find_dash(head, p->dash);
+    if (p->level) (void)dp_hidden_dash(c->drawn->hidden_look, p->width, p->dash);
     put_end(c, strand->start, p, 0), put_end(c, last_end(c, strand->start), p, 1);
     d->info.length += length;
     if (p->level > d->info.levels) d->info.levels = p->level;

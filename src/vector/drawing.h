@@ -34,6 +34,7 @@ typedef struct dp_drawn {
     size_t count;
     uint32_t width, height; /* px */
     dp_color paper;
+    dp_hidden_look hidden_look;
     bool perspective;
     double focal; /* as in dp_view; 0: depth says nothing of what may be joined */
 } dp_drawn;

@@ -234,16 +234,19 @@ static void put_title(const svg *self) {
     dp_put_text(out, "</desc>\n");
 }
 
+/* In a layer whose name plotters' programs leave out: they would draw around the page. */
 static void put_paper(const svg *self) {
     const dp_color paper = self->plan->page->paper;
     if (!dp_is_painted(self->plan->page)) return;
-    dp_put_text(self->out, "<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"");
+    dp_put_text(self->out, "<g id=\"paper\" inkscape:groupmode=\"layer\" "
+                           "inkscape:label=\"%paper\">\n"
+                           "<rect width=\"100%\" height=\"100%\" fill=\"");
     put_hex(self->out, paper);
     if ((paper & 0xFF) != 0xFF) {
         dp_put_text(self->out, "\" fill-opacity=\"");
         put_alpha(self->out, paper);
     }
-    dp_put_text(self->out, "\"/>\n");
+    dp_put_text(self->out, "\"/>\n</g>\n");
 }
 
 void dp_write_svg(dp_out *out, dp_plan *plan) {
