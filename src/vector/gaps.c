@@ -190,7 +190,7 @@ static double cost_of(const gaps *g, const open_end *p, const open_end *q, doubl
     const double x = (double)q->x - (double)p->x, y = (double)q->y - (double)p->y;
     *distance = dp_hypot(x, y);
     if (*distance > g->reach || p->end / 2 == q->end / 2 || p->pen != q->pen) return -1;
-    if (dp_is_cut(g->c, p->end) && dp_is_cut(g->c, q->end) && *distance > CUT) return -1;
+    if ((dp_is_cut(g->c, p->end) || dp_is_cut(g->c, q->end)) && *distance > CUT) return -1;
     const float turn = -(p->out[0] * q->out[0] + p->out[1] * q->out[1]); /* cosine */
     if (*distance > FOLD && !runs_on(p, q, x, y, turn)) return -1;
     if (turn < ACROSS && steps_in_depth(g->c->drawn, p->d, q->d)) return -1;
@@ -263,8 +263,8 @@ static void join(gaps *g, const bridge *b) {
 }
 
 bool dp_join_gaps(dp_cleaning *c) {
-    gaps g = {.c = c, .reach = (double)c->desc.join};
-    if (!(g.reach > 0) && !c->desc.join_classes) return true;
+    gaps g = {.c = c, .reach = dp_max(0, (double)c->desc.join)};
+    if (g.reach == 0 && !c->desc.join_classes) return true;
     g.cell = dp_max(g.reach, 1e-3);
     bool ok = find_opens(&g) && find_cells(&g);
     for (size_t i = 0; ok && i < g.count; i++) ok = offer_bridges(&g, g.spots[i].open);
