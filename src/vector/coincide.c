@@ -8,8 +8,8 @@
  *
  * Two lines lie on each other where they run side by side, turned by at most LEAN, and no more than
  * NEAR apart: on all of their common length, or on LONG px of it. Segments that share an end have
- * no common length. A chain that turns back and goes on beside itself, as outlines of fine meshes do,
- * is left as it is there: to cut it would be worse.
+ * no common length. Where a chain turns back and parts slowly from itself, as outlines of fine meshes
+ * do, it is not cut: it would be broken at every turn.
  *
  * Data structure: a hash table of grid cells and directions, each a list of the kept parts that run
  * through the cell that way. Cells grow with the mean length of the segments, so that a segment
@@ -24,18 +24,20 @@
 
 #include <math.h>
 
-static const double NEAR = 0.02;  /* px */
-static const double LEAN = 0.04;  /* sine: two lines that cross more steeply are near each other on
+static const double NEAR = 0.02;   /* px */
+static const double LEAN = 0.04;   /* sine: two lines that cross more steeply are near each other on
                                      less than a pixel */
-static const double LONG = 1;     /* px: lines that part or meet slowly share less, which shows not
+static const double LONG = 1;      /* px: lines that part or meet slowly share less, which shows not
                                      and is not worth a gap in one of them */
-static const double TOUCH = 1e-3; /* px: less is no common length */
+static const double ROUGHLY = 1.5; /* for what is known in floats only */
+static const double TOUCH = 1e-3;  /* px: less is no common length */
 static const double LEAST_CELL = 4; /* px */
-enum { CLOSE = 6 /* segments of a chain that may run beside each other */ };
+enum { CLOSE = 6 /* segments of a chain that may part slowly */ };
 enum { WAYS = 16 /* directions that the grid tells apart; neighbours are wider than LEAN */ };
 
 typedef struct entry {
-    uint32_t part, next; /* 1 + number of the next entry, or 0 */
+    float a[2], b[2];    /* px, ends of the part: most are seen to lie apart without a look at it */
+    uint32_t part, next; /* next: 1 + number of the next entry, or 0 */
 } entry;
 
 typedef struct range {
@@ -141,7 +143,11 @@ static bool enter(grid *g, const line *l, int32_t x, int32_t y, uint32_t part) {
     if (g->entry_count >= UINT32_MAX - 1 || !dp_reserve(g->c->memory, &g->entries, &g->entries_cap,
                                                         g->entry_count + 1, sizeof *g->entries))
         return false;
-    g->entries[g->entry_count++] = (entry){part, *head};
+    g->entries[g->entry_count++] =
+        (entry){{(float)l->p[0], (float)l->p[1]},
+                {(float)(l->p[0] + l->u[0] * l->length), (float)(l->p[1] + l->u[1] * l->length)},
+                part,
+                *head};
     *head = (uint32_t)g->entry_count;
     return true;
 }
@@ -201,14 +207,14 @@ static bool add_range(grid *g, const range *found) {
     return true;
 }
 
-/* Says soon of most segments that they do not lie under a line. */
-static bool is_apart(const line *l, const dp_segment *t) {
+/* Says soon of most parts that they do not lie under a line. */
+static bool is_apart(const line *l, const entry *t) {
     const double x = (double)t->b[0] - (double)t->a[0], y = (double)t->b[1] - (double)t->a[1];
     const double turn = l->u[0] * y - l->u[1] * x;
     const double a = ((double)t->a[1] - l->p[1]) * l->u[0] - ((double)t->a[0] - l->p[0]) * l->u[1];
-    return turn * turn > 1.01 * LEAN * LEAN * (x * x + y * y) ||
-           (a > 1.01 * NEAR && a + turn > 1.01 * NEAR) ||
-           (a < -1.01 * NEAR && a + turn < -1.01 * NEAR);
+    return (a > ROUGHLY * NEAR && a + turn > ROUGHLY * NEAR) ||
+           (a < -ROUGHLY * NEAR && a + turn < -ROUGHLY * NEAR) ||
+           fabs(turn) > LEAN * (fabs(x) + fabs(y)) + NEAR;
 }
 
 static bool look_way(grid *g, const line *l, int32_t x, int32_t y, int way, uint32_t segment) {
@@ -216,7 +222,7 @@ static bool look_way(grid *g, const line *l, int32_t x, int32_t y, int way, uint
          e = g->entries[e - 1].next) {
         const uint32_t part = g->entries[e - 1].part;
         range found = {.part = part};
-        if (is_apart(l, &g->c->drawn->segments[g->kept[part].segment])) continue;
+        if (is_apart(l, &g->entries[e - 1])) continue;
         if (g->range_count && g->ranges[g->range_count - 1].part == part) continue;
         const line under = line_of_part(g->c, &g->kept[part]);
         if (!shared(l, &under, &found) || parting(g, segment, part, &found)) continue;

@@ -7,7 +7,9 @@
  * The best offer is the nearest, but a turn counts like distance: of two ends beside a third the
  * one that it runs towards is taken. An end may be joined only forwards: what lies across the gap
  * must lie before it, the more so the wider the gap is, so that no hook and no step sideways is
- * drawn. Only open ends are joined: a line that merely passes has none there.
+ * drawn; or beside it, SIDEWAYS px off at most, where the way between lies in the ink of both. An end
+ * that a cut made goes nowhere: there another line goes on. Only open ends are joined: a line that
+ * merely passes has none there.
  *
  * Data structure: `opens`, the open ends; each knows the other end of its chain, and its length.
  * Invariant: the order of everything follows that of the ends. Not handled: of more than SEEN open
@@ -25,9 +27,9 @@ static const double SIDEWAYS = 0.25; /* px: how far the other end may lie beside
 static const double TURN = 1;        /* px that a turn of 90 degrees counts for */
 static const double STEP = 30;    /* pixel sizes: ends further apart in depth lie on two surfaces */
 static const float ACROSS = 0.7f; /* cosine: over a step of depth lines must go on straight */
-static const float STRAIGHT = 0.9f; /* cosine */
+static const float STRAIGHT = 0.9f; /* cosine: lines run side by side */
 static const double CUT = 0.05;     /* px: where another line takes over, nothing else is joined */
-static const double FOLD = 0.02;
+static const double FOLD = 0.02;    /* px: so near, any turn draws nothing new */
 enum { SEEN = 64, BEST = 6, LINKS = 16 };
 
 typedef struct open_end {
@@ -35,7 +37,6 @@ typedef struct open_end {
     float out[2];  /* unit, the way in which the chain would go on */
     uint32_t end;  /* of a part */
     uint32_t far;  /* the other open end of its chain: its number here */
-    uint32_t next; /* in its cell's list: 1 + its number, or 0 */
     uint32_t mate; /* that it has been joined with, or DP_NOWHERE */
     float length;  /* px, of its chain */
     uint32_t pen;  /* a hash of it */
@@ -190,7 +191,7 @@ static double cost_of(const gaps *g, const open_end *p, const open_end *q, doubl
     const double x = (double)q->x - (double)p->x, y = (double)q->y - (double)p->y;
     *distance = dp_hypot(x, y);
     if (*distance > g->reach || p->end / 2 == q->end / 2 || p->pen != q->pen) return -1;
-    if (dp_is_cut(g->c, p->end) && dp_is_cut(g->c, q->end) && *distance > CUT) return -1;
+    if ((dp_is_cut(g->c, p->end) || dp_is_cut(g->c, q->end)) && *distance > CUT) return -1;
     const float turn = -(p->out[0] * q->out[0] + p->out[1] * q->out[1]); /* cosine */
     if (*distance > FOLD && !runs_on(p, q, x, y, turn)) return -1;
     if (turn < ACROSS && steps_in_depth(g->c->drawn, p->d, q->d)) return -1;
@@ -263,8 +264,8 @@ static void join(gaps *g, const bridge *b) {
 }
 
 bool dp_join_gaps(dp_cleaning *c) {
-    gaps g = {.c = c, .reach = (double)c->desc.join};
-    if (!(g.reach > 0) && !c->desc.join_classes) return true;
+    gaps g = {.c = c, .reach = dp_max(0, (double)c->desc.join)};
+    if (g.reach == 0 && !c->desc.join_classes) return true;
     g.cell = dp_max(g.reach, 1e-3);
     bool ok = find_opens(&g) && find_cells(&g);
     for (size_t i = 0; ok && i < g.count; i++) ok = offer_bridges(&g, g.spots[i].open);

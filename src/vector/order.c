@@ -67,12 +67,17 @@ static uint32_t *cell_at(const touring *t, const start *s) {
     return &t->cells[(size_t)row(t, s->y) * (size_t)t->across + (size_t)column(t, s->x)];
 }
 
-/* The grid's place and size for the starts that there are. */
+/* The grid's place and size for the starts that there are; those outside the picture are
+ * put into the cells at its edge, to which nothing is farther than to them. */
 static void measure(touring *t) {
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    const double most[2] = {t->d->info.width, t->d->info.height};
+    double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0};
     for (size_t i = 0; i < t->start_count; i++) {
         const double p[2] = {(double)t->starts[i].x, (double)t->starts[i].y};
-        for (int k = 0; k < 2; k++) low[k] = dp_min(low[k], p[k]), high[k] = dp_max(high[k], p[k]);
+        for (int k = 0; k < 2; k++) {
+            const double on = dp_max(0, dp_min(most[k], p[k]));
+            low[k] = dp_min(low[k], on), high[k] = dp_max(high[k], on);
+        }
     }
     const double cells = (double)(t->start_count / PER_CELL + 1);
     const double wide = dp_max(high[0] - low[0], 1e-3), tall = dp_max(high[1] - low[1], 1e-3);
