@@ -23,7 +23,7 @@
 
 /* Degrees by which a hidden fold must turn. ISO 128-3 and drawing offices leave out hidden edges of
  * tangent and nearly tangent surfaces: the facets of a flank, the runout of a fillet. Below that lie
- * the folds of a curve of nine facets or more; above it, the 45 degrees of a chamfer. */
+ * the folds of a circle of ten facets or more; above it, the 45 degrees of a chamfer. */
 static const double SMOOTH = 40;
 
 bool dp_is_smooth(const dp_frame *frame, const dp_fold *fold) {

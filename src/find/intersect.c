@@ -359,17 +359,17 @@ void dp_find_intersections(dp_finder *w) {
 /* The tile's polygons by stripes of columns, those of each by the first row of their boxes. Large ones
  * lie in several stripes. */
 typedef struct stripes {
-    uint32_t width; /* px */
     uint32_t count;
+    uint32_t shift;                         /* their width is 1 << shift px */
     uint32_t first[DP_CELLS * DP_TILE + 1]; /* by stripe and row: its first polygon in the list */
 } stripes;
 
 /* The first and the last stripe of a box (dp_tile_polygon.box), and the bin of it in the first. */
 static inline uint32_t first_stripe(const stripes *s, uint32_t box) {
-    return (box & 255) / s->width;
+    return (box & 255) >> s->shift;
 }
 static inline uint32_t last_stripe(const stripes *s, uint32_t box) {
-    return (box >> 16 & 255) / s->width;
+    return (box >> 16 & 255) >> s->shift;
 }
 static inline uint32_t bin_of(uint32_t stripe, uint32_t box) {
     return stripe * DP_TILE + (box >> 8 & 255);
@@ -399,7 +399,7 @@ enum { FEW = 64 };
 static bool list_by_stripe(dp_finder *w, stripes *s) {
     uint32_t sum = 0;
     s->count = w->tile.seen_count <= FEW ? 1 : DP_CELLS;
-    s->width = DP_TILE / s->count;
+    s->shift = (uint32_t)__builtin_ctz(DP_TILE / s->count);
     const uint32_t bins = s->count * DP_TILE;
     memset(s->first, 0, (bins + 1) * sizeof *s->first);
     visit_stripes(w, s, true);
@@ -413,6 +413,7 @@ static bool list_by_stripe(dp_finder *w, stripes *s) {
 }
 
 static bool put_stripe(dp_finder *w, const uint32_t *polygon, uint32_t count) {
+    enum { OTHER = DP_POLYGON_CLIPPED | DP_POLYGON_EDGE_ON };
     dp_intersecting *const own = &w->intersecting;
     const size_t room = (size_t)count + DP_INTERSECTING_ROOM;
     own->count = count, own->stride = (uint32_t)room;
@@ -421,10 +422,13 @@ static bool put_stripe(dp_finder *w, const uint32_t *polygon, uint32_t count) {
         !DP_TILE_RESERVE(&w->tile, own, members, members_cap, DP_INTERSECTING_MEMBERS * room) ||
         !DP_TILE_RESERVE(&w->tile, own, keys, keys_cap, 3 * room))
         return false;
+    memcpy(own->polygon, polygon, count * sizeof *polygon);
+    dp_find_kernels_for(w->tile.frame->lanes)->shapes(w, own);
     for (uint32_t i = 0; i < count; i++) {
-        own->polygon[i] = polygon[i];
-        put_shape(w, &w->tile.polygons[polygon[i]], i);
-        put_keys(w, &w->tile.polygons[polygon[i]], i);
+        const dp_tile_polygon *const p = &w->tile.polygons[polygon[i]];
+        if (p->points == 3 && !(p->flags & OTHER)) continue;
+        put_shape(w, p, i);
+        put_keys(w, p, i);
     }
     return true;
 }
@@ -454,7 +458,7 @@ static bool lie_apart(const dp_tile *t, const dp_tile_polygon *p, const dp_tile_
 /* Pairs of a stripe, but for those that an earlier one holds too; `bins`: of the stripe's rows. */
 static void cross_in_stripe(dp_finder *w, const stripes *s, uint32_t stripe, const uint32_t *bins) {
     const dp_intersecting *const own = &w->intersecting;
-    const uint32_t left = stripe * s->width;
+    const uint32_t left = stripe << s->shift;
     for (uint32_t i = 0; i < own->count && !w->tile.failed; i++) {
         const uint32_t a = own->polygon[i];
         const dp_tile_polygon *const p = &w->tile.polygons[a];

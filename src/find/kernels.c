@@ -26,6 +26,7 @@ const dp_find_kernels DP_KERNEL_TABLE(dp_find_kernels) = {
     .show_backs = show_backs,
     .come_near = come_near,
     .meet = meet,
+    .shapes = shapes,
     .look = look,
     .hide = hide,
 };

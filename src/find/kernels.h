@@ -38,6 +38,10 @@ typedef struct dp_find_kernels {
      * bounds overlap, they are not neighbours, and neither lies on one side of the other. Returns
      * how many (meet.inc). */
     uint32_t (*meet)(const struct dp_intersecting *intersecting, uint32_t self, uint32_t end);
+    /* Writes bounds, planes, corners and keys of `count` intersection candidates that are triangles,
+     * neither clipped nor edge-on; of others it writes anything. Writes up to a vector beyond them
+     * (meet.inc). */
+    void (*shapes)(const struct dp_finder *worker, struct dp_intersecting *intersecting);
     /* Looks for polygons beside the sample points of edges that are left to emerge (look.inc). */
     void (*look)(struct dp_finder *worker);
     /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */

@@ -43,16 +43,13 @@ static float length_of(const dp_stroke *s) { return dp_hypotf(s->b.x - s->a.x, s
 typedef struct hidden_part {
     const dp_frame *frame;
     dp_lines *lines;
-    dp_stroke *strokes;
-    uint32_t *segment; /* numbers */
-    uint8_t *dropped;
+    dp_hidden_scratch *own;
     uint32_t count;
-    dp_chain_store chains;
 } hidden_part;
 
-static bool make_chains(hidden_part *h) {
+static bool make_chains(const hidden_part *h) {
     const dp_chain_rule rule = dp_plain_chain_rule();
-    return dp_make_chains(h->strokes, h->count, &rule, h->frame->memory, &h->chains);
+    return dp_make_chains(h->own->strokes, h->count, &rule, h->frame->memory, &h->own->chains);
 }
 
 /* A run of links of one level. */
@@ -62,19 +59,19 @@ typedef struct run {
 } run;
 
 static uint8_t level_of(const hidden_part *h, uint32_t link) {
-    return h->lines->pieces[h->segment[h->chains.links[link].segment]].level;
+    return h->lines->pieces[h->own->segment[h->own->chains.links[link].segment]].level;
 }
 
 static run run_from(const hidden_part *h, uint32_t first, uint32_t end) {
     run r = {first, first, 0};
     while (r.end < end && level_of(h, r.end) == level_of(h, first))
-        r.length += length_of(&h->strokes[h->chains.links[r.end++].segment]);
+        r.length += length_of(&h->own->strokes[h->own->chains.links[r.end++].segment]);
     return r;
 }
 
 static void set_level(const hidden_part *h, const run *r, uint8_t level) {
     for (uint32_t i = r->first; i < r->end; i++)
-        h->lines->pieces[h->segment[h->chains.links[i].segment]].level = level;
+        h->lines->pieces[h->own->segment[h->own->chains.links[i].segment]].level = level;
 }
 
 /* Gives short runs the level of the longer one beside them. Returns whether any changed. */
@@ -107,23 +104,23 @@ static bool smooth_levels(hidden_part *h) {
     enum { PASSES = 8 };
     if (h->frame->hidden < 2) return true;
     if (!make_chains(h)) return false;
-    for (uint32_t i = 0; i < h->chains.chain_count; i++)
-        for (int k = 0; k < PASSES && smooth_chain(h, &h->chains.chains[i]); k++) {
+    for (uint32_t i = 0; i < h->own->chains.chain_count; i++)
+        for (int k = 0; k < PASSES && smooth_chain(h, &h->own->chains.chains[i]); k++) {
         }
     return true;
 }
 
 /* Marks what is short, whatever its classes. */
 static bool find_crumbs(hidden_part *h) {
-    for (uint32_t i = 0; i < h->count; i++) h->strokes[i].line = 0;
+    for (uint32_t i = 0; i < h->count; i++) h->own->strokes[i].line = 0;
     if (!make_chains(h)) return false;
-    for (uint32_t c = 0; c < h->chains.chain_count; c++) {
-        const dp_chain *const chain = &h->chains.chains[c];
+    for (uint32_t c = 0; c < h->own->chains.chain_count; c++) {
+        const dp_chain *const chain = &h->own->chains.chains[c];
         float length = 0;
         for (uint32_t i = 0; i < chain->count; i++)
-            length += length_of(&h->strokes[h->chains.links[chain->first + i].segment]);
+            length += length_of(&h->own->strokes[h->own->chains.links[chain->first + i].segment]);
         for (uint32_t i = 0; i < chain->count; i++)
-            h->dropped[h->chains.links[chain->first + i].segment] = length < CRUMB;
+            h->own->dropped[h->own->chains.links[chain->first + i].segment] = length < CRUMB;
     }
     return true;
 }
@@ -144,7 +141,7 @@ static void drop_crumbs(const hidden_part *h) {
     dp_lines *const d = h->lines;
     size_t kept = 0;
     for (size_t i = 0, k = 0; i < d->count; i++) {
-        if (k < h->count && h->segment[k] == i && h->dropped[k++]) continue;
+        if (k < h->count && h->own->segment[k] == i && h->own->dropped[k++]) continue;
         if (d->pieces[i].level && kept && dp_piece_goes_on(&d->pieces[kept - 1], &d->pieces[i])) {
             append(d, kept - 1, i);
             continue;
@@ -167,33 +164,28 @@ static void list_hidden(hidden_part *h) {
     dp_lines *const d = h->lines;
     for (size_t i = 0; i < d->count; i++) {
         if (!d->pieces[i].level) continue;
-        h->strokes[h->count] = d->strokes[i];
-        h->strokes[h->count].level = 1, h->strokes[h->count].color = 0;
-        h->segment[h->count++] = (uint32_t)i;
+        h->own->strokes[h->count] = d->strokes[i];
+        h->own->strokes[h->count].level = 1, h->own->strokes[h->count].color = 0;
+        h->own->segment[h->count++] = (uint32_t)i;
     }
 }
 
+static bool reserve(const dp_frame *frame, dp_hidden_scratch *own, size_t count) {
+    return dp_reserve(frame->memory, &own->strokes, &own->strokes_cap, count,
+                      sizeof *own->strokes) &&
+           dp_reserve(frame->memory, &own->segment, &own->segment_cap, count,
+                      sizeof *own->segment) &&
+           dp_reserve(frame->memory, &own->dropped, &own->dropped_cap, count, 1);
+}
+
 static bool smooth_hidden(const dp_frame *frame, dp_lines *d, size_t count) {
-    const dp_allocator *const memory = frame->memory;
-    hidden_part h = {.frame = frame,
-                     .lines = d,
-                     .strokes = dp_alloc_array(memory, count + 1, sizeof *h.strokes),
-                     .segment = dp_alloc_array(memory, count + 1, sizeof *h.segment),
-                     .dropped = dp_alloc_zeroed(memory, count + 1)};
-    bool done = h.strokes && h.segment && h.dropped;
-    if (done) {
-        list_hidden(&h);
-        done = smooth_levels(&h) && find_crumbs(&h);
-    }
-    if (done) {
-        drop_crumbs(&h);
-        take_levels(frame, d);
-    }
-    dp_free(memory, h.strokes);
-    dp_free(memory, h.segment);
-    dp_free(memory, h.dropped);
-    dp_chain_store_free(&h.chains, memory);
-    return done;
+    hidden_part h = {.frame = frame, .lines = d, .own = &d->hidden};
+    if (!reserve(frame, h.own, count)) return false;
+    list_hidden(&h);
+    if (!smooth_levels(&h) || !find_crumbs(&h)) return false;
+    drop_crumbs(&h);
+    take_levels(frame, d);
+    return true;
 }
 
 /* ------- dashes ------- */
@@ -205,7 +197,7 @@ typedef struct path {
     const dp_stroke *look; /* its first stroke: width, colour, class, level */
     dp_point *points;      /* [count] */
     float *arc;
-    uint32_t count, most;
+    uint32_t count;
     bool closed;
 } path;
 
@@ -321,20 +313,21 @@ static bool is_hidden(const dp_lines *d, const dp_chain *chain) {
 }
 
 static bool ink_chains(const dp_frame *frame, dp_lines *d) {
-    path p = {.frame = frame, .lines = d};
+    dp_hidden_scratch *const own = &d->hidden;
     const dp_chain_store *const store = &d->chains;
+    size_t most = 0;
     for (uint32_t i = 0; i < store->chain_count; i++)
-        if (is_hidden(d, &store->chains[i]) && 2 * store->chains[i].count > p.most)
-            p.most = 2 * store->chains[i].count;
-    p.points = dp_alloc_array(frame->memory, p.most + 1u, sizeof *p.points);
-    p.arc = dp_alloc_array(frame->memory, p.most + 1u, sizeof *p.arc);
-    bool done = p.points && p.arc;
-    for (uint32_t i = 0; i < store->chain_count && done; i++)
-        if (is_hidden(d, &store->chains[i]))
-            done = ink_chain(&p, &store->chains[i], frame->styles[0].hidden.look);
-    dp_free(frame->memory, p.points);
-    dp_free(frame->memory, p.arc);
-    return done && d->inked_count < UINT32_MAX;
+        if (is_hidden(d, &store->chains[i]) && 2 * (size_t)store->chains[i].count > most)
+            most = 2 * (size_t)store->chains[i].count;
+    if (!dp_reserve(frame->memory, &own->points, &own->points_cap, most, sizeof *own->points) ||
+        !dp_reserve(frame->memory, &own->arc, &own->arc_cap, most, sizeof *own->arc))
+        return false;
+    path p = {.frame = frame, .lines = d, .points = own->points, .arc = own->arc};
+    for (uint32_t i = 0; i < store->chain_count; i++)
+        if (is_hidden(d, &store->chains[i]) &&
+            !ink_chain(&p, &store->chains[i], frame->styles[0].hidden.look))
+            return false;
+    return d->inked_count < UINT32_MAX;
 }
 
 /* ------- all of it ------- */

@@ -10,6 +10,17 @@
 #include "core/piece.h"
 #include "strokes/stylized.h"
 
+/* Scratch for hidden lines (hidden.c). */
+typedef struct dp_hidden_scratch {
+    dp_stroke *strokes; /* the hidden segments, their numbers, whether they are dropped */
+    uint32_t *segment;
+    uint8_t *dropped;
+    dp_chain_store chains;
+    dp_point *points; /* of one chain, and their arc lengths, px */
+    float *arc;
+    size_t strokes_cap, segment_cap, dropped_cap, points_cap, arc_cap;
+} dp_hidden_scratch;
+
 typedef struct dp_lines {
     dp_piece *pieces;     /* joined; what each segment is made of */
     dp_segment *segments; /* the public contract (draw.h) */
@@ -22,6 +33,7 @@ typedef struct dp_lines {
     bool inks_hidden;
     dp_stroke *inked;
     size_t inked_count, inked_cap;
+    dp_hidden_scratch hidden;
     dp_color paper, surface; /* of the first style */
     dp_hidden_look hidden_look;
 

@@ -22,19 +22,27 @@
 
 enum { BLOCK = DP_TUNED(128, 7) };
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_lines, pieces, pieces_cap), DP_ARRAY(dp_lines, segments, segments_cap),
-    DP_ARRAY(dp_lines, strokes, strokes_cap), DP_ARRAY(dp_lines, sides, sides_cap),
-    DP_ARRAY(dp_lines, inked, inked_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_lines, pieces, pieces_cap),
+                                  DP_ARRAY(dp_lines, segments, segments_cap),
+                                  DP_ARRAY(dp_lines, strokes, strokes_cap),
+                                  DP_ARRAY(dp_lines, sides, sides_cap),
+                                  DP_ARRAY(dp_lines, inked, inked_cap),
+                                  DP_ARRAY(dp_lines, hidden.strokes, hidden.strokes_cap),
+                                  DP_ARRAY(dp_lines, hidden.segment, hidden.segment_cap),
+                                  DP_ARRAY(dp_lines, hidden.dropped, hidden.dropped_cap),
+                                  DP_ARRAY(dp_lines, hidden.points, hidden.points_cap),
+                                  DP_ARRAY(dp_lines, hidden.arc, hidden.arc_cap)};
 
 void dp_lines_free(dp_lines *drawing, const dp_allocator *memory) {
     dp_arrays_free(memory, drawing, DP_ARRAYS(arrays));
     dp_chain_store_free(&drawing->chains, memory);
+    dp_chain_store_free(&drawing->hidden.chains, memory);
     dp_stylized_store_free(&drawing->stylized, memory);
 }
 
 uint64_t dp_lines_bytes(const dp_lines *drawing) {
     return dp_arrays_bytes(drawing, DP_ARRAYS(arrays)) + dp_chain_store_bytes(&drawing->chains) +
+           dp_chain_store_bytes(&drawing->hidden.chains) +
            dp_stylized_store_bytes(&drawing->stylized);
 }
 

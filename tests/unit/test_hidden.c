@@ -328,6 +328,64 @@ static void vector_widths_make_no_difference(void **state) {
     unsetenv("DRYPOINT_CPU");
 }
 
+/* ------- memory ------- */
+
+/* Counts calls that get memory; the one number `fail_at` gets none. */
+typedef struct meter {
+    long calls, fail_at, alive;
+} meter;
+
+static bool fails(meter *m) { return ++m->calls == m->fail_at; }
+static void *meter_alloc(size_t size, void *user) {
+    void *const block = fails(user) ? NULL : malloc(size);
+    ((meter *)user)->alive += block != NULL;
+    return block;
+}
+static void *meter_realloc(void *old, size_t size, void *user) {
+    void *const block = fails(user) ? NULL : realloc(old, size);
+    ((meter *)user)->alive += block && !old;
+    return block;
+}
+static void meter_free(void *block, void *user) {
+    ((meter *)user)->alive -= block != NULL;
+    free(block);
+}
+
+static dp_result draw_metered(dp_context *own) {
+    const dp_camera camera = scene_camera(60, 50, 400, 0, 0, 0);
+    dp_diag diag = {0};
+    const dp_style style = {.hidden = {.look = DP_HIDDEN_DASHED, .levels = 3},
+                            .stroke = {.taper = 4}};
+    make_two_boxes();
+    return scene_draw(own, &made, &camera, &style, &shown, &diag);
+}
+
+/* One worker, so that calls come in one order; statistics know every byte. */
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    for (long at = 1;; at++) {
+        meter m = {.fail_at = at};
+        const dp_allocator allocator = {meter_alloc, meter_realloc, meter_free, &m};
+        const dp_context_desc desc = {.allocator = &allocator, .threads = 1};
+        dp_context *own = NULL;
+        const bool there = dp_context_create(&desc, &own, NULL) == DP_OK;
+        if (there) {
+            const dp_result first = draw_metered(own);
+            if (first) {
+                assert_int_equal(first, DP_ERR_MEMORY);
+                assert_int_equal(draw_metered(own), DP_OK);
+            }
+            const long before = m.calls;
+            assert_int_equal(draw_metered(own), DP_OK);
+            assert_int_equal(m.calls, before); /* later frames allocate nothing */
+        }
+        dp_context_destroy(own);
+        assert_int_equal(m.alive, 0);
+        if (m.calls < at) break;
+        assert_true(at < 10000);
+    }
+}
+
 /* ------- ink ------- */
 
 /* One wall behind a larger one: its borders are hidden, from -40 to 40 and from -20 to 20. */
@@ -471,6 +529,7 @@ int main(void) {
         cmocka_unit_test(ink_of_visible_lines_stays),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(vector_widths_make_no_difference),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(looks_have_their_share_of_ink),
         cmocka_unit_test(corners_are_closed),
         cmocka_unit_test(patterns_allow_for_round_ends),
