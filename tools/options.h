@@ -112,27 +112,29 @@ typedef struct tool_settings {
 } tool_settings;
 
 typedef enum option_kind {
-    OPTION_FLAG = 0,      /* bool */
-    OPTION_TEXT,          /* const char * */
-    OPTION_COUNT,         /* uint32_t, within the limits */
-    OPTION_COUNT64,       /* uint64_t */
-    OPTION_NUMBER,        /* double, limits included */
-    OPTION_INSIDE,        /* double, limits excluded */
-    OPTION_POINT,         /* double[3] */
-    OPTION_ANGLES,        /* double[2] */
-    OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
-    OPTION_OUTPUT,        /* const char *, or one of tool_settings.planes */
-    OPTION_WORD,          /* int: which of the argument's words */
-    OPTION_SIZE,          /* uint32_t[2] */
-    OPTION_BYTES,         /* double: a number and K, M or G */
-    OPTION_LINES,         /* dp_style.lines */
-    OPTION_WIDTHS,        /* dp_style.line[].width */
-    OPTION_COLORS,        /* dp_style.line[].color */
-    OPTION_HIDDEN_WIDTHS, /* dp_style.hidden.line[][].width */
-    OPTION_HIDDEN_COLORS, /* dp_style.hidden.line[][].color */
-    OPTION_COLOR,         /* dp_color */
-    OPTION_STATS,         /* stats_kind; its argument may be left out */
-    OPTION_QUESTION       /* question: ends the parsing */
+    OPTION_FLAG = 0, /* bool */
+    OPTION_TEXT,     /* const char * */
+    OPTION_COUNT,    /* uint32_t, within the limits */
+    OPTION_COUNT64,  /* uint64_t */
+    OPTION_NUMBER,   /* double, limits included */
+    OPTION_INSIDE,   /* double, limits excluded */
+    OPTION_POINT,    /* double[3] */
+    OPTION_ANGLES,   /* double[2] */
+    OPTION_PLANE,    /* double[4], then two bools as in tool_settings.mirror */
+    OPTION_OUTPUT,   /* const char *, or one of tool_settings.planes */
+    OPTION_WORD,     /* int: which of the argument's words */
+    OPTION_SIZE,     /* uint32_t[2] */
+    OPTION_BYTES,    /* double: a number and K, M or G */
+    OPTION_LINES,    /* dp_style.lines */
+    OPTION_WIDTHS,   /* dp_style.line[].width */
+    OPTION_COLORS,   /* dp_style.line[].color */
+    OPTION_COLOR,    /* dp_color */
+    OPTION_STATS,    /* stats_kind; its argument may be left out */
+    OPTION_QUESTION, /* question: ends the parsing */
+
+    /* dp_style.hidden.line[][].width and .color */
+    OPTION_HIDDEN_WIDTHS,
+    OPTION_HIDDEN_COLORS
 } option_kind;
 
 typedef enum option_group {
