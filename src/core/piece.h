@@ -12,6 +12,8 @@ typedef struct dp_piece {
     uint32_t k0, k1, n; /* numbers of sample points */
     uint32_t hider[2];  /* what hides the sample point before k0, and that at k1: a polygon, or
                            DP_HIDER_… */
+    float end[2];       /* where it begins and ends, in sample points from the middle between two of
+                           them: at k0 + end[0], k1 + end[1]; 0 where that is not solved */
     uint32_t geometry;  /* as in its candidate: dp_segment_geometry … */
     uint32_t worker;    /* … of this worker; set when pieces are joined */
     uint8_t line;       /* dp_line */

@@ -21,6 +21,7 @@ void dp_finder_free(dp_finder *finder) {
     dp_intersecting_free(&finder->intersecting, &memory);
     dp_line_store_free(&finder->lines, &memory);
     dp_hidden_store_free(&finder->hidden, &memory);
+    dp_end_store_free(&finder->ends, &memory);
     dp_tile_free(&finder->tile);
 }
 
@@ -28,7 +29,7 @@ uint64_t dp_finder_bytes(const dp_finder *finder) {
     return dp_one_rings_bytes(&finder->rings) + dp_edge_store_bytes(&finder->table) +
            dp_emergence_bytes(&finder->emergence) + dp_intersecting_bytes(&finder->intersecting) +
            dp_line_store_bytes(&finder->lines) + dp_hidden_store_bytes(&finder->hidden) +
-           dp_tile_bytes(&finder->tile);
+           dp_end_store_bytes(&finder->ends) + dp_tile_bytes(&finder->tile);
 }
 
 void dp_finder_open(dp_finder *finder, uint32_t index) {

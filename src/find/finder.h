@@ -7,6 +7,7 @@
 #include "core/spine.h"
 #include "find/edge_list.h"
 #include "find/emergence.h"
+#include "find/ends.h"
 #include "find/hidden.h"
 #include "find/intersections.h"
 #include "find/visibility.h"
@@ -21,7 +22,8 @@ typedef struct dp_finder {
     dp_line_store lines;
     dp_hidden_store hidden;
     bool finds_hidden; /* the tile's second look, at all of its polygons (hidden.c) */
-    dp_found *found;   /* of all the worker's tiles in this frame */
+    dp_end_store ends;
+    dp_found *found; /* of all the worker's tiles in this frame */
 } dp_finder;
 
 /* Like dp_tile_…; `found` belongs to the caller (finder.c). */
@@ -39,6 +41,27 @@ void dp_find_crossings(dp_finder *finder);      /* intersect.c: of all polygons,
 void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two in turn */
 void dp_hide_points(dp_finder *finder);         /* hide.inc: behind the tile's seen polygons */
 void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visible sample points */
+void dp_solve_ends(dp_finder *finder);          /* ends.c: of the pieces just made */
+
+/* Are ends of pieces solved? Not where the tile does not hold what has hidden the sample points. */
+static inline bool dp_solves_ends(const dp_finder *finder) {
+    return finder->tile.frame->styles[0].exact_ends && !finder->lines.streamed;
+}
+
+/* Notes an end of a piece of candidate number `candidate` (ends.c). */
+void dp_note_end(dp_finder *finder, uint32_t candidate, size_t piece, uint32_t side);
+
+/* Sorts the noted ends by cell, in place of the sample points, which are not needed any more
+ * (visibility.c). */
+bool dp_group_ends(dp_finder *finder);
+
+/* Is it one of the polygons that do not hide the candidate? `id`: of the frame. */
+static inline bool dp_is_own(const dp_finder *finder, uint32_t candidate, uint32_t id) {
+    const uint32_t(*const owners)[2] = finder->lines.owners;
+    const dp_candidate *const c = &finder->lines.candidates[candidate];
+    return owners ? owners[candidate][0] == id || owners[candidate][1] == id
+                  : c->a == id || c->b == id;
+}
 
 /* Hidden lines, when all that is visible in the tile has been found: the worker's pieces from number
  * `first` on (hidden.c). */

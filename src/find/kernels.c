@@ -29,4 +29,5 @@ const dp_find_kernels DP_KERNEL_TABLE(dp_find_kernels) = {
     .shapes = shapes,
     .look = look,
     .hide = hide,
+    .list_hiders = list_hiders,
 };

@@ -46,6 +46,8 @@ typedef struct dp_find_kernels {
     void (*look)(struct dp_finder *worker);
     /* Hides the tile's grouped sample points that lie behind a seen polygon (hide.inc). */
     void (*hide)(struct dp_finder *worker);
+    /* Lists, for each of the tile's grouped ends, the seen polygons that may hide it (hide.inc). */
+    void (*list_hiders)(struct dp_finder *worker);
 } dp_find_kernels;
 
 DP_KERNEL_TABLES(dp_find_kernels);

@@ -15,7 +15,8 @@
  * those near a polygon are consecutive; the least limit of blocks of cells, by which most polygons
  * are found to hide nothing. Invariants: a point belongs to the tile whose pixel it lies in, and a
  * candidate's points in a tile are consecutive, [k0, k1). Not handled: what hides a line between
- * two sample points. */
+ * two sample points, unless a line ends
+ * there (ends.c). */
 #include "base/hostile.h"
 #include "find/kernels.h"
 #include "find/finder.h"
@@ -77,6 +78,14 @@ static uint32_t keep_geometry(dp_finder *w, const dp_spine *spine, const dp_vec3
     return w->found->geometry_count;
 }
 
+/* Keeps where the next candidate's sample points lie, for its ends. */
+static bool keep_spine(dp_finder *w, const dp_spine *spine) {
+    const uint32_t at = w->lines.candidate_count;
+    if (!DP_TILE_RESERVE(&w->tile, w, ends.spines, ends.spines_cap, at + 1u)) return false;
+    w->ends.spines[at][0] = spine->probe_a, w->ends.spines[at][1] = spine->probe_b;
+    return true;
+}
+
 void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
                       const dp_vec3 normals[2]) {
     if (c.k1 > spine->n) c.k1 = spine->n;
@@ -88,6 +97,7 @@ void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
     c.n = spine->n;
     c.probe = w->lines.probe_count;
     c.geometry = (normals ? keep_geometry(w, spine, normals) : 0) & 0xffffff;
+    if (dp_solves_ends(w) && !keep_spine(w, spine)) return;
     w->lines.candidates[w->lines.candidate_count++] = c;
     dp_find_kernels_for(w->tile.frame->lanes)
         ->points(w, spine, c.k0, c.k1, &w->lines.probes, c.probe);
@@ -153,36 +163,57 @@ static bool reserve_groups(dp_finder *w, uint32_t count) {
            DP_TILE_RESERVE(&w->tile, w, lines.groups.limit, lines.groups.limit_cap, room);
 }
 
-/* Counts the groups by cell, or puts them there. */
-static void visit_groups(dp_finder *w, bool counting) {
+/* Counts a group in its cell, or puts it there. */
+static inline void visit_group(dp_finder *w, bool counting, dp_probe_group group, const bounds *b) {
+    if (counting)
+        w->lines.groups.first[cell_of(b)]++;
+    else
+        put_group(&w->lines.groups, group, b);
+}
+
+/* All groups of sample points that are not hidden. */
+static void visit_points(dp_finder *w, bool counting) {
     for (uint32_t k = 0; k < w->lines.candidate_count; k++) {
         const dp_candidate *const c = &w->lines.candidates[k];
         for (uint32_t i = c->probe; i < c->probe + (c->k1 - c->k0); i += DP_GROUP) {
             const uint32_t last = group_last(c, i);
             const bounds b = bounds_of(&w->lines.probes, i, last);
             if (b.limit == INFINITY) continue; /* all are hidden */
-            if (counting)
-                w->lines.groups.first[cell_of(&b)]++;
-            else
-                put_group(&w->lines.groups, (dp_probe_group){i, last + 1 - i, k}, &b);
+            visit_group(w, counting, (dp_probe_group){i, last + 1 - i, k}, &b);
         }
     }
 }
 
 /* Sorts groups by cell (counting sort), and finds each cell's least limit. */
-static bool make_groups(dp_finder *w) {
+static bool make_groups(dp_finder *w, void (*visit)(dp_finder *w, bool counting)) {
     dp_probe_groups *const out = &w->lines.groups;
     uint32_t sum = 0;
     for (uint32_t i = 0; i < DP_CELL_ROOM; i++) out->least[0][0][i] = INFINITY;
     memset(out->first, 0, sizeof out->first);
     out->width = out->height = 0;
-    visit_groups(w, true);
+    visit(w, true);
     for (uint32_t i = 0; i < DP_CELLS * DP_CELLS; i++) out->first[i] = sum += out->first[i];
     out->first[DP_CELLS * DP_CELLS] = sum;
     if (!reserve_groups(w, sum)) return false;
-    visit_groups(w, false);
+    visit(w, false);
     return true;
 }
+
+/* Ends are groups of two points, of which the second may be another tile's. */
+static void visit_ends(dp_finder *w, bool counting) {
+    for (uint32_t i = 0; i < w->ends.count; i++) {
+        const dp_open_end *const e = &w->ends.ends[i];
+        const float slack = 1e-3f; /* px: coordinates are rounded */
+        const bounds b = {quarter_at((float)dp_min(e->from.x, e->to.x) - slack),
+                          quarter_at((float)dp_min(e->from.y, e->to.y) - slack),
+                          quarter_at((float)dp_max(e->from.x, e->to.x) + slack),
+                          quarter_at((float)dp_max(e->from.y, e->to.y) + slack),
+                          (float)dp_min(e->from.d, e->to.d)};
+        visit_group(w, counting, (dp_probe_group){i, 2, e->candidate}, &b);
+    }
+}
+
+bool dp_group_ends(dp_finder *w) { return make_groups(w, visit_ends); }
 
 /* ------- pieces and what hides their ends ------- */
 
@@ -274,6 +305,18 @@ static uint32_t hider_at(const dp_finder *w, const dp_candidate *c, const run_en
     return find_hider(&w->tile, c, x, y, limit);
 }
 
+/* Is there a next sample point in the picture? */
+static bool goes_on(uint32_t hider) {
+    return hider != (uint32_t)DP_HIDER_NONE && hider != (uint32_t)DP_HIDER_PICTURE;
+}
+
+static void note_ends(dp_finder *w, const dp_candidate *c) {
+    const size_t piece = w->found->piece_count - 1;
+    for (uint32_t side = 0; side < 2; side++)
+        if (goes_on(w->found->pieces[piece].hider[side]))
+            dp_note_end(w, (uint32_t)(c - w->lines.candidates), piece, side);
+}
+
 static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1) {
     if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1))
         return;
@@ -296,6 +339,7 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                    .line = c->line,
                    .seen = c->seen,
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
+    if (dp_solves_ends(w)) note_ends(w, c);
 }
 
 /* Makes pieces of a candidate's runs of visible sample points. */
@@ -310,12 +354,14 @@ static void collect(dp_finder *w, const dp_candidate *c) {
 }
 
 void dp_hide_points(dp_finder *w) {
-    if (w->lines.probe_count && make_groups(w)) dp_find_kernels_for(w->tile.frame->lanes)->hide(w);
+    if (w->lines.probe_count && make_groups(w, visit_points))
+        dp_find_kernels_for(w->tile.frame->lanes)->hide(w);
 }
 
 void dp_collect_pieces(dp_finder *w) {
     for (uint32_t i = 0; i < w->lines.candidate_count && !w->tile.failed; i++)
         collect(w, &w->lines.candidates[i]);
+    dp_solve_ends(w);
 }
 
 void dp_find_visible(dp_finder *w) {

@@ -243,10 +243,16 @@ static inline uint32_t *dp_seen_words(const dp_tile *w, uint32_t member) {
  * (tile.c). */
 bool dp_tile_covers(const dp_tile *tile, const dp_tile_polygon *polygon, float x, float y);
 
+/* Is the polygon part of the surface that is painted and hides? `reach`: DP_POLYGON_TOUCHES, or 0
+ * for those beside the tile too. */
+static inline bool dp_is_painted(const dp_tile *tile, const dp_tile_polygon *p, uint32_t reach) {
+    if ((p->flags & (reach | DP_POLYGON_EDGE_ON)) != reach) return false;
+    return p->flags & DP_POLYGON_FRONT || !dp_polygon_style(tile->frame, p->id)->cull_back_faces;
+}
+
 /* Does the polygon belong to the surface that is painted and hides, in this tile? */
 static inline bool dp_is_surface(const dp_tile *tile, const dp_tile_polygon *p) {
-    if ((p->flags & (DP_POLYGON_TOUCHES | DP_POLYGON_EDGE_ON)) != DP_POLYGON_TOUCHES) return false;
-    return p->flags & DP_POLYGON_FRONT || !dp_polygon_style(tile->frame, p->id)->cull_back_faces;
+    return dp_is_painted(tile, p, DP_POLYGON_TOUCHES);
 }
 
 /* Change of depth d over `px` pixel sizes along the line of sight, in float32 (dp_depth_step). */

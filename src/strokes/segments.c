@@ -91,6 +91,7 @@ static bool join_pieces(const dp_frame *frame, const dp_found *found, dp_lines *
         if (i > closed && dp_piece_goes_on(&store->pieces[last - 1], &store->pieces[i])) {
             store->pieces[last - 1].k1 = store->pieces[i].k1;
             store->pieces[last - 1].hider[1] = store->pieces[i].hider[1];
+            store->pieces[last - 1].end[1] = store->pieces[i].end[1];
         } else {
             store->pieces[last++] = store->pieces[i];
         }
@@ -145,8 +146,8 @@ static void put_geometry(const job *j, const dp_piece *piece, dp_segment_batch *
                                              : find_geometry(j->frame, piece);
     out->a[0][i] = geometry.a.x, out->a[1][i] = geometry.a.y, out->a[2][i] = geometry.a.d;
     out->b[0][i] = geometry.b.x, out->b[1][i] = geometry.b.y, out->b[2][i] = geometry.b.d;
-    out->share[0][i] = (double)piece->k0 / piece->n;
-    out->share[1][i] = (double)piece->k1 / piece->n;
+    out->share[0][i] = ((double)piece->k0 + (double)piece->end[0]) / piece->n;
+    out->share[1][i] = ((double)piece->k1 + (double)piece->end[1]) / piece->n;
     for (int k = 0; k < 2; k++)
         out->normal[k][0][i] = geometry.normal[k].x, out->normal[k][1][i] = geometry.normal[k].y,
         out->normal[k][2][i] = geometry.normal[k].z;
