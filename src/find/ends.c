@@ -24,8 +24,9 @@
 /* px: polygons beside each other may leave a gap this wide, by rounding; … */
 static const double BRIDGED = 1e-4;
 
-/* … and what hides the next sample point may begin this far behind it. */
-static const double MISSED = 1e-3;
+/* … and what hides the next sample point may begin this far behind it: its coordinates and limit are
+ * rounded, and an edge may cross the line at a small angle. */
+static const double MISSED = 0.01;
 
 /* ------- which ends ------- */
 
@@ -156,7 +157,7 @@ static void solve(dp_finder *w, const dp_open_end *e) {
     if (!follow(w, e, 2 * missed, &s)) return;
     while (s.begin > 0 && follow(w, e, BRIDGED / length, &s)) continue;
     dp_piece *const p = &w->found->pieces[e->piece];
-    const float from_middle = (float)(dp_max(dp_min(s.begin, 1), 0) - 0.5);
+    const float from_middle = (float)(dp_max(s.begin, 0) - 0.5);
     p->end[e->side] = e->side ? from_middle : -from_middle;
     p->hider[e->side] = s.hider;
 }
