@@ -1,7 +1,7 @@
 #!/bin/bash
-# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times: the tables of figures in README.md and
-# docs/lines.md: accuracy by the independent oracle (options: tests/accuracy/oracle.py --help), or times of
-# frames, FRAMES=20 of each model.
+# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors [MODEL]...: the tables of figures in README.md
+# and docs/: accuracy by the independent oracle (options: tests/accuracy/oracle.py --help), times of frames,
+# FRAMES=20 of each model, or what drawings as vectors hold and cost, the best of RUNS=7 runs.
 set -eu
 program=$(realpath "$1") what=$2
 shift 2
@@ -40,9 +40,9 @@ accuracy)
     python3 tests/accuracy/oracle.py --drypoint "$program" "$@" | summarise
     exit
     ;;
-times) ;;
+times | vectors) ;;
 *)
-    echo "figures: $what is neither accuracy nor times" >&2
+    echo "figures: $what is none of accuracy, times and vectors" >&2
     exit 2
     ;;
 esac
@@ -57,14 +57,51 @@ row() {
         "$(field frame_ms "$result")" "$(field frame_ms_min "$result")" \
         "$(awk "BEGIN { print ($(date +%s%N) - $start) / 1e9 }")"
 }
-mkdir -p build
+
+# Models: generated ones, and the Stanford dragons where bench.sh or the accuracy tests have fetched them.
+models() {
+    local shape file
+    mkdir -p build
+    for shape in "$@"; do
+        file=build/${shape%:*}-${shape#*:}.ply
+        [ -e "$file" ] || "$program" make "${shape%:*}" --triangles "${shape#*:}" -o "$file" --quiet
+        echo "$file"
+    done
+    for file in "${XDG_CACHE_HOME:-$HOME/.cache}"/drypoint/dragon-*.ply; do
+        [ ! -e "$file" ] || echo "$file"
+    done
+}
+
+# Least processor time of RUNS runs, in ms: by a model and options.
+cost() {
+    local run all=
+    for ((run = 0; run < ${RUNS:-7}; run++)); do
+        all+="$( { TIMEFORMAT='%U %S'; time "$program" "$@" --size 1680x1050 --quiet >/dev/null 2>&1; } 2>&1) "$'\n'
+    done
+    awk 'NF { t = 1000 * ($1 + $2); if (!n++ || t < least) least = t } END { printf "%.0f", least }' <<<"$all"
+}
+# What the program says of a drawing.
+say() { "$program" "$@" --size 1680x1050 2>&1 | sed 's/^drypoint: //' | grep ' paths,'; }
+paths() { say "$@" | sed -n 's/.*: \([0-9]*\) paths.*/\1/p'; }
+share() { say "${@:2}" | grep -oE "[0-9.]+ % $1" | sed 's/ %.*//' | grep . || echo 0; }
+vectors() {
+    local model=$1 out=build/figures png svg hidden
+    png=$(cost "$model" -o $out.png) svg=$(cost "$model" -o $out.svg) hidden=$(cost "$model" -o $out.png --hidden dashed)
+    printf '| %s | %s | %s | %s | %s %% | %s %% | %s %% | %.1f | %.2f | %.2f |\n' "$(basename "${model%.*}")" \
+        "$(paths "$model" -o $out.svg)" "$(paths "$model" -o $out.svg --join-classes)" \
+        "$(($(paths "$model" -o $out.svg --join-classes --hidden dashed) - $(paths "$model" -o $out.svg --join-classes)))" \
+        "$(share 'left out' "$model" -o $out.svg)" "$(share dropped "$model" -o $out.svg)" \
+        "$(share less "$model" -o $out.svg --optimize)" \
+        "$("$program" "$model" -o $out.svg --size 1680x1050 --quiet && stat -c %s $out.svg | awk '{ print $1 / 1000 }')" \
+        "$(awk "BEGIN { print $svg / $png }")" "$(awk "BEGIN { print $hidden / $png }")"
+}
+if [ "$what" = vectors ]; then
+    [ $# -gt 0 ] || mapfile -t list < <(models gear:34000 terrain:200000)
+    echo '| model | paths | with --join-classes | and hidden | left out: on others | dropped | less travel | SVG, kB | SVG/PNG | --hidden/PNG |'
+    echo '|---|---|---|---|---|---|---|---|---|---|'
+    for file in "${@:-${list[@]}}"; do vectors "$file"; done
+    exit
+fi
 echo '| model | triangles | frame, ms (median) | least | file to PNG, s |'
 echo '|---|---|---|---|---|'
-for shape in gear:34000 terrain:1000000; do
-    file=build/${shape%:*}-${shape#*:}.ply
-    [ -e "$file" ] || "$program" make "${shape%:*}" --triangles "${shape#*:}" -o "$file" --quiet
-    row "$file"
-done
-for file in "${XDG_CACHE_HOME:-$HOME/.cache}"/drypoint/dragon-*.ply; do
-    [ ! -e "$file" ] || row "$file"
-done
+models gear:34000 terrain:1000000 | while read -r file; do row "$file"; done

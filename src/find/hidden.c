@@ -87,22 +87,31 @@ static uint8_t *level_at(const dp_finder *w, const dp_candidate *c, uint32_t k) 
 }
 
 /* What a piece of the same spine shows is not hidden. */
-static void leave_out(const dp_finder *w, const dp_candidate *c, const dp_piece *p, bool turned) {
+static void leave_out(const dp_finder *w, const dp_candidate *c, const dp_piece *p, bool turned,
+                      void *unused) {
+    (void)unused;
     const uint32_t from = turned ? p->n - p->k1 : p->k0, to = turned ? p->n - p->k0 : p->k1;
     const uint32_t k0 = from > c->k0 ? from : c->k0, k1 = to < c->k1 ? to : c->k1;
     for (uint32_t k = k0; k < k1; k++) *level_at(w, c, k) = 0;
 }
 
-static void leave_out_shown(const dp_finder *w, const dp_candidate *c, const dp_piece *pieces) {
+/* Does something to a candidate for each visible piece of the same spine, which may run the other
+ * way. */
+typedef void visit_shown(const dp_finder *w, const dp_candidate *c, const dp_piece *p, bool turned,
+                         void *arg);
+
+/* `first`: the first of the visible pieces, a number of the worker's. */
+static void visit_all_shown(const dp_finder *w, const dp_candidate *c, size_t first,
+                            visit_shown *visit, void *arg) {
     const dp_hidden_store *const own = &w->hidden;
     const spine_name name = name_of(w->tile.frame, c->a, c->b, c->edge);
     const uint32_t key = name.from ^ name.to;
     for (uint32_t i = find_shown(own, key); i < own->shown_count && own->shown[i].key == key; i++) {
-        const dp_piece *const p = &pieces[own->shown[i].piece];
+        const dp_piece *const p = &w->found->pieces[first + own->shown[i].piece];
         const spine_name other = name_of(w->tile.frame, p->a, p->b, p->edge);
         const bool same = other.from == name.from && other.to == name.to,
                    turned = other.from == name.to && other.to == name.from;
-        if ((same || turned) && p->n == c->n) leave_out(w, c, p, !same);
+        if ((same || turned) && p->n == c->n) visit(w, c, p, !same, arg);
     }
 }
 
@@ -123,32 +132,44 @@ static bool find_levels(const dp_finder *w, const dp_candidate *c) {
 
 static uint32_t hider_of(bool ends) { return (uint32_t)(ends ? DP_HIDER_NONE : DP_HIDER_UNKNOWN); }
 
-static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1,
-                      uint8_t level) {
-    if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1))
-        return;
-    w->found->pieces[w->found->piece_count++] =
-        (dp_piece){.a = c->a,
-                   .b = c->b,
-                   .edge = c->edge,
-                   .k0 = k0,
-                   .k1 = k1,
-                   .n = c->n,
-                   .hider = {hider_of(k0 == 0), hider_of(k1 == c->n)},
-                   .geometry = c->geometry,
-                   .line = c->line,
-                   .seen = c->seen,
-                   .level = level,
-                   .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
+/* A hidden piece begins and ends where a visible one of the spine is known to. */
+static void meet(const dp_finder *w, const dp_candidate *c, const dp_piece *p, bool turned,
+                 void *piece) {
+    dp_piece *const out = piece;
+    const uint32_t from = turned ? p->n - p->k1 : p->k0, to = turned ? p->n - p->k0 : p->k1;
+    (void)w, (void)c;
+    if (to == out->k0) out->end[0] = turned ? -p->end[0] : p->end[1];
+    if (from == out->k1) out->end[1] = turned ? -p->end[1] : p->end[0];
 }
 
-static void collect(dp_finder *w, const dp_candidate *c) {
+/* `first`: as in visit_all_shown. */
+static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t k1, uint8_t level,
+                      size_t first) {
+    if (!DP_TILE_RESERVE(&w->tile, w, found->pieces, found->pieces_cap, w->found->piece_count + 1))
+        return;
+    dp_piece *const out = &w->found->pieces[w->found->piece_count++];
+    *out = (dp_piece){.a = c->a,
+                      .b = c->b,
+                      .edge = c->edge,
+                      .k0 = k0,
+                      .k1 = k1,
+                      .n = c->n,
+                      .hider = {hider_of(k0 == 0), hider_of(k1 == c->n)},
+                      .geometry = c->geometry,
+                      .line = c->line,
+                      .seen = c->seen,
+                      .level = level,
+                      .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
+    if (w->tile.frame->styles[0].exact_ends) visit_all_shown(w, c, first, meet, out);
+}
+
+static void collect(dp_finder *w, const dp_candidate *c, size_t first) {
     uint32_t start = c->k0;
     uint8_t level = 0;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
         const uint8_t here = k < c->k1 ? *level_at(w, c, k) : 0;
         if (here == level) continue;
-        if (level) add_piece(w, c, start, k, level);
+        if (level) add_piece(w, c, start, k, level, first);
         start = k, level = here;
     }
 }
@@ -158,8 +179,8 @@ static void collect_all(dp_finder *w, size_t first) {
     for (uint32_t i = 0; i < w->lines.candidate_count && !w->tile.failed; i++) {
         const dp_candidate *const c = &w->lines.candidates[i];
         if (!find_levels(w, c)) continue;
-        leave_out_shown(w, c, w->found->pieces + first);
-        collect(w, c);
+        visit_all_shown(w, c, first, leave_out, NULL);
+        collect(w, c, first);
     }
 }
 
