@@ -9,6 +9,7 @@
 #include "printed/quads.h"
 #include "shade/shade.h"
 #include "sink/raster.h"
+#include "base/pool.h"
 #include "stream/stream.h"
 
 #include <stdatomic.h>
@@ -37,7 +38,10 @@ struct dp_context {
 
     size_t limit; /* bytes beyond the picture (dp_context_desc.memory) */
     dp_polygon_store polygons;
-    dp_lines drawing;        /* the lines of the last picture */
+    dp_lines drawing; /* the lines of the last picture */
+    dp_lines once;    /* without what lies on others, where strokes have gaps */
+    dp_pool once_scratch;
+    bool inks_once;          /* `once` is inked */
     bool drawn;              /* there is one */
     dp_normal_store normals; /* made for models without */
     dp_shade_store shade;    /* G-buffer and what is made of it */

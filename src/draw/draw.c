@@ -19,6 +19,7 @@
 #include "features/silhouette_edge.h"
 #include "sink/sink.h"
 #include "stream/stream.h"
+#include "vector/once.h"
 #include "strokes/hidden.h"
 
 #include <string.h>
@@ -387,10 +388,23 @@ static dp_result for_last_tiles(void *user, dp_task *task, void *arg, dp_diag *d
     return for_tiles(l->context, task, arg, l->from, l->to, diag);
 }
 
+/* From the tiles' pieces to what is inked: stylized strokes and dashes of hidden lines too. */
+static bool make_lines(dp_context *c) {
+    const dp_frame *const f = &c->frame;
+    dp_lines *const lines = &c->drawing;
+    if (!dp_make_segments(f, c->found, lines) || !dp_finish_hidden(f, lines)) return false;
+    c->inks_once = dp_strokes_have_gaps(f);
+    dp_lines *const inked = c->inks_once ? &c->once : lines;
+    if (c->inks_once && !dp_lines_once(f, lines, inked, &c->once_scratch)) return false;
+    if (f->hidden && !(dp_chain_lines(f, inked) && dp_ink_hidden(f, inked, lines))) return false;
+    return dp_stylize(f, inked);
+}
+
 static dp_result ink(dp_context *c, double from, dp_diag *diag) {
     last_loop loop = {c, from, 1};
     dp_inking inking = {&c->frame, &c->drawing, &c->raster, for_last_tiles, &loop, false};
     const dp_sink sink = dp_raster_sink(&inking);
+    const bool once = c->drawing.stylizes && c->inks_once;
     if (c->drawing.stylizes && dp_is_hidden_inked(&c->drawing)) { /* below stylized strokes */
         inking.plain = true;
         loop.to = from + (1 - from) / 2;
@@ -399,7 +413,8 @@ static dp_result ink(dp_context *c, double from, dp_diag *diag) {
         inking.plain = false;
         loop = (last_loop){c, loop.to, 1};
     }
-    return dp_hand_over(&c->frame, &c->drawing, &sink, diag);
+    if (once) inking.drawing = &c->once;
+    return dp_hand_over(&c->frame, inking.drawing, &sink, diag);
 }
 
 static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
@@ -409,9 +424,7 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
     if (result) return result;
-    if (!dp_make_segments(&c->frame, c->found, &c->drawing) ||
-        !dp_finish_hidden(&c->frame, &c->drawing) || !dp_stylize(&c->frame, &c->drawing))
-        return out_of_memory(diag);
+    if (!make_lines(c)) return out_of_memory(diag);
     c->stats.segments = c->drawing.count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
     if ((result = shade(c, diag))) return result;

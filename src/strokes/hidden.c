@@ -5,7 +5,9 @@
  *         longer run beside it
  *     chain them, whatever their class: what is shorter than CRUMB altogether is dropped, and
  *         segments of one edge that have one level now are joined
- *     chain all (lines.c); cut each hidden chain at its corners, and each part into dashes
+ *     chain all (lines.c)
+ *     cut each hidden chain at its corners, and each part into dashes: of chains without what lies on
+ *         other lines, where these would fill the gaps (vector/once.c)
  *
  * A dash is as long as ISO 128-2 has it, but the pattern is stretched or shrunk so that a part begins
  * and ends with a whole dash, as a draughtsman would have lines meet: corners are closed. A part too
@@ -193,7 +195,8 @@ static bool smooth_hidden(const dp_frame *frame, dp_lines *d, size_t count) {
 /* A hidden chain as points on the screen; what is inked follows its arc length. */
 typedef struct path {
     const dp_frame *frame;
-    dp_lines *lines;
+    const dp_lines *chained;
+    dp_lines *lines;       /* to which dashes are appended */
     const dp_stroke *look; /* its first stroke: width, colour, class, level */
     dp_point *points;      /* [count] */
     float *arc;
@@ -285,7 +288,7 @@ static void add_point(path *p, dp_point at) {
 }
 
 static void take_path(path *p, const dp_chain *chain) {
-    const dp_lines *const d = p->lines;
+    const dp_lines *const d = p->chained;
     p->count = 0;
     p->closed = chain->closed;
     for (uint32_t i = 0; i < chain->count; i++) {
@@ -312,22 +315,23 @@ static bool is_hidden(const dp_lines *d, const dp_chain *chain) {
     return d->segments[d->chains.links[chain->first].segment].level;
 }
 
-static bool ink_chains(const dp_frame *frame, dp_lines *d) {
-    dp_hidden_scratch *const own = &d->hidden;
-    const dp_chain_store *const store = &d->chains;
+bool dp_ink_hidden(const dp_frame *frame, const dp_lines *chained, dp_lines *lines) {
+    dp_hidden_scratch *const own = &lines->hidden;
+    const dp_chain_store *const store = &chained->chains;
     size_t most = 0;
     for (uint32_t i = 0; i < store->chain_count; i++)
-        if (is_hidden(d, &store->chains[i]) && 2 * (size_t)store->chains[i].count > most)
+        if (is_hidden(chained, &store->chains[i]) && 2 * (size_t)store->chains[i].count > most)
             most = 2 * (size_t)store->chains[i].count;
     if (!dp_reserve(frame->memory, &own->points, &own->points_cap, most, sizeof *own->points) ||
         !dp_reserve(frame->memory, &own->arc, &own->arc_cap, most, sizeof *own->arc))
         return false;
-    path p = {.frame = frame, .lines = d, .points = own->points, .arc = own->arc};
+    path p = {
+        .frame = frame, .chained = chained, .lines = lines, .points = own->points, .arc = own->arc};
     for (uint32_t i = 0; i < store->chain_count; i++)
-        if (is_hidden(d, &store->chains[i]) &&
+        if (is_hidden(chained, &store->chains[i]) &&
             !ink_chain(&p, &store->chains[i], frame->styles[0].hidden.look))
             return false;
-    return d->inked_count < UINT32_MAX;
+    return lines->inked_count < UINT32_MAX;
 }
 
 /* ------- all of it ------- */
@@ -353,5 +357,5 @@ bool dp_finish_hidden(const dp_frame *frame, dp_lines *d) {
     if (!keep_visible(frame, d, &hidden)) return false;
     dp_sort_segments(d);
     d->inks_hidden = true;
-    return smooth_hidden(frame, d, hidden) && dp_chain_lines(frame, d) && ink_chains(frame, d);
+    return smooth_hidden(frame, d, hidden) && dp_chain_lines(frame, d);
 }

@@ -11,8 +11,11 @@
 bool dp_hidden_dash(dp_hidden_look look, float width, float dash[2]);
 
 /* Of segments just made: visible ones are set aside for plain ink, as they come; levels of hidden ones
- * are smoothed, crumbs are dropped, all are chained, and hidden chains become what is inked of them
- * (hidden.c). False when memory is out. */
+ * are smoothed, crumbs are dropped, and all are chained (hidden.c). False when memory is out. */
 bool dp_finish_hidden(const dp_frame *frame, dp_lines *lines);
+
+/* The hidden chains of `chained`, which may be the same lines, become what is inked of them: they are
+ * appended to lines->inked. False when memory is out. */
+bool dp_ink_hidden(const dp_frame *frame, const dp_lines *chained, dp_lines *lines);
 
 #endif

@@ -10,6 +10,8 @@
 
 #include "base/sort.h"
 #include "features/silhouette_edge.h"
+#include "strokes/hidden.h"
+#include "texture/texture.h"
 
 static const float GAP =
     4; /* px; smaller holes in an outline are rounding, or a fold of a single triangle */
@@ -93,6 +95,13 @@ static void number_segments(dp_lines *d) {
             s->chain = c, s->place = i, s->reversed = link->reversed;
         }
     }
+}
+
+bool dp_strokes_have_gaps(const dp_frame *frame) {
+    const dp_style *const style = &frame->styles[0];
+    float dash[2];
+    return (style->stroke.texture && style->stroke.texture->has_gaps && !dp_lies_outside(frame)) ||
+           (frame->hidden && dp_hidden_dash(style->hidden.look, 1, dash));
 }
 
 bool dp_chain_lines(const dp_frame *frame, dp_lines *d) {

@@ -86,6 +86,10 @@ static inline bool dp_is_hidden_inked(const dp_lines *d) {
  * memory is out. */
 bool dp_chain_lines(const dp_frame *frame, dp_lines *drawing);
 
+/* Are strokes interrupted, by a texture or as dashes of hidden lines? Then lines that lie on each other
+ * must be drawn once (vector/once.c), or each would fill the gaps of the other. */
+bool dp_strokes_have_gaps(const dp_frame *frame);
+
 /* Makes the stylized strokes of the chains (stylize.c). False when memory is out. */
 bool dp_stylize(const dp_frame *frame, dp_lines *drawing);
 

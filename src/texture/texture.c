@@ -65,6 +65,18 @@ static void take_pixels(dp_texture *t, const dp_texture_desc *d) {
         }
 }
 
+static bool is_empty_column(const dp_texture *t, uint32_t x) {
+    for (uint32_t y = 0; y < t->height[0]; y++)
+        if (t->pixels[0][4 * ((size_t)y * t->width[0] + x) + 3]) return false;
+    return true;
+}
+
+static bool find_gaps(const dp_texture *t) {
+    for (uint32_t x = 0; x < t->width[0]; x++)
+        if (is_empty_column(t, x)) return true;
+    return false;
+}
+
 /* ------- the pyramid ------- */
 
 static void average(const uint8_t *const four[4], uint8_t out[4]) {
@@ -131,6 +143,7 @@ dp_result dp_texture_create(const dp_texture_desc *desc, dp_texture **out, dp_di
     t->memory = memory;
     bool enough = add_level(t, d.width, d.height);
     if (enough) take_pixels(t, &d);
+    t->has_gaps = enough && find_gaps(t);
     enough = enough && add_levels(t);
     if (!enough) {
         dp_texture_destroy(t);

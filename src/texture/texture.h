@@ -10,6 +10,7 @@ struct dp_texture {
     dp_allocator memory;
     uint32_t levels;
     bool coloured; /* false: strokes have the line's colour */
+    bool has_gaps; /* some columns hold no ink: strokes are interrupted */
     uint32_t width[DP_TEXTURE_LEVELS], height[DP_TEXTURE_LEVELS];
     uint8_t *pixels[DP_TEXTURE_LEVELS]; /* [height][width][4], colours not premultiplied */
 };

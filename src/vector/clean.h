@@ -24,6 +24,7 @@ typedef struct dp_strand {
     uint32_t start, first; /* first: the part with the lowest number */
     uint32_t level, layer; /* layer: those of lower ones are drawn first */
     float length;          /* px, without gaps */
+    float nearest;         /* world units: distance of its nearest end; only for nearer_first */
     dp_line line;
     bool closed;
 } dp_strand;
@@ -32,6 +33,7 @@ typedef struct dp_cleaning {
     const dp_allocator *memory;
     const dp_drawn *drawn;
     dp_drawing_desc desc; /* resolved */
+    bool nearer_first;    /* of two lines of one level on each other the nearer one is kept */
     dp_part *parts;
     uint32_t part_count;
     uint32_t *partner; /* [2 part_count] the end that is drawn next to this one, or DP_NOWHERE */

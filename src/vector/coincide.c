@@ -311,6 +311,32 @@ static int by_rank(const void *left, const void *right) {
     return (l->first > r->first) - (l->first < r->first);
 }
 
+/* For ink that surfaces may hide in part: what the nearer of two lines lies on hides the other. */
+static int by_nearness(const void *left, const void *right) {
+    const dp_strand *const l = left, *const r = right;
+    if (l->level != r->level) return l->level < r->level ? -1 : 1;
+    if (l->nearest != r->nearest) return l->nearest < r->nearest ? -1 : 1;
+    return by_rank(left, right);
+}
+
+static float nearest_end(const dp_cleaning *c, const dp_strand *s) {
+    float nearest = INFINITY;
+    uint32_t end = s->start;
+    do {
+        const dp_segment *const segment = dp_segment_at(c, end);
+        nearest = dp_minf(nearest, dp_minf(segment->a[2], segment->b[2]));
+        end = c->partner[end ^ 1];
+    } while (end != DP_NOWHERE && end != s->start);
+    return nearest;
+}
+
+static void rank_strands(dp_cleaning *c) {
+    for (uint32_t i = 0; i < c->strand_count && c->nearer_first; i++)
+        c->strands[i].nearest = nearest_end(c, &c->strands[i]);
+    dp_sort(c->strands, c->strand_count, sizeof *c->strands,
+            c->nearer_first ? by_nearness : by_rank);
+}
+
 static void number_chains(grid *g) {
     const dp_cleaning *const c = g->c;
     for (uint32_t i = 0; i < c->strand_count; i++) {
@@ -356,7 +382,7 @@ bool dp_drop_coincident(dp_cleaning *c) {
     if (!c->part_count) return true;
     bool ok = dp_join_nodes(c, -2) && dp_find_strands(c) && make_grid(&g);
     if (ok) {
-        dp_sort(c->strands, c->strand_count, sizeof *c->strands, by_rank);
+        rank_strands(c);
         number_chains(&g);
         ok = take_chains(&g);
     }

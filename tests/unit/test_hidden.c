@@ -416,6 +416,21 @@ static void looks_have_their_share_of_ink(void **state) {
     assert_true(scene_ink(&shown, -38, 18, 38, 22) == 0);
 }
 
+/* A second wall whose upper border lies exactly behind a part of the first one's. */
+static void dashes_do_not_fill_each_others_gaps(void **state) {
+    (void)state;
+    draw_hidden_wall(DP_HIDDEN_DASHED, 1);
+    const double alone = scene_ink(&shown, -38, 18, 38, 22);
+    const dp_style style = {.lines = DP_BORDER, .hidden = {.look = DP_HIDDEN_DASHED}};
+    const dp_camera camera = scene_flat_camera();
+    begin_scene();
+    scene_wall(&made, -40, -50, 40, -50, 20);
+    scene_wall(&made, -33, -60, 29, -60, 20);
+    scene_wall(&made, -80, 0, 80, 0, 50);
+    draw(&camera, &style);
+    assert_true(fabs(scene_ink(&shown, -38, 18, 38, 22) - alone) < 3);
+}
+
 /* Lines meet at the corner of two dashes. */
 static void corners_are_closed(void **state) {
     static const float widths[] = {1, 2, 1.5f};
@@ -531,6 +546,7 @@ int main(void) {
         cmocka_unit_test(vector_widths_make_no_difference),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(looks_have_their_share_of_ink),
+        cmocka_unit_test(dashes_do_not_fill_each_others_gaps),
         cmocka_unit_test(corners_are_closed),
         cmocka_unit_test(patterns_allow_for_round_ends),
         cmocka_unit_test(sinks_get_the_deepest_first),
