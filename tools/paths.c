@@ -156,6 +156,14 @@ void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths 
     }
 }
 
+/* Have faces another colour than the paper, which vector files do not paint? */
+static bool has_faces(const dp_style *style) {
+    const dp_color white = DP_RGB(255, 255, 255);
+    const dp_color surface = style->surface ? style->surface : white,
+                   paper = style->paper ? style->paper : white;
+    return surface != paper && surface != DP_COLOR_NONE;
+}
+
 void paths_warn(const tool_settings *s, const dp_style *style) {
     const bool textured = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
                           s->repeats > 1 || s->width_by_depth > 0 || s->width_by_light > 0;
@@ -171,4 +179,8 @@ void paths_warn(const tool_settings *s, const dp_style *style) {
         warn("paths are plain: what --stroke and its options do is seen in PNGs only");
     if (shaded && s->ground != GROUND_PNG)
         warn("vector files have no shaded surface: --ground png puts it under the lines");
+    else if (has_faces(style) && s->ground != GROUND_PNG)
+        warn("vector files have no faces, the paper shows through: --ground png puts them there");
+    if (s->has_mirror)
+        warn("vector files have no lines of what a mirror shows: only PNGs have them");
 }

@@ -50,6 +50,9 @@ typedef struct dp_cleaning {
 bool dp_find_parts(dp_cleaning *c);      /* strands.c: each segment is one */
 bool dp_drop_coincident(dp_cleaning *c); /* coincide.c */
 bool dp_find_strands(dp_cleaning *c);    /* strands.c: in drawing order */
+/* Takes out folds, where the path goes back on itself. Returns how many points there are then, at
+ * least 2 if there were; `moved`: its first point is another one now, its last point is (unfold.c). */
+size_t dp_unfold(dp_path_point *points, size_t count, bool closed, bool moved[2]);
 /* Leaves out points where the path stays within `tolerance` px; the first and, of an open path, the
  * last stay. Returns how many points there are then (simplify.c). */
 size_t dp_simplify(dp_path_point *points, size_t count, bool closed, float tolerance);

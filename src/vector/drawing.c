@@ -3,8 +3,8 @@
  *     find the parts of segments that are drawn: what lies on each other once (coincide.c)
  *     join their ends: where they are equal (nodes.c), then over gaps (gaps.c)
  *     find the chains, in the order of their layers (strands.c)
- *     write each as a path: its points without those that change nothing (simplify.c); what is
- *         short then is dropped
+ *     write each as a path: without folds (unfold.c), its points without those that change nothing
+ *         (simplify.c); what is short then is dropped
  *     order the paths for a pen (order.c)
  *
  * All of it is done by one thread, in the order of the segments: so a drawing depends on them
@@ -105,11 +105,12 @@ static double length_of(const dp_path_point *points, size_t count, bool closed) 
     return sum;
 }
 
-static void put_end(const dp_cleaning *c, uint32_t end, dp_stored_path *p, int k) {
+/* `moved`: the path does not go to the end of its segment. */
+static void put_end(const dp_cleaning *c, uint32_t end, bool moved, dp_stored_path *p, int k) {
     const dp_segment *const s = dp_segment_at(c, end);
-    const bool cut = dp_is_cut(c, end);
-    p->end[k] = cut || p->closed ? DP_END_VERTEX : s->end[end & 1];
-    p->hider[k] = cut || p->closed ? UINT64_MAX : s->hider[end & 1];
+    const bool other = dp_is_cut(c, end) || moved || p->closed;
+    p->end[k] = other ? DP_END_VERTEX : s->end[end & 1];
+    p->hider[k] = other ? UINT64_MAX : s->hider[end & 1];
 }
 
 static uint32_t last_end(const dp_cleaning *c, uint32_t start) {
@@ -125,7 +126,11 @@ static bool put_path(dp_drawing *d, const dp_cleaning *c, const dp_strand *stran
     if (!put_points(d, c, strand)) return false;
     dp_path_point *const points = d->points + first;
     size_t count = d->info.points - first;
+    bool moved[2] = {false, false};
+    const double drawn = length_of(points, count, strand->closed);
+    if (!c->desc.keep_coincident) count = dp_unfold(points, count, strand->closed, moved);
     const double whole = length_of(points, count, strand->closed);
+    d->info.coincident += drawn - whole;
     count = dp_simplify(points, count, strand->closed, c->desc.tolerance);
     const double length = length_of(points, count, strand->closed);
     d->info.points = first + count;
@@ -147,7 +152,8 @@ static bool put_path(dp_drawing *d, const dp_cleaning *c, const dp_strand *stran
                           .first = first,
                           .count = count};
     if (p->level) (void)dp_hidden_dash(c->drawn->hidden_look, p->width, p->dash);
-    put_end(c, strand->start, p, 0), put_end(c, last_end(c, strand->start), p, 1);
+    put_end(c, strand->start, moved[0], p, 0);
+    put_end(c, last_end(c, strand->start), moved[1], p, 1);
     d->info.length += length;
     if (p->level > d->info.levels) d->info.levels = p->level;
     return true;
@@ -163,7 +169,7 @@ static bool clean(dp_drawing *d, dp_cleaning *c) {
     bool ok = dp_find_parts(c) && (c->desc.keep_coincident || dp_drop_coincident(c)) &&
               dp_join_nodes(c, -2) && dp_join_gaps(c) && dp_find_strands(c);
     for (uint32_t i = 0; ok && i < c->strand_count; i++) ok = put_path(d, c, &c->strands[i]);
-    d->info.coincident = c->coincident;
+    d->info.coincident += c->coincident;
     d->info.joined = c->joined;
     d->info.joined_length = c->joined_length;
     dp_arrays_free(c->memory, c, DP_ARRAYS(scratch));

@@ -47,13 +47,13 @@ bool dp_lines_once(const dp_frame *frame, dp_lines *from, dp_lines *to, dp_pool 
                             .focal = frame->view.focal};
     dp_cleaning c = {.memory = &memory, .drawn = &drawn, .nearer_first = true};
     bool ok = from->count <= DP_MOST_PARTS && dp_find_parts(&c) && dp_drop_coincident(&c);
-    ok = ok &&
-         dp_reserve(frame->memory, &to->pieces, &to->pieces_cap, c.part_count,
-                    sizeof *to->pieces) &&
-         dp_reserve(frame->memory, &to->segments, &to->segments_cap, c.part_count,
-                    sizeof *to->segments) &&
-         dp_reserve(frame->memory, &to->strokes, &to->strokes_cap, c.part_count,
-                    sizeof *to->strokes);
+    ok =
+        ok &&
+        dp_reserve(frame->memory, &to->pieces, &to->pieces_cap, c.part_count, sizeof *to->pieces) &&
+        dp_reserve(frame->memory, &to->segments, &to->segments_cap, c.part_count,
+                   sizeof *to->segments) &&
+        dp_reserve(frame->memory, &to->strokes, &to->strokes_cap, c.part_count,
+                   sizeof *to->strokes);
     for (uint32_t i = 0; ok && i < c.part_count; i++) put_part(&c, i, from, to);
     to->count = ok ? c.part_count : 0;
     to->chained = to->inks_hidden = false;

@@ -13,6 +13,8 @@
  * thousandths, between points that are rounded first: no error adds up. */
 #include "vector/writer.h"
 
+#include <math.h>
+
 #include "base/diag.h"
 
 typedef struct svg {
@@ -198,6 +200,9 @@ static bool has_ground(const dp_plan *plan) {
     return plan->layer_count && plan->layers[0].kind == DP_LAYER_SURFACE;
 }
 
+/* mm: never more than the size, as programs that make pixels of it round them up. */
+static double whole_micrometres(double mm) { return floor(mm * 1000 + 1e-6) / 1000; }
+
 static void put_head(const svg *self) {
     const dp_plan *const plan = self->plan;
     dp_out *const out = self->out;
@@ -206,9 +211,9 @@ static void put_head(const svg *self) {
                      "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" ");
     if (has_ground(plan)) dp_put_text(out, "xmlns:xlink=\"http://www.w3.org/1999/xlink\" ");
     dp_put_text(out, "version=\"1.1\" width=\"");
-    dp_put_number(out, plan->page->width, 6);
+    dp_put_number(out, whole_micrometres(plan->page->width), 3);
     dp_put_text(out, "mm\" height=\"");
-    dp_put_number(out, plan->page->height, 6);
+    dp_put_number(out, whole_micrometres(plan->page->height), 3);
     dp_put_text(out, "mm\" viewBox=\"0 0 ");
     dp_put_number(out, plan->width, 6);
     dp_put_char(out, ' ');

@@ -331,6 +331,33 @@ static void points_on_a_straight_line_are_left_out(void **state) {
     assert_int_equal(path(0).count, 4);
 }
 
+/* A path that goes to 50, back to 40 beside itself, and on; a spur at its start and at its end. */
+static void folds_are_taken_out(void **state) {
+    (void)state;
+    add(14, 10.05f, 10, 10);
+    add(10, 10, 50, 10);
+    add(50, 10, 40, 10.06f);
+    add(40, 10.06f, 90, 10);
+    add(90, 10, 88, 10.04f);
+    clean();
+    assert_int_equal(info.paths, 1);
+    assert_int_equal(path(0).count, 2);
+    assert_float_equal(path(0).points[0].x, 10, 0);
+    assert_float_equal(path(0).points[1].x, 90, 0);
+    assert_true(path(0).points[1].polygon == UINT64_MAX);
+    assert_float_equal(info.coincident, 4 + 20 + 2, 0.01);
+    clean_desc(&(dp_drawing_desc){.keep_coincident = true});
+    assert_float_equal(info.length, 80 + 26, 0.01);
+    count = 0; /* what leads away is a corner */
+    add(14, 10.5f, 10, 10);
+    add(10, 10, 50, 10);
+    add(50, 10, 40, 10.5f);
+    add(40, 10.5f, 90, 10);
+    clean();
+    assert_float_equal(info.coincident, 0, 0);
+    assert_int_equal(path(0).count, 5);
+}
+
 static void a_ring_begins_at_a_corner(void **state) {
     (void)state;
     add(30, 10, 60, 10), add(60, 10, 60, 40), add(60, 40, 10, 40), add(10, 40, 10, 10);
@@ -608,6 +635,7 @@ int main(void) {
         TEST(many_lines_meet_in_one_point),
         TEST(short_paths_are_dropped_after_joining),
         TEST(points_on_a_straight_line_are_left_out),
+        TEST(folds_are_taken_out),
         TEST(a_ring_begins_at_a_corner),
         TEST(layers_lie_from_the_bottom_up),
         TEST(the_pen_travels_less_when_asked_to),
