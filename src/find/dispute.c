@@ -12,6 +12,7 @@
  * thin that no sample shows it, or touches less than a pixel of the edge. */
 #include "find/fan.h"
 
+#include "core/closed.h"
 #include "core/precision.h"
 
 enum { STEP = 4 };
@@ -51,6 +52,7 @@ static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
                 tolerance = dp_touching(t, p, here->at.d);
     if (gap < -tolerance || gap > dp_maxf(tolerance, dp_over(t, p, here->at.d))) return false;
     if (t->frame->precision > 0 && dp_is_sliver(t->frame, p->id)) return false;
+    if (dp_merely_meets(t, p, here->own)) return false;
     if (gap > tolerance)
         return dp_tile_covers(t, p, here->at.x, here->at.y) &&
                !dp_are_neighbours(t, p, &t->polygons[here->own.polygon]);
@@ -128,12 +130,13 @@ static int32_t backs_at(const dp_tile *t, float x, float y) {
  * decide. */
 static const float AROUND[] = {0.5f, 1.5f, 2.5f};
 
-bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
+/* Back faces less front faces among the samples beside the spine, to its right or to its left. */
+static int32_t backs_beside(const dp_finder *w, const dp_spine *s, bool right) {
     const dp_tile *const t = &w->tile;
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
     uint32_t k0, k1;
     int32_t sum = 0;
-    if (!(length > 0) || !dp_spine_range(s, t->tile_x, t->tile_y, 1, &k0, &k1)) return false;
+    if (!(length > 0) || !dp_spine_range(s, t->tile_x, t->tile_y, 1, &k0, &k1)) return 0;
     const float ox = (float)((right ? -ey : ey) / length),
                 oy = (float)((right ? ex : -ex) / length);
     for (uint32_t k = k1 - k0 > 2 ? k0 + 1 : k0; k < k1; k += STEP) {
@@ -142,5 +145,21 @@ bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
         for (size_t i = 0; i < sizeof AROUND / sizeof *AROUND; i++)
             sum += backs_at(t, x + AROUND[i] * ox, y + AROUND[i] * oy);
     }
-    return sum > 0;
+    return sum;
+}
+
+bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
+    return backs_beside(w, s, right) > 0;
+}
+
+/* ------- pairs that are trusted ------- */
+
+bool dp_trusts_pair(const dp_finder *w, const dp_edge_entry *e, const dp_spine *s) {
+    const dp_frame *const f = w->tile.frame;
+    if (!f->exact_ends || w->finds_hidden || e->b == UINT32_MAX || e->more || !e->opposed ||
+        !dp_is_closed_at(f, f->vertices[e->va].key) || !dp_is_closed_at(f, f->vertices[e->vb].key))
+        return false;
+    if (!w->tile.sees_backs) return true;
+    const int32_t left = backs_beside(w, s, false), right = backs_beside(w, s, true);
+    return left <= 0 && right <= 0 && left + right < 0;
 }

@@ -161,25 +161,37 @@ static void leave_all(dp_finder *w) {
                        n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
             if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(&w->tile, p, e))
-                dp_leave_to_emerge(w, i, e, UINT32_MAX);
+                dp_leave_to_emerge(w, (dp_unpaired_edge){i, e, 0, false});
     }
 }
 
 static void leave_all_of(dp_finder *w, const dp_edge_entry *e) {
-    dp_leave_to_emerge(w, e->a, e->edge_a, UINT32_MAX);
-    dp_leave_to_emerge(w, e->b, e->edge_b, UINT32_MAX);
+    dp_leave_to_emerge(w, (dp_unpaired_edge){e->a, e->edge_a, 0, false});
+    dp_leave_to_emerge(w, (dp_unpaired_edge){e->b, e->edge_b, 0, false});
     for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
         const dp_half_edge at = dp_half_edge_of(w, w->table.meetings[i - 1].number);
-        dp_leave_to_emerge(w, at.polygon, at.edge, UINT32_MAX);
+        dp_leave_to_emerge(w, (dp_unpaired_edge){at.polygon, at.edge, 0, false});
     }
+}
+
+/* Is a pair of a front face and a back face what it seems, though back faces are seen in the tile? */
+static bool is_trusted_outline(const dp_finder *w, const dp_edge_entry *e) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    const uint32_t a = w->tile.polygons[e->a].flags, b = w->tile.polygons[e->b].flags;
+    dp_spine spine;
+    return w->tile.frame->exact_ends && (a ^ b) & DP_POLYGON_FRONT &&
+           dp_spine_ends(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
+                         dp_v3f(dp_vertex_position(polygons, e->vb)), &spine) &&
+           dp_trusts_pair(w, e, &spine);
 }
 
 static void resolve(dp_finder *w, const dp_edge_entry *e) {
     if (e->b == UINT32_MAX) {
-        if (!dp_edge_is_diagonal(w, e)) dp_leave_to_emerge(w, e->a, e->edge_a, UINT32_MAX);
+        if (!dp_edge_is_diagonal(w, e))
+            dp_leave_to_emerge(w, (dp_unpaired_edge){e->a, e->edge_a, 0, false});
     } else if (!is_shared(w, e)) {
         leave_all_of(w, e);
-    } else if (is_plain_pair(w, e)) {
+    } else if (is_plain_pair(w, e) || is_trusted_outline(w, e)) {
         resolve_pair(w, e);
     } else {
         dp_resolve_fan(w, e);

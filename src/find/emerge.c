@@ -44,7 +44,7 @@ static double along_far(const dp_finder *w) { return 1.2 * (double)dp_look_far(&
 static const double PARALLEL = 0.1;
 
 #define NO_EDGE                                                                                    \
-    { UINT32_MAX, UINT32_MAX, 0 }
+    { UINT32_MAX, UINT32_MAX, 0, false }
 
 typedef struct dp_emerging {
     dp_unpaired_edge unpaired;
@@ -57,12 +57,11 @@ typedef struct dp_emerging {
     dp_sight sight;
 } emerging;
 
-void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge, uint32_t partner) {
+void dp_leave_to_emerge(dp_finder *w, dp_unpaired_edge edge) {
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.unpaired, emergence.unpaired_cap,
                          w->emergence.unpaired_count + 1u))
         return;
-    w->emergence.unpaired[w->emergence.unpaired_count++] =
-        (dp_unpaired_edge){polygon, edge, partner == UINT32_MAX ? 0 : partner + 1};
+    w->emergence.unpaired[w->emergence.unpaired_count++] = edge;
 }
 
 /* Sample points in and beside the tile are consecutive, as the tile is convex. False: there are
@@ -243,7 +242,7 @@ static dp_unpaired_edge edge_here(const dp_finder *w, uint32_t index, const dp_l
                                   uint32_t *near, uint32_t far) {
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const bool overlaps = *near == 3 && (far == 1 || far == 2), beyond = !*near && far != 3;
-    dp_unpaired_edge here = {index, UINT32_MAX, 0};
+    dp_unpaired_edge here = {index, UINT32_MAX, 0, false};
     if (overlaps || beyond)
         here.edge = dp_edge_along(&w->tile, p, at, along_far(w));
     else if (*near != 3 && *near)
@@ -269,6 +268,8 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
             near == 3 && !dp_are_neighbours(&w->tile, p, &w->tile.polygons[b->own.polygon]);
         return;
     }
+    const bool is_partner = index + 1 == b->own.partner;
+    if (dp_merely_meets(&w->tile, p, b->own)) return;
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     if (here.edge == UINT32_MAX &&
         !dp_holds_edge(&w->tile, p, at, dp_shared_ends(&w->tile, p, b->own) > 0))
@@ -277,6 +278,7 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
         const bool is_near = near >> side & 1;
         const float d = gap + OFF * (side ? slope : -slope) - (is_near ? 0 : beyond);
         if (!is_near && !(!near && far >> side & 1 && here.edge != UINT32_MAX)) continue;
+        b->is_foreign |= !is_partner;
         keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
         if (is_near || !(beyond > 0)) keep_furthest(w, b, side, index, d, rounding);
     }
@@ -293,7 +295,7 @@ bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn, emergence.drawn_cap,
                          w->emergence.drawn_count + 1u))
         return false;
-    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge, 0};
+    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge, 0, false};
     return true;
 }
 
@@ -409,6 +411,26 @@ static bool are_hidden_backs(const dp_finder *w, const dp_beheld *b, bool right)
     return !w->tile.sees_backs && !w->finds_hidden && !((near | far) & DP_POLYGON_FRONT);
 }
 
+/* Does nothing lie at the point but the two polygons of an edge that are trusted? The table has left
+ * it only as it could not look beside it, or as something lies elsewhere along it. */
+static bool is_plain_pair(const dp_beheld *b) {
+    return b->own.trusted && !b->is_foreign && !b->is_hidden;
+}
+
+/* Of two polygons beside an edge, as they are wound: a back face lies behind the front face. */
+static finding judge_pair(const dp_finder *w, const emerging *e) {
+    const uint32_t own = e->unpaired.polygon, other = e->unpaired.partner - 1;
+    const bool front = w->tile.polygons[own].flags & DP_POLYGON_FRONT,
+               other_front = w->tile.polygons[other].flags & DP_POLYGON_FRONT;
+    if (!front && !other_front) return NOTHING;
+    return (finding){.line = -1,
+                     .behind = front == other_front ? UINT32_MAX
+                               : front              ? other
+                                                    : own,
+                     .owner = e->unpaired,
+                     .sides = {front ? own : UINT32_MAX, other_front ? other : UINT32_MAX}};
+}
+
 /* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */
 static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
                   finding *f) {
@@ -430,6 +452,7 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
         !is_own_edge(w, e, here.owner) || (outline && are_hidden_backs(w, b, right)))
         here = NOTHING;
+    if (is_plain_pair(b)) here = judge_pair(w, e);
     /* as the table would have it, so that tiles agree */
     const uint32_t own = e->unpaired.polygon;
     if (here.sides[0] == own || here.sides[1] == own || here.behind == own)

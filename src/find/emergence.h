@@ -9,6 +9,7 @@
 typedef struct dp_unpaired_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
     uint32_t partner;       /* 1 + another tile polygon that has it; 0: none is known */
+    bool trusted;           /* of what shares a vertex with it only these two matter (dispute.c) */
 } dp_unpaired_edge;
 
 /* How far from the edge a polygon is looked for, px: NEAR, close enough to hit the smallest
@@ -76,6 +77,22 @@ static inline bool dp_are_neighbours(const dp_tile *w, const dp_tile_polygon *p,
     return false;
 }
 
+/* Does a polygon merely meet a trusted edge at one of its ends, with a plane that misses the other end?
+ * Around a vertex of a fine mesh, where it is seen nearly edge-on, all triangles pass within a part
+ * of a pixel of its edges, but what the eye sees along an edge is its own two. */
+static inline bool dp_merely_meets(const dp_tile *w, const dp_tile_polygon *p,
+                                   dp_unpaired_edge edge) {
+    if (!edge.trusted || dp_shared_ends(w, p, edge) != 1) return false;
+    const dp_tile_polygon *const q = &w->polygons[edge.polygon];
+    const dp_vertex *const v = w->points + q->point;
+    const dp_vertex ends[2] = {v[edge.edge], v[edge.edge + 1 == q->points ? 0 : edge.edge + 1]};
+    for (int i = 0; i < 2; i++) {
+        const float gap = p->d0 + p->dx * ends[i].x + p->dy * ends[i].y - ends[i].d;
+        if (!(fabsf(gap) <= dp_touching(w, p, ends[i].d))) return true;
+    }
+    return false;
+}
+
 /* px: so near by another polygon's edge is the same line. */
 #define DP_ALONG_NEAR (2 * DP_LOOK_NEAR)
 
@@ -110,9 +127,10 @@ typedef struct dp_beheld {
     uint32_t furthest[2];              /* of these */
     float nearest_d[2], furthest_d[2]; /* how near they lie a little way off */
     dp_unpaired_edge
-        first;      /* of those with an edge along here, the one that comes first in the source */
-    bool is_hidden; /* a surface lies just over the point */
-    bool is_drawn;  /* one of them has made a line of it already */
+        first;       /* of those with an edge along here, the one that comes first in the source */
+    bool is_hidden;  /* a surface lies just over the point */
+    bool is_drawn;   /* one of them has made a line of it already */
+    bool is_foreign; /* one of them is neither the edge's polygon nor its partner */
 } dp_beheld;
 
 typedef struct dp_emergence {
