@@ -54,7 +54,7 @@ static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
     if (t->frame->precision > 0 && dp_is_sliver(t->frame, p->id)) return false;
     if (dp_merely_meets(t, p, here->own)) return false;
     if (gap > tolerance)
-        return dp_tile_covers(t, p, here->at.x, here->at.y) &&
+        return dp_lies_over(t, p, &here->at) && dp_tile_covers(t, p, here->at.x, here->at.y) &&
                !dp_are_neighbours(t, p, &t->polygons[here->own.polygon]);
     const uint32_t shared = dp_shared_ends(t, p, here->own);
     return shared < 2 && reaches(t, p, here) &&

@@ -264,8 +264,8 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     uint32_t near = sides & 3;
     const uint32_t far = sides >> 2;
     if (gap > dp_touching(&w->tile, p, at->d)) {
-        b->is_hidden |=
-            near == 3 && !dp_are_neighbours(&w->tile, p, &w->tile.polygons[b->own.polygon]);
+        b->is_hidden |= near == 3 && dp_lies_over(&w->tile, p, at) &&
+                        !dp_are_neighbours(&w->tile, p, &w->tile.polygons[b->own.polygon]);
         return;
     }
     const bool is_partner = index + 1 == b->own.partner;

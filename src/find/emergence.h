@@ -52,6 +52,13 @@ static inline bool dp_holds_edge(const dp_tile *w, const dp_tile_polygon *p, con
     return fabsf(turn) <= most * scale;
 }
 
+/* Does a polygon that lies over the point, by no more than dp_over, lie over the edge? One that
+ * crosses it hides it from where it is nearer than the sample points, which are lifted: with exact
+ * ends that decides. */
+static inline bool dp_lies_over(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at) {
+    return !w->frame->exact_ends || dp_holds_edge(w, p, at, false);
+}
+
 /* By keys of positions: how many of an edge's ends are corners of the polygon, or 2 only where it has
  * the edge; whether two polygons have a corner in common. */
 static inline uint32_t dp_shared_ends(const dp_tile *w, const dp_tile_polygon *p,
