@@ -45,6 +45,49 @@ static bool goes_on(const dp_tile *t, float x, float y, float d, const place *he
     return fabsf(dp_plane_at(p, x, y) - d) <= dp_touching(t, p, here->at.d);
 }
 
+/* Sine of the angle to an edge, at the end that they share, from which on a polygon leaves it; and
+ * where coordinates are rounded to few decimals. */
+static const double LEAVES = 2e-3, LEAVES_ROUNDED = 0.1;
+
+/* Does a polygon that has a corner between `last` and `next`, seen from there, leave the direction
+ * `along` (a unit vector)? */
+static bool leaves(dp_vec3 along, dp_vec3 last, dp_vec3 next, double least) {
+    const dp_vec3 normal = dp_unit(dp_cross(next, last)), sides[2] = {dp_unit(next), dp_unit(last)};
+    if (dp_dot(dp_cross(next, along), normal) > 0 && dp_dot(dp_cross(along, last), normal) > 0)
+        return fabs(dp_dot(along, normal)) > least;
+    for (int i = 0; i < 2; i++)
+        if (dp_dot(sides[i], along) > 0 && dp_length(dp_cross(sides[i], along)) <= least)
+            return false;
+    return true;
+}
+
+static dp_vec3 corner_at(const dp_tile *t, const dp_tile_polygon *p, uint32_t i) {
+    const dp_polygons *const polygons = &t->frame->polygons;
+    return dp_v3f(dp_vertex_position(
+        polygons, dp_corner_vertex(polygons, dp_first_corner(polygons, p->id) + i % p->points)));
+}
+
+/* Around a vertex of a fine mesh, where it is seen nearly edge-on, all triangles pass within a part of
+ * a pixel of its edges on the screen. In space those that do not lie in the edge leave it. */
+bool dp_merely_meets(const dp_tile *t, const dp_tile_polygon *p, dp_unpaired_edge edge) {
+    if (!edge.trusted || dp_shared_ends(t, p, edge) != 1) return false;
+    const dp_tile_polygon *const q = &t->polygons[edge.polygon];
+    const dp_vertex *const v = t->points + p->point, *const u = t->points + q->point;
+    const double least = t->frame->precision > 0 ? LEAVES_ROUNDED : LEAVES;
+    const uint32_t from = u[edge.edge].key, to = u[(edge.edge + 1) % q->points].key;
+    const dp_vec3 along =
+        dp_unit(dp_sub(corner_at(t, q, edge.edge + 1), corner_at(t, q, edge.edge)));
+    for (uint32_t i = 0; i < p->points; i++) {
+        if (v[i].key != from && v[i].key != to) continue;
+        const dp_vec3 at = corner_at(t, p, i);
+        if (!leaves(v[i].key == from ? along : dp_scale(along, -1),
+                    dp_sub(corner_at(t, p, i + p->points - 1u), at),
+                    dp_sub(corner_at(t, p, i + 1), at), least))
+            return false;
+    }
+    return true;
+}
+
 /* Does polygon `index` lie in the edge there, and reach it; or just over it? */
 static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
     const dp_tile_polygon *const p = &t->polygons[index];
@@ -154,12 +197,16 @@ bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
 
 /* ------- pairs that are trusted ------- */
 
-bool dp_trusts_pair(const dp_finder *w, const dp_edge_entry *e, const dp_spine *s) {
+bool dp_trusts_pair(const dp_finder *w, const dp_edge_entry *e) {
     const dp_frame *const f = w->tile.frame;
+    dp_spine s;
     if (!f->exact_ends || w->finds_hidden || e->b == UINT32_MAX || e->more || !e->opposed ||
         !dp_is_closed_at(f, f->vertices[e->va].key) || !dp_is_closed_at(f, f->vertices[e->vb].key))
         return false;
     if (!w->tile.sees_backs) return true;
-    const int32_t left = backs_beside(w, s, false), right = backs_beside(w, s, true);
+    if (!dp_spine_ends(&f->view, dp_v3f(dp_vertex_position(&f->polygons, e->va)),
+                       dp_v3f(dp_vertex_position(&f->polygons, e->vb)), &s))
+        return false;
+    const int32_t left = backs_beside(w, &s, false), right = backs_beside(w, &s, true);
     return left <= 0 && right <= 0 && left + right < 0;
 }

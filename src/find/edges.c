@@ -92,7 +92,11 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
     uint32_t sides[2];
     sides_of_pair(w, e, sides);
     const int line = is_fold(w, e) ? fold_line(w, e, &fold) : DP_LINE_SILHOUETTE;
-    if (line >= 0) add_line(w, e, (dp_line)line, fold.normal, sides);
+    if (line < 0) return;
+    const dp_vec3 normal = dp_trusts_pair(w, e) ? dp_pair_normal(frame, w->tile.polygons[e->a].id,
+                                                                 w->tile.polygons[e->b].id)
+                                                : fold.normal;
+    add_line(w, e, (dp_line)line, normal, sides);
 }
 
 /* Do all that have met at the edge face away, or is one of two the only one that does not, and are
@@ -176,13 +180,8 @@ static void leave_all_of(dp_finder *w, const dp_edge_entry *e) {
 
 /* Is a pair of a front face and a back face what it seems, though back faces are seen in the tile? */
 static bool is_trusted_outline(const dp_finder *w, const dp_edge_entry *e) {
-    const dp_polygons *const polygons = &w->tile.frame->polygons;
     const uint32_t a = w->tile.polygons[e->a].flags, b = w->tile.polygons[e->b].flags;
-    dp_spine spine;
-    return w->tile.frame->exact_ends && (a ^ b) & DP_POLYGON_FRONT &&
-           dp_spine_ends(&w->tile.frame->view, dp_v3f(dp_vertex_position(polygons, e->va)),
-                         dp_v3f(dp_vertex_position(polygons, e->vb)), &spine) &&
-           dp_trusts_pair(w, e, &spine);
+    return (a ^ b) & DP_POLYGON_FRONT && dp_trusts_pair(w, e);
 }
 
 static void resolve(dp_finder *w, const dp_edge_entry *e) {

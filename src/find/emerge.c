@@ -463,6 +463,9 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
         judge_fold(w, e, f);
     else if (f->sides[0] != f->sides[1])
         judge_outline(w, &e->sight, f->sides[0] == UINT32_MAX, f);
+    if (is_plain_pair(b))
+        f->normal = dp_pair_normal(w->tile.frame, w->tile.polygons[own].id,
+                                   w->tile.polygons[e->unpaired.partner - 1].id);
     return true;
 }
 

@@ -84,21 +84,8 @@ static inline bool dp_are_neighbours(const dp_tile *w, const dp_tile_polygon *p,
     return false;
 }
 
-/* Does a polygon merely meet a trusted edge at one of its ends, with a plane that misses the other end?
- * Around a vertex of a fine mesh, where it is seen nearly edge-on, all triangles pass within a part
- * of a pixel of its edges, but what the eye sees along an edge is its own two. */
-static inline bool dp_merely_meets(const dp_tile *w, const dp_tile_polygon *p,
-                                   dp_unpaired_edge edge) {
-    if (!edge.trusted || dp_shared_ends(w, p, edge) != 1) return false;
-    const dp_tile_polygon *const q = &w->polygons[edge.polygon];
-    const dp_vertex *const v = w->points + q->point;
-    const dp_vertex ends[2] = {v[edge.edge], v[edge.edge + 1 == q->points ? 0 : edge.edge + 1]};
-    for (int i = 0; i < 2; i++) {
-        const float gap = p->d0 + p->dx * ends[i].x + p->dy * ends[i].y - ends[i].d;
-        if (!(fabsf(gap) <= dp_touching(w, p, ends[i].d))) return true;
-    }
-    return false;
-}
+/* Does the polygon merely meet a trusted edge at one of its ends? (dispute.c) */
+bool dp_merely_meets(const dp_tile *tile, const dp_tile_polygon *polygon, dp_unpaired_edge edge);
 
 /* px: so near by another polygon's edge is the same line. */
 #define DP_ALONG_NEAR (2 * DP_LOOK_NEAR)
