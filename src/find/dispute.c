@@ -29,7 +29,8 @@ typedef struct place {
 
 /* A polygon beside the one that is expected must lie over that right at the edge. */
 static bool reaches(const dp_tile *t, const dp_tile_polygon *p, const place *here) {
-    const int count = here->expected == UINT32_MAX ? 2 : 1;
+    const bool past_cracks = here->expected == UINT32_MAX && !dp_is_beside_pair(t, p, here->own);
+    const int count = past_cracks ? 2 : 1;
     const float reach[2] = {DP_LOOK_NEAR, dp_look_far(t)};
     for (int i = 0; i < count; i++)
         if (dp_tile_covers(t, p, here->at.x + reach[i] * here->at.ox,

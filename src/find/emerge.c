@@ -269,7 +269,9 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
         return;
     }
     const bool is_partner = index + 1 == b->own.partner;
-    if (dp_merely_meets(&w->tile, p, b->own)) return;
+    if (dp_merely_meets(&w->tile, p, b->own) ||
+        (!near && !is_partner && dp_is_beside_pair(&w->tile, p, b->own)))
+        return;
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     if (here.edge == UINT32_MAX &&
         !dp_holds_edge(&w->tile, p, at, dp_shared_ends(&w->tile, p, b->own) > 0))

@@ -84,6 +84,13 @@ static inline bool dp_are_neighbours(const dp_tile *w, const dp_tile_polygon *p,
     return false;
 }
 
+/* Does the polygon touch one of the two of a trusted edge? It does not lie beyond a crack then. */
+static inline bool dp_is_beside_pair(const dp_tile *w, const dp_tile_polygon *p,
+                                     dp_unpaired_edge edge) {
+    return edge.trusted && (dp_are_neighbours(w, p, &w->polygons[edge.polygon]) ||
+                            dp_are_neighbours(w, p, &w->polygons[edge.partner - 1]));
+}
+
 /* Does the polygon merely meet a trusted edge at one of its ends? (dispute.c) */
 bool dp_merely_meets(const dp_tile *tile, const dp_tile_polygon *polygon, dp_unpaired_edge edge);
 
