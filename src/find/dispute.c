@@ -7,7 +7,11 @@
  *            its plane passes through the edge there, and it reaches the edge;
  *            or it covers the edge from just above:    the edge is disputed
  *
- * Such edges are left to emergence, which looks at every polygon and every sample point. Invariant:
+ * With exact ends a pair of polygons that met at an edge between closed vertices, wound alike, with
+ * front faces seen beside it, is trusted: what shares a vertex with it disputes it only where it
+ * lies along the edge in space (dp_trusts_pair, dp_merely_meets).
+ *
+ * Disputed edges are left to emergence, which looks at every polygon and every sample point. Invariant:
  * an edge is disputed too where all samples beside it are another tile's. Not handled: what is so
  * thin that no sample shows it, or touches less than a pixel of the edge. */
 #include "find/fan.h"
@@ -26,6 +30,27 @@ typedef struct place {
     uint32_t expected; /* polygon; UINT32_MAX: none */
     dp_unpaired_edge own;
 } place;
+
+/* Sine of the angle below which an edge that runs near another is the same line. */
+static const double PARALLEL = 0.1;
+
+uint32_t dp_edge_along(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at,
+                       double reach) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const dp_vertex *const v = w->points + p->point;
+    if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
+        const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
+        const double x = (double)at->x - a.x, y = (double)at->y - a.y, away = ex * y - ey * x,
+                     on = ex * x + ey * y;
+        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= reach * length &&
+            on >= -reach * length && on <= (length + reach) * length &&
+            dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
+            return i;
+    }
+    return UINT32_MAX;
+}
 
 /* A polygon beside the one that is expected must lie over that right at the edge. */
 static bool reaches(const dp_tile *t, const dp_tile_polygon *p, const place *here) {

@@ -36,12 +36,10 @@ static const float NEARER = 1e-3f;
 /* Pixel sizes: more than any two polygons at one edge differ by. */
 static const float BEYOND = 1e5f;
 
-/* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, … */
+/* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, is the
+ * same line. */
 static const double ALONG_NEAR = (double)DP_ALONG_NEAR;
 static double along_far(const dp_finder *w) { return 1.2 * (double)dp_look_far(&w->tile); }
-
-/* … and at an angle with a smaller sine, is the same line. */
-static const double PARALLEL = 0.1;
 
 #define NO_EDGE                                                                                    \
     { UINT32_MAX, UINT32_MAX, 0, false }
@@ -193,24 +191,6 @@ static bool sort_points(dp_finder *w, uint32_t count) {
 }
 
 /* ------- what is found ------- */
-
-uint32_t dp_edge_along(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at,
-                       double reach) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_vertex *const v = w->points + p->point;
-    if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
-    for (uint32_t i = 0; i < p->points; i++) {
-        const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
-        const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
-        const double x = (double)at->x - a.x, y = (double)at->y - a.y, away = ex * y - ey * x,
-                     on = ex * x + ey * y;
-        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= reach * length &&
-            on >= -reach * length && on <= (length + reach) * length &&
-            dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
-            return i;
-    }
-    return UINT32_MAX;
-}
 
 /* Keeps the polygon if it lies nearer at a side than what is there. */
 static void keep_nearest(const dp_finder *w, dp_unpaired_edge *nearest, float *nearest_d,

@@ -98,7 +98,7 @@ bool dp_merely_meets(const dp_tile *tile, const dp_tile_polygon *polygon, dp_unp
 #define DP_ALONG_NEAR (2 * DP_LOOK_NEAR)
 
 /* The number of an edge that bounds the polygon and runs along this point, within `reach` px;
- * UINT32_MAX: none does (emerge.c). */
+ * UINT32_MAX: none does (dispute.c). */
 uint32_t dp_edge_along(const dp_tile *tile, const dp_tile_polygon *polygon, const dp_lookout *at,
                        double reach);
 
