@@ -68,8 +68,9 @@ typedef struct dp_frame {
     size_t tile_samples;
     struct dp_tile_pieces *tile_pieces; /* by tile (core/piece.h) */
     uint32_t *closed; /* with exact_ends, by the upper bits of vertices' keys: core/closed.h */
+    uint32_t *rings;  /* the same by vertex, before those at one place are added up */
     uint32_t closed_shift;
-    size_t depth_cap, tile_pieces_cap, facing_cap, outlined_cap, closed_cap;
+    size_t depth_cap, tile_pieces_cap, facing_cap, outlined_cap, closed_cap, rings_cap;
 } dp_frame;
 
 /* Frees the arrays that the frame owns (vertices, depth, bins, …); not what it borrows. */
