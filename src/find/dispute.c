@@ -76,9 +76,9 @@ static bool goes_on(const dp_tile *t, float x, float y, float d, const place *he
 static const double LEAVES = 2e-3, LEAVES_ROUNDED = 0.1;
 
 /* Does a polygon that has a corner between `last` and `next`, seen from there, leave the direction
- * `along` (a unit vector)? */
-static bool leaves(dp_vec3 along, dp_vec3 last, dp_vec3 next, double least) {
-    const dp_vec3 normal = dp_unit(dp_cross(next, last)), sides[2] = {dp_unit(next), dp_unit(last)};
+ * `along`? The corner may be straight. `along` and `normal` are unit vectors. */
+static bool leaves(dp_vec3 along, dp_vec3 normal, dp_vec3 last, dp_vec3 next, double least) {
+    const dp_vec3 sides[2] = {dp_unit(next), dp_unit(last)};
     if (dp_dot(dp_cross(next, along), normal) > 0 && dp_dot(dp_cross(along, last), normal) > 0)
         return fabs(dp_dot(along, normal)) > least;
     for (int i = 0; i < 2; i++)
@@ -99,6 +99,7 @@ bool dp_merely_meets(const dp_tile *t, const dp_tile_polygon *p, dp_unpaired_edg
     if (!edge.trusted || dp_shared_ends(t, p, edge) != 1) return false;
     const dp_tile_polygon *const q = &t->polygons[edge.polygon];
     const dp_vertex *const v = t->points + p->point, *const u = t->points + q->point;
+    const dp_vec3 normal = dp_polygon_normal(t->frame, p->id);
     const double least = t->frame->precision > 0 ? LEAVES_ROUNDED : LEAVES;
     const uint32_t from = u[edge.edge].key, to = u[(edge.edge + 1) % q->points].key;
     const dp_vec3 along =
@@ -106,7 +107,7 @@ bool dp_merely_meets(const dp_tile *t, const dp_tile_polygon *p, dp_unpaired_edg
     for (uint32_t i = 0; i < p->points; i++) {
         if (v[i].key != from && v[i].key != to) continue;
         const dp_vec3 at = corner_at(t, p, i);
-        if (!leaves(v[i].key == from ? along : dp_scale(along, -1),
+        if (!leaves(v[i].key == from ? along : dp_scale(along, -1), normal,
                     dp_sub(corner_at(t, p, i + p->points - 1u), at),
                     dp_sub(corner_at(t, p, i + 1), at), least))
             return false;
