@@ -109,8 +109,9 @@ DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera
 typedef enum dp_line_end {
     DP_END_VERTEX = 0, /* a vertex of its edge */
     DP_END_CROSSING,   /* of an intersection: one of the two polygons ends there */
-    DP_END_HIDDEN, /* a nearer polygon hides it from there on; of a hidden line: there it becomes
-                          visible, or its level changes */
+    DP_END_HIDDEN, /* a nearer polygon hides it from there on: up to an eighth of a pixel off, or
+                          as exactly as float32 tells with dp_style.exact_ends; of a hidden line: there
+                          it becomes visible, or its level changes */
     DP_END_PICTURE /* the picture's edge, or the near or the far plane */
 } dp_line_end;
 
@@ -128,8 +129,9 @@ typedef struct dp_segment {
     uint32_t edge;      /* from corner `edge` to the next; UINT32_MAX for an intersection */
     uint32_t group;     /* of the polygon; 0 where the source has no groups, or is streamed */
     dp_line_end end[2]; /* at a and at b */
-    uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source, one of those
-                          that hide the line within two pixels of its end; UINT64_MAX: not known, as
+    uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source. With
+                          dp_style.exact_ends the one that begins to hide the line there, else one of
+                          those that hide it within two pixels of its end. UINT64_MAX: not known, as
                           where the source is streamed, and now and then where tiles meet; of
                           hidden lines never */
     uint32_t level; /* how many front-facing surfaces hide it, 1 at least where anything does, and

@@ -127,8 +127,10 @@ typedef struct dp_style {
     dp_color surface;     /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
     bool cull_back_faces; /* do not paint back faces as surface (closed models lose nothing) */
     dp_hidden hidden;     /* strokes: lines that something hides; default: none */
-    bool exact_ends;      /* strokes: where something hides a line, its end is solved, not taken
-                             between two sample points; not where the source is streamed */
+    /* Strokes: where something hides a line, its end is solved, not taken midway between two sample
+     * points a quarter of a pixel apart; and what is a line on a closed surface is decided as finely
+     * (docs/lines.md). Of the first style; not where the source is streamed. */
+    bool exact_ends;
     bool edge_table_off;  /* strokes: do not resolve edges in the tile's table; all lines emerge */
     dp_shade shade;       /* shading of surfaces */
     dp_edge_map edge_map; /* default: off */

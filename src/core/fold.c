@@ -109,6 +109,11 @@ dp_vec3 dp_outline_normal(const dp_sight *sight, const dp_beside *nearest, const
     return dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(sight->right, right ? -1 : 1);
 }
 
+dp_vec3 dp_pair_normal(const dp_frame *frame, uint32_t a, uint32_t b) {
+    const dp_vec3 mean = dp_add(dp_polygon_normal(frame, a), dp_polygon_normal(frame, b));
+    return dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_v3(0, 0, 0);
+}
+
 double dp_fold_dihedral(const dp_fold *fold) {
     const double sine = dp_length(dp_cross(fold->normal_a, fold->normal_b));
     const double degrees =

@@ -56,6 +56,10 @@ bool dp_is_one_plane(const dp_beside *a, const dp_beside *b);
 dp_vec3 dp_outline_normal(const dp_sight *sight, const dp_beside *nearest, const dp_beside *behind,
                           bool right);
 
+/* The mean of the normals of two polygons as they are wound, unit; zero where a sheet is folded flat:
+ * such an edge is not lifted, and ends where the edge itself does. */
+dp_vec3 dp_pair_normal(const dp_frame *frame, uint32_t a, uint32_t b);
+
 /* Degrees: 180 is flat, less is convex (Raskar 2001, 2.2). */
 double dp_fold_dihedral(const dp_fold *fold);
 

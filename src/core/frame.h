@@ -41,6 +41,8 @@ typedef struct dp_frame {
     uint32_t style_count;
     dp_target target;
     uint32_t lines;     /* classes drawn by any group */
+    bool exact_ends;    /* the first style's; not where the source is streamed. What lines there are
+                           is then decided more finely too, where a clean mesh needs that */
     bool culls_backs;   /* hidden back faces make no lines */
     uint32_t hidden;    /* levels of hidden lines; 0: they are not looked for */
     bool painted_later; /* src/shade colours all pixels of tiles with polygons, paper too, … */
@@ -65,7 +67,10 @@ typedef struct dp_frame {
     float *depth; /* [tile][sample]: nearest surface; layout in raster/samples.h */
     size_t tile_samples;
     struct dp_tile_pieces *tile_pieces; /* by tile (core/piece.h) */
-    size_t depth_cap, tile_pieces_cap, facing_cap, outlined_cap;
+    uint32_t *closed; /* with exact_ends, by the upper bits of vertices' keys: core/closed.h */
+    uint32_t *rings;  /* the same by vertex, before those at one place are added up */
+    uint32_t closed_shift;
+    size_t depth_cap, tile_pieces_cap, facing_cap, outlined_cap, closed_cap, rings_cap;
 } dp_frame;
 
 /* Frees the arrays that the frame owns (vertices, depth, bins, …); not what it borrows. */

@@ -13,6 +13,7 @@
 #include "features/features.h"
 #include "base/kernels.h"
 #include "mesh/source.h"
+#include "core/closed.h"
 #include "core/precision.h"
 #include "core/facing.h"
 #include "printed/fins.h"
@@ -301,6 +302,7 @@ static dp_result report(void *arg, double done, dp_diag *diag) {
 static dp_result stream_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     const dp_stream_setup setup = {&c->frame, c->finders, c->bin_workers, c->workers,
                                    c->limit,  &c->stats,  report,         c};
+    c->frame.exact_ends = false; /* tiles do not hold what hides their lines */
     dp_result result = dp_stream_read_model(&setup, source, &c->stream, diag);
     if (result) return result;
     lap(&c->stats, DP_STAGE_GATHER, since);
@@ -316,6 +318,7 @@ static dp_result place_vertices(dp_context *c, dp_diag *diag) {
                     sizeof *f->vertices))
         return out_of_memory(diag);
     dp_transform_vertices(f);
+    if (!dp_find_closed(f)) return out_of_memory(diag);
     dp_find_tolerances(f);
     dp_result result = dp_tell_progress(c, TRANSFORMED, diag);
     if (!result && f->styles[0].edges == DP_EDGES_ADJACENCY)
@@ -475,6 +478,7 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->threads = c->threads;
     f->styles = styles;
     f->style_count = style_count;
+    f->exact_ends = styles[0].exact_ends;
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);

@@ -7,11 +7,16 @@
  *            its plane passes through the edge there, and it reaches the edge;
  *            or it covers the edge from just above:    the edge is disputed
  *
- * Such edges are left to emergence, which looks at every polygon and every sample point. Invariant:
+ * With exact ends a pair of polygons that met at an edge between closed vertices, wound alike, with
+ * front faces seen beside it, is trusted: what shares a vertex with it disputes it only where it
+ * lies along the edge in space (dp_trusts_pair, dp_merely_meets).
+ *
+ * Disputed edges are left to emergence, which looks at every polygon and every sample point. Invariant:
  * an edge is disputed too where all samples beside it are another tile's. Not handled: what is so
  * thin that no sample shows it, or touches less than a pixel of the edge. */
 #include "find/fan.h"
 
+#include "core/closed.h"
 #include "core/precision.h"
 
 enum { STEP = 4 };
@@ -26,9 +31,31 @@ typedef struct place {
     dp_unpaired_edge own;
 } place;
 
+/* Sine of the angle below which an edge that runs near another is the same line. */
+static const double PARALLEL = 0.1;
+
+uint32_t dp_edge_along(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at,
+                       double reach) {
+    const dp_polygons *const polygons = &w->frame->polygons;
+    const dp_vertex *const v = w->points + p->point;
+    if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
+    for (uint32_t i = 0; i < p->points; i++) {
+        const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
+        const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
+        const double x = (double)at->x - a.x, y = (double)at->y - a.y, away = ex * y - ey * x,
+                     on = ex * x + ey * y;
+        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= reach * length &&
+            on >= -reach * length && on <= (length + reach) * length &&
+            dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
+            return i;
+    }
+    return UINT32_MAX;
+}
+
 /* A polygon beside the one that is expected must lie over that right at the edge. */
 static bool reaches(const dp_tile *t, const dp_tile_polygon *p, const place *here) {
-    const int count = here->expected == UINT32_MAX ? 2 : 1;
+    const bool past_cracks = here->expected == UINT32_MAX && !dp_is_beside_pair(t, p, here->own);
+    const int count = past_cracks ? 2 : 1;
     const float reach[2] = {DP_LOOK_NEAR, dp_look_far(t)};
     for (int i = 0; i < count; i++)
         if (dp_tile_covers(t, p, here->at.x + reach[i] * here->at.ox,
@@ -44,6 +71,50 @@ static bool goes_on(const dp_tile *t, float x, float y, float d, const place *he
     return fabsf(dp_plane_at(p, x, y) - d) <= dp_touching(t, p, here->at.d);
 }
 
+/* Sine of the angle to an edge, at the end that they share, from which on a polygon leaves it; and
+ * where coordinates are rounded to few decimals. */
+static const double LEAVES = 2e-3, LEAVES_ROUNDED = 0.1;
+
+/* Does a polygon that has a corner between `last` and `next`, seen from there, leave the direction
+ * `along`? The corner may be straight. `along` and `normal` are unit vectors. */
+static bool leaves(dp_vec3 along, dp_vec3 normal, dp_vec3 last, dp_vec3 next, double least) {
+    const dp_vec3 sides[2] = {dp_unit(next), dp_unit(last)};
+    if (dp_dot(dp_cross(next, along), normal) > 0 && dp_dot(dp_cross(along, last), normal) > 0)
+        return fabs(dp_dot(along, normal)) > least;
+    for (int i = 0; i < 2; i++)
+        if (dp_dot(sides[i], along) > 0 && dp_length(dp_cross(sides[i], along)) <= least)
+            return false;
+    return true;
+}
+
+static dp_vec3 corner_at(const dp_tile *t, const dp_tile_polygon *p, uint32_t i) {
+    const dp_polygons *const polygons = &t->frame->polygons;
+    return dp_v3f(dp_vertex_position(
+        polygons, dp_corner_vertex(polygons, dp_first_corner(polygons, p->id) + i % p->points)));
+}
+
+/* Around a vertex of a fine mesh, where it is seen nearly edge-on, all triangles pass within a part of
+ * a pixel of its edges on the screen. In space those that do not lie in the edge leave it. */
+bool dp_merely_meets(const dp_tile *t, const dp_tile_polygon *p, dp_unpaired_edge edge) {
+    if (!edge.trusted || dp_shared_ends(t, p, edge) != 1) return false;
+    const dp_tile_polygon *const q = &t->polygons[edge.polygon];
+    const dp_vertex *const v = t->points + p->point, *const u = t->points + q->point;
+    const dp_vec3 normal = dp_polygon_normal(t->frame, p->id);
+    const double least = t->frame->precision > 0 ? LEAVES_ROUNDED : LEAVES;
+    const uint32_t from = u[edge.edge].key, to = u[(edge.edge + 1) % q->points].key;
+    const dp_vec3 along =
+        dp_unit(dp_sub(corner_at(t, q, edge.edge + 1), corner_at(t, q, edge.edge)));
+    for (uint32_t i = 0; i < p->points; i++) {
+        if (v[i].key != from && v[i].key != to) continue;
+        const dp_vec3 at = corner_at(t, p, i);
+        if (!leaves(v[i].key == from ? along : dp_scale(along, -1), normal,
+                    dp_sub(corner_at(t, p, i + p->points - 1u), at),
+                    dp_sub(corner_at(t, p, i + 1), at), least))
+            return false;
+    }
+    return true;
+}
+
 /* Does polygon `index` lie in the edge there, and reach it; or just over it? */
 static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
     const dp_tile_polygon *const p = &t->polygons[index];
@@ -51,8 +122,9 @@ static bool disputes(const dp_tile *t, uint32_t index, const place *here) {
                 tolerance = dp_touching(t, p, here->at.d);
     if (gap < -tolerance || gap > dp_maxf(tolerance, dp_over(t, p, here->at.d))) return false;
     if (t->frame->precision > 0 && dp_is_sliver(t->frame, p->id)) return false;
+    if (dp_merely_meets(t, p, here->own)) return false;
     if (gap > tolerance)
-        return dp_tile_covers(t, p, here->at.x, here->at.y) &&
+        return dp_lies_over(t, p, &here->at) && dp_tile_covers(t, p, here->at.x, here->at.y) &&
                !dp_are_neighbours(t, p, &t->polygons[here->own.polygon]);
     const uint32_t shared = dp_shared_ends(t, p, here->own);
     return shared < 2 && reaches(t, p, here) &&
@@ -128,12 +200,13 @@ static int32_t backs_at(const dp_tile *t, float x, float y) {
  * decide. */
 static const float AROUND[] = {0.5f, 1.5f, 2.5f};
 
-bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
+/* Back faces less front faces among the samples beside the spine, to its right or to its left. */
+static int32_t backs_beside(const dp_finder *w, const dp_spine *s, bool right) {
     const dp_tile *const t = &w->tile;
     const double ex = s->b.x - s->a.x, ey = s->b.y - s->a.y, length = dp_hypot(ex, ey);
     uint32_t k0, k1;
     int32_t sum = 0;
-    if (!(length > 0) || !dp_spine_range(s, t->tile_x, t->tile_y, 1, &k0, &k1)) return false;
+    if (!(length > 0) || !dp_spine_range(s, t->tile_x, t->tile_y, 1, &k0, &k1)) return 0;
     const float ox = (float)((right ? -ey : ey) / length),
                 oy = (float)((right ? ex : -ex) / length);
     for (uint32_t k = k1 - k0 > 2 ? k0 + 1 : k0; k < k1; k += STEP) {
@@ -142,5 +215,25 @@ bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
         for (size_t i = 0; i < sizeof AROUND / sizeof *AROUND; i++)
             sum += backs_at(t, x + AROUND[i] * ox, y + AROUND[i] * oy);
     }
-    return sum > 0;
+    return sum;
+}
+
+bool dp_shows_back_beside(const dp_finder *w, const dp_spine *s, bool right) {
+    return backs_beside(w, s, right) > 0;
+}
+
+/* ------- pairs that are trusted ------- */
+
+bool dp_trusts_pair(const dp_finder *w, const dp_edge_entry *e) {
+    const dp_frame *const f = w->tile.frame;
+    dp_spine s;
+    if (!f->exact_ends || w->finds_hidden || e->b == UINT32_MAX || e->more || !e->opposed ||
+        !dp_is_closed_at(f, f->vertices[e->va].key) || !dp_is_closed_at(f, f->vertices[e->vb].key))
+        return false;
+    if (!w->tile.sees_backs) return true;
+    if (!dp_spine_ends(&f->view, dp_v3f(dp_vertex_position(&f->polygons, e->va)),
+                       dp_v3f(dp_vertex_position(&f->polygons, e->vb)), &s))
+        return false;
+    const int32_t left = backs_beside(w, &s, false), right = backs_beside(w, &s, true);
+    return left <= 0 && right <= 0 && left + right < 0;
 }

@@ -92,7 +92,11 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
     uint32_t sides[2];
     sides_of_pair(w, e, sides);
     const int line = is_fold(w, e) ? fold_line(w, e, &fold) : DP_LINE_SILHOUETTE;
-    if (line >= 0) add_line(w, e, (dp_line)line, fold.normal, sides);
+    if (line < 0) return;
+    const dp_vec3 normal = dp_trusts_pair(w, e) ? dp_pair_normal(frame, w->tile.polygons[e->a].id,
+                                                                 w->tile.polygons[e->b].id)
+                                                : fold.normal;
+    add_line(w, e, (dp_line)line, normal, sides);
 }
 
 /* Do all that have met at the edge face away, or is one of two the only one that does not, and are
@@ -161,25 +165,32 @@ static void leave_all(dp_finder *w) {
                        n = dp_corner_count(polygons, p->id);
         for (uint32_t e = 0; e < n; e++)
             if (dp_edge_is_flagged(polygons, first + e) && dp_tile_edge_is_near(&w->tile, p, e))
-                dp_leave_to_emerge(w, i, e, UINT32_MAX);
+                dp_leave_to_emerge(w, (dp_unpaired_edge){i, e, 0, false});
     }
 }
 
 static void leave_all_of(dp_finder *w, const dp_edge_entry *e) {
-    dp_leave_to_emerge(w, e->a, e->edge_a, UINT32_MAX);
-    dp_leave_to_emerge(w, e->b, e->edge_b, UINT32_MAX);
+    dp_leave_to_emerge(w, (dp_unpaired_edge){e->a, e->edge_a, 0, false});
+    dp_leave_to_emerge(w, (dp_unpaired_edge){e->b, e->edge_b, 0, false});
     for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
         const dp_half_edge at = dp_half_edge_of(w, w->table.meetings[i - 1].number);
-        dp_leave_to_emerge(w, at.polygon, at.edge, UINT32_MAX);
+        dp_leave_to_emerge(w, (dp_unpaired_edge){at.polygon, at.edge, 0, false});
     }
+}
+
+/* Is a pair of a front face and a back face what it seems, though back faces are seen in the tile? */
+static bool is_trusted_outline(const dp_finder *w, const dp_edge_entry *e) {
+    const uint32_t a = w->tile.polygons[e->a].flags, b = w->tile.polygons[e->b].flags;
+    return (a ^ b) & DP_POLYGON_FRONT && dp_trusts_pair(w, e);
 }
 
 static void resolve(dp_finder *w, const dp_edge_entry *e) {
     if (e->b == UINT32_MAX) {
-        if (!dp_edge_is_diagonal(w, e)) dp_leave_to_emerge(w, e->a, e->edge_a, UINT32_MAX);
+        if (!dp_edge_is_diagonal(w, e))
+            dp_leave_to_emerge(w, (dp_unpaired_edge){e->a, e->edge_a, 0, false});
     } else if (!is_shared(w, e)) {
         leave_all_of(w, e);
-    } else if (is_plain_pair(w, e)) {
+    } else if (is_plain_pair(w, e) || is_trusted_outline(w, e)) {
         resolve_pair(w, e);
     } else {
         dp_resolve_fan(w, e);

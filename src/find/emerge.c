@@ -36,15 +36,13 @@ static const float NEARER = 1e-3f;
 /* Pixel sizes: more than any two polygons at one edge differ by. */
 static const float BEYOND = 1e5f;
 
-/* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, … */
+/* px: an edge of another polygon that runs so near by, with the polygon NEAR or FAR of here, is the
+ * same line. */
 static const double ALONG_NEAR = (double)DP_ALONG_NEAR;
 static double along_far(const dp_finder *w) { return 1.2 * (double)dp_look_far(&w->tile); }
 
-/* … and at an angle with a smaller sine, is the same line. */
-static const double PARALLEL = 0.1;
-
 #define NO_EDGE                                                                                    \
-    { UINT32_MAX, UINT32_MAX, 0 }
+    { UINT32_MAX, UINT32_MAX, 0, false }
 
 typedef struct dp_emerging {
     dp_unpaired_edge unpaired;
@@ -57,12 +55,11 @@ typedef struct dp_emerging {
     dp_sight sight;
 } emerging;
 
-void dp_leave_to_emerge(dp_finder *w, uint32_t polygon, uint32_t edge, uint32_t partner) {
+void dp_leave_to_emerge(dp_finder *w, dp_unpaired_edge edge) {
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.unpaired, emergence.unpaired_cap,
                          w->emergence.unpaired_count + 1u))
         return;
-    w->emergence.unpaired[w->emergence.unpaired_count++] =
-        (dp_unpaired_edge){polygon, edge, partner == UINT32_MAX ? 0 : partner + 1};
+    w->emergence.unpaired[w->emergence.unpaired_count++] = edge;
 }
 
 /* Sample points in and beside the tile are consecutive, as the tile is convex. False: there are
@@ -195,24 +192,6 @@ static bool sort_points(dp_finder *w, uint32_t count) {
 
 /* ------- what is found ------- */
 
-uint32_t dp_edge_along(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at,
-                       double reach) {
-    const dp_polygons *const polygons = &w->frame->polygons;
-    const dp_vertex *const v = w->points + p->point;
-    if (p->flags & DP_POLYGON_CLIPPED) return UINT32_MAX;
-    for (uint32_t i = 0; i < p->points; i++) {
-        const dp_vertex a = v[i], b = v[i + 1 == p->points ? 0 : i + 1];
-        const double ex = (double)b.x - a.x, ey = (double)b.y - a.y, length = dp_hypot(ex, ey);
-        const double x = (double)at->x - a.x, y = (double)at->y - a.y, away = ex * y - ey * x,
-                     on = ex * x + ey * y;
-        if (fabs(ex * at->ox + ey * at->oy) <= PARALLEL * length && fabs(away) <= reach * length &&
-            on >= -reach * length && on <= (length + reach) * length &&
-            dp_edge_is_flagged(polygons, dp_first_corner(polygons, p->id) + i))
-            return i;
-    }
-    return UINT32_MAX;
-}
-
 /* Keeps the polygon if it lies nearer at a side than what is there. */
 static void keep_nearest(const dp_finder *w, dp_unpaired_edge *nearest, float *nearest_d,
                          dp_unpaired_edge here, float d, float rounding) {
@@ -243,7 +222,7 @@ static dp_unpaired_edge edge_here(const dp_finder *w, uint32_t index, const dp_l
                                   uint32_t *near, uint32_t far) {
     const dp_tile_polygon *const p = &w->tile.polygons[index];
     const bool overlaps = *near == 3 && (far == 1 || far == 2), beyond = !*near && far != 3;
-    dp_unpaired_edge here = {index, UINT32_MAX, 0};
+    dp_unpaired_edge here = {index, UINT32_MAX, 0, false};
     if (overlaps || beyond)
         here.edge = dp_edge_along(&w->tile, p, at, along_far(w));
     else if (*near != 3 && *near)
@@ -265,10 +244,14 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
     uint32_t near = sides & 3;
     const uint32_t far = sides >> 2;
     if (gap > dp_touching(&w->tile, p, at->d)) {
-        b->is_hidden |=
-            near == 3 && !dp_are_neighbours(&w->tile, p, &w->tile.polygons[b->own.polygon]);
+        b->is_hidden |= near == 3 && dp_lies_over(&w->tile, p, at) &&
+                        !dp_are_neighbours(&w->tile, p, &w->tile.polygons[b->own.polygon]);
         return;
     }
+    const bool is_partner = index + 1 == b->own.partner;
+    if (dp_merely_meets(&w->tile, p, b->own) ||
+        (!near && !is_partner && dp_is_beside_pair(&w->tile, p, b->own)))
+        return;
     const dp_unpaired_edge here = edge_here(w, index, at, &near, far);
     if (here.edge == UINT32_MAX &&
         !dp_holds_edge(&w->tile, p, at, dp_shared_ends(&w->tile, p, b->own) > 0))
@@ -277,6 +260,7 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
         const bool is_near = near >> side & 1;
         const float d = gap + OFF * (side ? slope : -slope) - (is_near ? 0 : beyond);
         if (!is_near && !(!near && far >> side & 1 && here.edge != UINT32_MAX)) continue;
+        b->is_foreign |= !is_partner;
         keep_nearest(w, &b->nearest[side], &b->nearest_d[side], here, d, rounding);
         if (is_near || !(beyond > 0)) keep_furthest(w, b, side, index, d, rounding);
     }
@@ -293,7 +277,7 @@ bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
     if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn, emergence.drawn_cap,
                          w->emergence.drawn_count + 1u))
         return false;
-    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge, 0};
+    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge, 0, false};
     return true;
 }
 
@@ -409,6 +393,26 @@ static bool are_hidden_backs(const dp_finder *w, const dp_beheld *b, bool right)
     return !w->tile.sees_backs && !w->finds_hidden && !((near | far) & DP_POLYGON_FRONT);
 }
 
+/* Does nothing lie at the point but the two polygons of an edge that are trusted? The table has left
+ * it only as it could not look beside it, or as something lies elsewhere along it. */
+static bool is_plain_pair(const dp_beheld *b) {
+    return b->own.trusted && !b->is_foreign && !b->is_hidden;
+}
+
+/* Of two polygons beside an edge, as they are wound: a back face lies behind the front face. */
+static finding judge_pair(const dp_finder *w, const emerging *e) {
+    const uint32_t own = e->unpaired.polygon, other = e->unpaired.partner - 1;
+    const bool front = w->tile.polygons[own].flags & DP_POLYGON_FRONT,
+               other_front = w->tile.polygons[other].flags & DP_POLYGON_FRONT;
+    if (!front && !other_front) return NOTHING;
+    return (finding){.line = -1,
+                     .behind = front == other_front ? UINT32_MAX
+                               : front              ? other
+                                                    : own,
+                     .owner = e->unpaired,
+                     .sides = {front ? own : UINT32_MAX, other_front ? other : UINT32_MAX}};
+}
+
 /* What sample point k is. Most are what the one `before` is: returns false, and leaves *f. */
 static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
                   finding *f) {
@@ -430,6 +434,7 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
         !is_own_edge(w, e, here.owner) || (outline && are_hidden_backs(w, b, right)))
         here = NOTHING;
+    if (is_plain_pair(b)) here = judge_pair(w, e);
     /* as the table would have it, so that tiles agree */
     const uint32_t own = e->unpaired.polygon;
     if (here.sides[0] == own || here.sides[1] == own || here.behind == own)
@@ -440,6 +445,9 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
         judge_fold(w, e, f);
     else if (f->sides[0] != f->sides[1])
         judge_outline(w, &e->sight, f->sides[0] == UINT32_MAX, f);
+    if (is_plain_pair(b))
+        f->normal = dp_pair_normal(w->tile.frame, w->tile.polygons[own].id,
+                                   w->tile.polygons[e->unpaired.partner - 1].id);
     return true;
 }
 

@@ -9,6 +9,7 @@
 typedef struct dp_unpaired_edge {
     uint32_t polygon, edge; /* tile polygon, corner */
     uint32_t partner;       /* 1 + another tile polygon that has it; 0: none is known */
+    bool trusted;           /* of what shares a vertex with it only these two matter (dispute.c) */
 } dp_unpaired_edge;
 
 /* How far from the edge a polygon is looked for, px: NEAR, close enough to hit the smallest
@@ -51,6 +52,13 @@ static inline bool dp_holds_edge(const dp_tile *w, const dp_tile_polygon *p, con
     return fabsf(turn) <= most * scale;
 }
 
+/* Does a polygon that lies over the point, by no more than dp_over, lie over the edge? One that
+ * crosses it hides it from where it is nearer than the sample points, which are lifted: with exact
+ * ends that decides. */
+static inline bool dp_lies_over(const dp_tile *w, const dp_tile_polygon *p, const dp_lookout *at) {
+    return !w->frame->exact_ends || dp_holds_edge(w, p, at, false);
+}
+
 /* By keys of positions: how many of an edge's ends are corners of the polygon, or 2 only where it has
  * the edge; whether two polygons have a corner in common. */
 static inline uint32_t dp_shared_ends(const dp_tile *w, const dp_tile_polygon *p,
@@ -76,11 +84,21 @@ static inline bool dp_are_neighbours(const dp_tile *w, const dp_tile_polygon *p,
     return false;
 }
 
+/* Does the polygon touch one of the two of a trusted edge? It does not lie beyond a crack then. */
+static inline bool dp_is_beside_pair(const dp_tile *w, const dp_tile_polygon *p,
+                                     dp_unpaired_edge edge) {
+    return edge.trusted && (dp_are_neighbours(w, p, &w->polygons[edge.polygon]) ||
+                            dp_are_neighbours(w, p, &w->polygons[edge.partner - 1]));
+}
+
+/* Does the polygon merely meet a trusted edge at one of its ends? (dispute.c) */
+bool dp_merely_meets(const dp_tile *tile, const dp_tile_polygon *polygon, dp_unpaired_edge edge);
+
 /* px: so near by another polygon's edge is the same line. */
 #define DP_ALONG_NEAR (2 * DP_LOOK_NEAR)
 
 /* The number of an edge that bounds the polygon and runs along this point, within `reach` px;
- * UINT32_MAX: none does (emerge.c). */
+ * UINT32_MAX: none does (dispute.c). */
 uint32_t dp_edge_along(const dp_tile *tile, const dp_tile_polygon *polygon, const dp_lookout *at,
                        double reach);
 
@@ -110,9 +128,10 @@ typedef struct dp_beheld {
     uint32_t furthest[2];              /* of these */
     float nearest_d[2], furthest_d[2]; /* how near they lie a little way off */
     dp_unpaired_edge
-        first;      /* of those with an edge along here, the one that comes first in the source */
-    bool is_hidden; /* a surface lies just over the point */
-    bool is_drawn;  /* one of them has made a line of it already */
+        first;       /* of those with an edge along here, the one that comes first in the source */
+    bool is_hidden;  /* a surface lies just over the point */
+    bool is_drawn;   /* one of them has made a line of it already */
+    bool is_foreign; /* one of them is neither the edge's polygon nor its partner */
 } dp_beheld;
 
 typedef struct dp_emergence {

@@ -25,6 +25,10 @@ void dp_resolve_fan(dp_finder *finder, const dp_edge_entry *edge);
 bool dp_is_disputed(const dp_finder *finder, dp_unpaired_edge edge, const dp_spine *spine,
                     const uint32_t sides[2]);
 
+/* With exact ends: can the pair of polygons that met at the edge be trusted as it is wound, and what
+ * else shares a vertex with it be passed over? (dispute.c) */
+bool dp_trusts_pair(const dp_finder *finder, const dp_edge_entry *edge);
+
 /* Are two polygons beside an edge parts of one side of a sheet? Then its outline is a border. */
 static inline bool dp_is_one_side(const dp_tile *tile, uint32_t a, uint32_t b,
                                   const dp_beside *beside_a, const dp_beside *beside_b) {

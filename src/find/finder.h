@@ -43,11 +43,6 @@ void dp_hide_points(dp_finder *finder);         /* hide.inc: behind the tile's s
 void dp_collect_pieces(dp_finder *finder);      /* makes pieces of runs of visible sample points */
 void dp_solve_ends(dp_finder *finder);          /* ends.c: of the pieces just made */
 
-/* Are ends of pieces solved? Not where the tile does not hold what has hidden the sample points. */
-static inline bool dp_solves_ends(const dp_finder *finder) {
-    return finder->tile.frame->styles[0].exact_ends && !finder->lines.streamed;
-}
-
 /* Notes an end of a piece of candidate number `candidate` (ends.c). */
 void dp_note_end(dp_finder *finder, uint32_t candidate, size_t piece, uint32_t side);
 
@@ -81,9 +76,8 @@ static inline uint32_t dp_seen_beside(const uint32_t sides[2], uint32_t polygon)
 /* Notes that a line is made along this edge of a tile polygon; false: out of memory (emerge.c). */
 bool dp_note_drawn(dp_finder *finder, uint32_t polygon, uint32_t edge);
 
-/* Leaves the edge of a tile polygon that starts at this corner to emerge. `partner`: another one that
- * has it, or UINT32_MAX. */
-void dp_leave_to_emerge(dp_finder *finder, uint32_t polygon, uint32_t edge, uint32_t partner);
+/* Leaves the edge to emerge. */
+void dp_leave_to_emerge(dp_finder *finder, dp_unpaired_edge edge);
 
 /* Appends a polygon's half-edges to the list, which has room for them (edge_table.c). */
 void dp_edge_list_polygon(dp_finder *finder, uint32_t polygon);

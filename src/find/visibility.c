@@ -97,7 +97,7 @@ void dp_add_candidate(dp_finder *w, dp_candidate c, const dp_spine *spine,
     c.n = spine->n;
     c.probe = w->lines.probe_count;
     c.geometry = (normals ? keep_geometry(w, spine, normals) : 0) & 0xffffff;
-    if (dp_solves_ends(w) && !keep_spine(w, spine)) return;
+    if (w->tile.frame->exact_ends && !keep_spine(w, spine)) return;
     w->lines.candidates[w->lines.candidate_count++] = c;
     dp_find_kernels_for(w->tile.frame->lanes)
         ->points(w, spine, c.k0, c.k1, &w->lines.probes, c.probe);
@@ -339,7 +339,7 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                    .line = c->line,
                    .seen = c->seen,
                    .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
-    if (dp_solves_ends(w)) note_ends(w, c);
+    if (w->tile.frame->exact_ends) note_ends(w, c);
 }
 
 /* Makes pieces of a candidate's runs of visible sample points. */
