@@ -21,7 +21,7 @@
 enum { BLOCK = DP_TUNED(16384, 5) };
 
 /* Sums for each vertex, so that few places share one with a place that is open. */
-enum { ROOM = 8 };
+enum { ROOM = 4 };
 
 static inline void add_to(uint32_t *sum, uint32_t v, bool alone) {
     if (alone)
@@ -51,15 +51,29 @@ static void add_polygon(dp_frame *f, uint32_t polygon, bool alone) {
     }
 }
 
+/* The same of a triangle. */
+static inline void add_triangle(dp_frame *f, uint32_t polygon, bool alone) {
+    const dp_polygons *const polygons = &f->polygons;
+    const uint32_t count = polygons->vertex_count, a = dp_corner_vertex(polygons, 3 * polygon),
+                   b = dp_corner_vertex(polygons, 3 * polygon + 1),
+                   c = dp_corner_vertex(polygons, 3 * polygon + 2);
+    if (a >= count || b >= count || c >= count) return;
+    const uint32_t ka = f->vertices[a].key, kb = f->vertices[b].key, kc = f->vertices[c].key;
+    add_to(&f->rings[a], kb - kc, alone);
+    add_to(&f->rings[b], kc - ka, alone);
+    add_to(&f->rings[c], ka - kb, alone);
+}
+
 static uint32_t blocks_of(uint32_t count) { return count / BLOCK + (count % BLOCK != 0); }
 
 static void add_polygons(void *arg, uint32_t index, uint32_t worker) {
     dp_frame *const f = arg;
     const uint32_t first = index * BLOCK,
                    n = f->polygons.count - first < BLOCK ? f->polygons.count - first : BLOCK;
-    const bool alone = dp_threads_count(f->threads) == 1;
+    const bool alone = dp_threads_count(f->threads) == 1, triangles = !f->polygons.firsts;
     (void)worker;
-    for (uint32_t i = 0; i < n; i++) add_polygon(f, first + i, alone);
+    for (uint32_t i = 0; i < n && triangles; i++) add_triangle(f, first + i, alone);
+    for (uint32_t i = 0; i < n && !triangles; i++) add_polygon(f, first + i, alone);
 }
 
 static void add_vertices(void *arg, uint32_t index, uint32_t worker) {
