@@ -21,7 +21,7 @@
 enum { BLOCK = DP_TUNED(16384, 5) };
 
 /* Sums for each vertex, so that few places share one with a place that is open. */
-enum { ROOM = 4 };
+enum { ROOM = 8 };
 
 static inline void add_to(uint32_t *sum, uint32_t v, bool alone) {
     if (alone)

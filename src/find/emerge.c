@@ -336,6 +336,13 @@ static void judge_outline(const dp_finder *w, const dp_sight *sight, int side, f
     f->normal = is_border ? near.normal : dp_outline_normal(sight, &near, &far, side);
 }
 
+/* Does the surface go on from the edge, in a polygon that is seen edge-on? */
+static bool goes_on_edge_on(const dp_finder *w, const emerging *e) {
+    const dp_tile_polygon *const p = w->tile.polygons;
+    return e->unpaired.partner &&
+           (p[e->unpaired.polygon].flags | p[e->unpaired.partner - 1].flags) & DP_POLYGON_EDGE_ON;
+}
+
 static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
     const dp_beside left = beside(w, &e->sight, f->sides[0]),
                     right = beside(w, &e->sight, f->sides[1]);
@@ -445,6 +452,7 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
         judge_fold(w, e, f);
     else if (f->sides[0] != f->sides[1])
         judge_outline(w, &e->sight, f->sides[0] == UINT32_MAX, f);
+    if (f->line == DP_LINE_BORDER && goes_on_edge_on(w, e)) f->line = DP_LINE_SILHOUETTE;
     if (is_plain_pair(b))
         f->normal = dp_pair_normal(w->tile.frame, w->tile.polygons[own].id,
                                    w->tile.polygons[e->unpaired.partner - 1].id);

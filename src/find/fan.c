@@ -6,7 +6,8 @@
  *        its normal turned to the eye; how steeply it recedes from the edge     core/fold.c
  *    on either side the polygon that recedes least hides the others
  *    one on each side   the line that two polygons would make: ridge, valley or none
- *    all on one side    an outline: border if they lie in one plane and face one way, else silhouette
+ *    all on one side    an outline: border if they lie in one plane and face one way and none is seen
+ *                       edge-on, else silhouette
  *
  * Invariant: neither winding nor doubled faces matter. Not handled: polygons that touch the edge
  * but do not have it (emerge.c). */
@@ -62,6 +63,7 @@ typedef struct fan {
     uint32_t va, vb;      /* the edge, in its direction */
     dp_sight sight;
     side sides[2]; /* left, right */
+    bool edge_on;  /* a polygon there is seen edge-on, and lies on neither side */
 } fan;
 
 static void find_owner(const dp_finder *w, fan *f, dp_half_edge at) {
@@ -86,7 +88,10 @@ static bool face_alike(const dp_finder *w, uint32_t a, uint32_t b) {
 /* Of polygons in one plane the first in the source counts as the nearest. */
 static void offer(const dp_finder *w, fan *f, dp_half_edge at) {
     const dp_tile_polygon *const p = &w->tile.polygons[at.polygon];
-    if (p->flags & DP_POLYGON_EDGE_ON) return;
+    if (p->flags & DP_POLYGON_EDGE_ON) {
+        f->edge_on = true;
+        return;
+    }
     const bool front = p->flags & DP_POLYGON_FRONT, right = front != runs_forward(w, f, at);
     side *const s = &f->sides[right];
     const dp_beside beside = dp_beside_edge(w->tile.frame, &f->sight, p->id, front);
@@ -164,7 +169,8 @@ static void add_outline(dp_finder *w, const dp_edge_entry *e, fan *f, bool right
     if (!border) trust_winding(w, e, f, right);
     const bool own = s->nearest.polygon == f->owner;
     const dp_half_edge none = {UINT32_MAX, 0}, behind = border ? none : s->furthest;
-    add(w, f, border ? DP_LINE_BORDER : DP_LINE_SILHOUETTE, own ? behind : s->nearest,
+    add(w, f, border && !f->edge_on ? DP_LINE_BORDER : DP_LINE_SILHOUETTE,
+        own ? behind : s->nearest,
         border ? s->near.normal : dp_outline_normal(&f->sight, &s->near, &s->far, right));
 }
 

@@ -50,6 +50,9 @@ static const case_of cases[] = {
     {"back/vee.obj", Y_UP(100, -30)},
     /* Wound the wrong way, all or some. */
     {"back/ok.obj", ISO, .orthographic = true, .ridge = 7.5},
+    /* Closed, and sides are seen exactly edge-on: outlines, no borders. */
+    {"back/ok.obj", Y_UP(0, 0), .orthographic = true, .border = NONE},
+    {"flush/plug.obj", Y_UP(0, 0), .orthographic = true, .border = NONE},
     {"back/inverted.obj", .twin = "back/ok.obj", ISO, .orthographic = true, .ridge = 7.5},
     {"back/flip0.obj", .twin = "back/ok.obj", ISO, .orthographic = true, .ridge = 7.5},
     {"back/flip3.obj", .twin = "back/ok.obj", ISO, .orthographic = true, .ridge = 7.5},
