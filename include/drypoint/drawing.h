@@ -24,8 +24,8 @@ extern "C" {
 
 /* How a drawing is cleaned, in this order: what coincides on the screen is drawn once (visible
  * before hidden, lower levels before higher ones, outlines before creases), segments are chained
- * (one class, one level), chains are joined over gaps, what is short is dropped, points are left
- * out where a line is straight. Zero is the default. */
+ * (one class, one level), chains are joined over gaps, folds within 0.1 px are taken out of them, what
+ * is short is dropped, points are left out where a line is straight. Zero is the default. */
 typedef struct dp_drawing_desc {
     float join;           /* px: gaps up to this are closed; 0 means 2; below 0: none are */
     float min_length;     /* px: paths shorter than this are dropped, after joining; 0 means 1;
