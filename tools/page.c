@@ -180,18 +180,21 @@ static int check_fits(const picture *p) {
     page_scale_text(best > 0 ? best : 1, standard);
     wrong_usage(
         "at %g:%g the drawing is %.4g x %.4g mm, and the page has %.4g x %.4g mm between its "
-        "margins: %s%s is the largest standard scale that fits",
+        "margins: %s%s",
         p->s->scale.paper, p->s->scale.model, drawn_width(p, p->mm_per_unit),
-        drawn_height(p, p->mm_per_unit), p->mm_width, p->mm_height, best > 0 ? "" : "not even ",
-        standard);
+        drawn_height(p, p->mm_per_unit), p->mm_width, p->mm_height,
+        best > 0 ? standard : "no standard scale fits",
+        best > 0 ? " is the largest standard scale that fits" : "; make them smaller");
     return EXIT_USAGE;
 }
 
-/* The view's place in whole pixels. */
+/* The view's place in whole pixels. Of a page that ends between two, the last is not its own, even
+ * where rounding tells so of the view. */
 static int place(picture *p) {
     const double mm = p->plan->mm_per_px;
-    const double left = round(p->left / mm), right = round((p->left + p->mm_width) / mm),
-                 top = round(p->top / mm), bottom = round((p->top + p->mm_height) / mm);
+    const double left = round(p->left / mm), top = round(p->top / mm),
+                 right = fmin(round((p->left + p->mm_width) / mm), p->plan->width),
+                 bottom = fmin(round((p->top + p->mm_height) / mm), p->plan->height);
     if (left >= 0 && top >= 0 && right > left && bottom > top) {
         p->view->x = (uint32_t)left, p->view->y = (uint32_t)top;
         p->view->width = (uint32_t)(right - left), p->view->height = (uint32_t)(bottom - top);

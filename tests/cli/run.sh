@@ -1185,6 +1185,9 @@ scales() {
     run 0 shape:cube -q --page A4 --scale 1:20 --unit m --view front -o fits.svg
     run 0 shape:cube -q --page A4 --scale 1000:1 --view front --target 1,1,1 -o detail.svg # a detail, on purpose
     run 0 shape:cube -q --page A4 --eye 3,4,5 --scale 20:1 -o eye.svg
+    # 2.1 in at 85 dpi are 178.5 px: the view ends where the page does, whatever rounding says
+    run 0 shape:cube -q --page 2.1x2.1in --dpi 85 --margin 12.7,0,0,12.7 -o half.png
+    wrong shape:cube -o out.svg --page 5x5mm --margin 2.4 --scale 1:1 -- 'no standard scale fits; make them smaller'
     command -v python3 >/dev/null || return
     for camera in '--fov 50' '--ortho 0' '--view iso'; do # from margin to margin
         run 0 shape:stairs -q --page 160x120mm --margin 10 --width 0.2mm $camera -o whole.svg
