@@ -26,7 +26,8 @@ static double distance_to(const double a[2], const double b[2], double x, double
     return hypot(x - a[0] - t * dx, y - a[1] - t * dy);
 }
 
-/* px. Only pixels near the line are looked at: row by row, between where it leaves the row. */
+/* px. All pixels of the box around it are looked at: lines of a page are short, or run along its
+ * edges. */
 static void ink_line(const dp_target *page, const double a[2], const double b[2], double width) {
     const double reach = 0.5 * width + 1;
     const double top = fmax(floor(fmin(a[1], b[1]) - reach), 0),
