@@ -13,8 +13,8 @@ static void put_character(dp_packed *p, char c) {
     if (p->column >= COLUMNS) {
         dp_put_char(p->out, '\n');
         p->column = 0;
-        if (c == '%') dp_put_char(p->out, ' ');
     }
+    if (!p->column && c == '%') dp_put_char(p->out, ' ');
     dp_put_char(p->out, c);
     p->column++;
 }

@@ -165,6 +165,23 @@ static void packed_bytes_come_back(void **state) {
     }
 }
 
+/* Readers of comments would take such a line for theirs. 14 literals begin with one. */
+static void packed_lines_do_not_begin_with_percent(void **state) {
+    (void)state;
+    uint8_t back[4000];
+    for (size_t size = 1; size < 900; size++) {
+        dp_out out = {.write = keep};
+        dp_packed packed = {.out = &out};
+        paper.size = 0;
+        for (size_t i = 0; i < size; i++) dp_packed_put(&packed, (uint8_t)(i % 13));
+        dp_packed_end(&packed);
+        dp_put_flush(&out);
+        assert_true(paper.bytes[0] != '%');
+        assert_null(strstr(paper.bytes, "\n%"));
+        assert_int_equal(unpack(paper.bytes, back), size);
+    }
+}
+
 /* ------- letters ------- */
 
 /* Every letter has strokes within its box, and the next one begins beyond them. */
@@ -190,9 +207,11 @@ static void letters_lie_in_their_boxes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_escaped), cmocka_unit_test(numbers_are_short),
-        cmocka_unit_test(bytes_become_base64), cmocka_unit_test(packed_bytes_come_back),
-        cmocka_unit_test(letters_lie_in_their_boxes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(names_are_escaped),
+                                       cmocka_unit_test(numbers_are_short),
+                                       cmocka_unit_test(bytes_become_base64),
+                                       cmocka_unit_test(packed_bytes_come_back),
+                                       cmocka_unit_test(packed_lines_do_not_begin_with_percent),
+                                       cmocka_unit_test(letters_lie_in_their_boxes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
