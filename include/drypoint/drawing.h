@@ -24,8 +24,9 @@ extern "C" {
 
 /* How a drawing is cleaned, in this order: what coincides on the screen is drawn once (visible
  * before hidden, lower levels before higher ones, outlines before creases), segments are chained
- * (one class, one level), chains are joined over gaps, folds within 0.1 px are taken out of them, what
- * is short is dropped, points are left out where a line is straight. Zero is the default. */
+ * (one class, one level), chains are joined over gaps, folds within 0.1 px are taken out of them
+ * (unless keep_coincident), points are left out where a line is straight, what is short then is
+ * dropped. Zero is the default. */
 typedef struct dp_drawing_desc {
     float join;           /* px: gaps up to this are closed; 0 means 2; below 0: none are */
     float min_length;     /* px: paths shorter than this are dropped, after joining; 0 means 1;
@@ -34,7 +35,7 @@ typedef struct dp_drawing_desc {
                               0.02; below 0: none are */
     bool join_classes;    /* gaps are closed, and paths go on, between classes too; a path is then
                               of the class that most of its length has */
-    bool keep_coincident; /* lines that lie on others on the screen stay */
+    bool keep_coincident; /* lines that lie on others on the screen stay, and so do folds */
     bool optimize;        /* orders and turns paths so that a pen travels little between them */
 } dp_drawing_desc;
 
@@ -44,7 +45,8 @@ typedef struct dp_drawing dp_drawing;
 /* Makes a drawing of the lines of the context's last dp_draw. desc may be NULL. Paths come layer by
  * layer from the bottom up (hidden ones first, the highest level first; classes as in dp_sink),
  * with `optimize` in pen order within each layer; the order does not depend on threads.
- * DP_ERR_ARGUMENT (nothing has been drawn, or a number is not finite), DP_ERR_MEMORY. */
+ * DP_ERR_ARGUMENT (nothing has been drawn, or a number is not finite), DP_ERR_LIMIT (more than 2^30
+ * segments), DP_ERR_MEMORY. */
 DP_API dp_result dp_drawing_create(dp_context *context, const dp_drawing_desc *desc,
                                    dp_drawing **out, dp_diag *diag);
 DP_API void dp_drawing_destroy(dp_drawing *drawing); /* NULL allowed */
@@ -82,7 +84,7 @@ typedef struct dp_drawing_info {
     size_t segments; /* it was made from */
     size_t paths, points;
     double length;     /* px, of all paths */
-    double coincident; /* px that were left out because they lay on other lines */
+    double coincident; /* px that were left out because they lay on other lines, folds included */
     size_t joined;     /* gaps closed */
     double joined_length;
     size_t dropped; /* chains shorter than min_length */
@@ -118,7 +120,8 @@ typedef struct dp_view_on_page {
     double mm_per_px; /* 0 means 25.4 / 96 */
     const char *name; /* "front", UTF-8; NULL: none */
     /* The surface under the lines: [height][width][4], not premultiplied, rows without gaps; NULL:
-     * none. SVG takes it as a PNG instead, which dp_io_write_page makes of it. */
+     * none. SVG takes it as a PNG instead, which dp_io_write_page makes of it; DXF and JSON have
+     * none. */
     const uint8_t *ground;
     const void *ground_png;
     size_t ground_png_size; /* bytes */
@@ -148,7 +151,7 @@ typedef dp_result dp_compressor(const void *bytes, size_t size, dp_text_writer *
 
 typedef struct dp_page {
     double width, height; /* mm; 0 and 0: those of the first view */
-    dp_color paper;       /* painted over the whole page; 0 or DP_COLOR_NONE: nothing is */
+    dp_color paper;       /* painted over the whole page (not in DXF); 0, DP_COLOR_NONE: nothing is */
     const dp_view_on_page *views;
     size_t view_count;
     const dp_page_text *texts;

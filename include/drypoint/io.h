@@ -36,7 +36,8 @@ DP_API dp_result dp_io_open_memory(const dp_memory_file *file, const dp_file_opt
 DP_API dp_result dp_io_write_png(const char *path, const uint8_t *rgba, uint32_t width,
                                  uint32_t height, size_t stride, dp_diag *diag);
 
-/* The same with progress. */
+/* The same with progress, and a resolution. DP_ERR_CANCELLED (by progress), DP_ERR_ARGUMENT also for a
+ * dpi above 1,000,000. */
 typedef struct dp_io_picture {
     const uint8_t *rgba;    /* [height][width][4], not premultiplied */
     uint32_t width, height; /* px */
@@ -54,8 +55,9 @@ DP_API dp_result dp_io_write_picture(const char *path, const dp_io_picture *pict
  * output. DP_ERR_IO, DP_ERR_MEMORY, DP_ERR_ARGUMENT (nothing has been drawn). */
 DP_API dp_result dp_io_write_trace(const char *path, dp_context *context, dp_diag *diag);
 
-/* Writes a page of drawings with the same care: PDF is compressed, and the grounds of an SVG's views
- * become PNGs in it. "-" is standard output. DP_ERR_IO, and as dp_page_write. */
+/* Writes a page of drawings with the same care: PDF is compressed, and the grounds of an SVG's
+ * views become PNGs in it. "-" is standard output. DP_ERR_IO, DP_ERR_LIMIT (a ground too large for
+ * a PNG), and as dp_page_write. */
 DP_API dp_result dp_io_write_page(const char *path, const dp_page *page, dp_format format,
                                   dp_diag *diag);
 

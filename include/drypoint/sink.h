@@ -28,9 +28,9 @@ typedef struct dp_sheet {
     size_t segments;
 } dp_sheet;
 
-/* A chain of segments of one class, level and colour, drawn without lifting the pen. Consecutive segments
- * meet at one point; those of stylized strokes (strokes.h) may leave a gap of a few px, over which
- * the stroke runs. */
+/* A chain of segments of one class, level and colour, drawn without lifting the pen. Consecutive
+ * segments meet at one point; those of stylized strokes (strokes.h) may leave a gap of a few px,
+ * over which the stroke runs. */
 typedef struct dp_chain_stroke {
     dp_line line;
     uint32_t chain; /* as in dp_segment */

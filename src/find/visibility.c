@@ -15,8 +15,7 @@
  * those near a polygon are consecutive; the least limit of blocks of cells, by which most polygons
  * are found to hide nothing. Invariants: a point belongs to the tile whose pixel it lies in, and a
  * candidate's points in a tile are consecutive, [k0, k1). Not handled: what hides a line between
- * two sample points, unless a line ends
- * there (ends.c). */
+ * two sample points, unless a line ends there (ends.c). */
 #include "base/hostile.h"
 #include "find/kernels.h"
 #include "find/finder.h"

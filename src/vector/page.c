@@ -99,7 +99,8 @@ static dp_result resolve_size(dp_page *page, dp_diag *diag) {
         page->height > most_mm || page->width / unit > most_units ||
         page->height / unit > most_units)
         return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "a page must be smaller than a kilometre, and than %g pixels", most_units);
+                       "a page must be a nanometre to a kilometre large, and at most %.0f pixels",
+                       most_units);
     return DP_OK;
 }
 
