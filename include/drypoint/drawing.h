@@ -151,7 +151,7 @@ typedef dp_result dp_compressor(const void *bytes, size_t size, dp_text_writer *
 
 typedef struct dp_page {
     double width, height; /* mm; 0 and 0: those of the first view */
-    dp_color paper;       /* painted over the whole page (not in DXF); 0, DP_COLOR_NONE: nothing is */
+    dp_color paper; /* painted over the whole page (not in DXF); 0, DP_COLOR_NONE: nothing is */
     const dp_view_on_page *views;
     size_t view_count;
     const dp_page_text *texts;
