@@ -98,7 +98,7 @@ bool dp_find_closed(dp_frame *f) {
         !dp_reserve(f->memory, &f->rings, &f->rings_cap, vertices, sizeof *f->rings))
         return false;
     memset(f->closed, 0, sizeof *f->closed << bits);
-    memset(f->rings, 0, vertices * sizeof *f->rings);
+    if (vertices) memset(f->rings, 0, vertices * sizeof *f->rings);
     dp_parallel(f->threads, blocks_of(f->polygons.count), add_polygons, f);
     dp_parallel(f->threads, blocks_of(vertices), add_vertices, f);
     return true;

@@ -330,8 +330,30 @@ static void the_same_everywhere(void **state) {
     assert_true(hidden > 1000);
 }
 
+/* A source without polygons has no vertices to close. */
+static void nothing_is_there(void **state) {
+    (void)state;
+    const float position[3] = {0, 0, 0};
+    const dp_batch none = {.positions = position, .stable = true};
+    const double eye[3] = {3, 3, 3}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    dp_context *const context = new_context(1);
+    dp_source *source = NULL;
+    dp_camera camera = {0};
+    size_t count = 1;
+    assert_int_equal(dp_source_from_arrays(&none, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_camera_look_at(&camera, eye, target, up), DP_OK);
+    assert_int_equal(dp_camera_perspective(&camera, 40, 1, 0.1, 10), DP_OK);
+    const dp_target square = {.width = 100, .height = 100};
+    assert_int_equal(dp_draw(context, source, &camera, &exact, &square, NULL), DP_OK);
+    (void)dp_segments(context, &count);
+    assert_int_equal(count, 0);
+    dp_source_destroy(source);
+    dp_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_there),
         cmocka_unit_test(an_edge_in_front),
         cmocka_unit_test(a_depth_crossing),
         cmocka_unit_test(an_end_at_a_tile_border),
