@@ -20,8 +20,9 @@
 
 enum { BLOCK = DP_TUNED(16384, 5) };
 
-/* Sums for each vertex, so that few places share one with a place that is open. */
-enum { ROOM = 8 };
+/* Sums for each vertex, or for each whose own sum is not 0 if that takes fewer: so that few places share
+ * one with a place that is open. */
+enum { ROOM = 8, ROOM_OPEN = 1024 };
 
 static inline void add_to(uint32_t *sum, uint32_t v, bool alone) {
     if (alone)
@@ -88,18 +89,29 @@ static void add_vertices(void *arg, uint32_t index, uint32_t worker) {
     }
 }
 
+/* The number of bits by which a place finds its sum. */
+static uint32_t bits_for(const dp_frame *f) {
+    const uint32_t vertices = f->polygons.vertex_count;
+    uint64_t open = 0;
+    uint32_t bits = 4;
+    for (uint32_t i = 0; i < vertices; i++) open += f->rings[i] != 0;
+    const uint64_t most = ROOM * (uint64_t)vertices,
+                   need = ROOM_OPEN * open < most ? ROOM_OPEN * open : most;
+    while (bits < 31 && (uint64_t)1 << bits < need) bits++;
+    return bits;
+}
+
 bool dp_find_closed(dp_frame *f) {
     const uint32_t vertices = f->polygons.vertex_count;
-    uint32_t bits = 4;
     if (!f->exact_ends) return true;
-    while (bits < 31 && (uint64_t)1 << bits < ROOM * (uint64_t)vertices) bits++;
-    f->closed_shift = 32 - bits;
-    if (!dp_reserve(f->memory, &f->closed, &f->closed_cap, (size_t)1 << bits, sizeof *f->closed) ||
-        !dp_reserve(f->memory, &f->rings, &f->rings_cap, vertices, sizeof *f->rings))
-        return false;
-    memset(f->closed, 0, sizeof *f->closed << bits);
+    if (!dp_reserve(f->memory, &f->rings, &f->rings_cap, vertices, sizeof *f->rings)) return false;
     if (vertices) memset(f->rings, 0, vertices * sizeof *f->rings);
     dp_parallel(f->threads, blocks_of(f->polygons.count), add_polygons, f);
+    const uint32_t bits = bits_for(f);
+    f->closed_shift = 32 - bits;
+    if (!dp_reserve(f->memory, &f->closed, &f->closed_cap, (size_t)1 << bits, sizeof *f->closed))
+        return false;
+    memset(f->closed, 0, sizeof *f->closed << bits);
     dp_parallel(f->threads, blocks_of(vertices), add_vertices, f);
     return true;
 }

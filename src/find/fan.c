@@ -33,9 +33,12 @@ bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
 void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
                  const dp_vec3 normals[2], const uint32_t sides[2]) {
     const uint32_t id = w->tile.polygons[e->a].id;
-    const dp_unpaired_edge edge = {e->a, e->edge_a, e->b == UINT32_MAX ? 0 : e->b + 1,
-                                   dp_trusts_pair(w, e)};
-    if (!w->finds_hidden && dp_is_disputed(w, edge, spine, sides)) {
+    dp_unpaired_edge edge = {e->a, e->edge_a, e->b == UINT32_MAX ? 0 : e->b + 1, false};
+    bool disputed = !w->finds_hidden && dp_is_disputed(w, edge, spine, sides);
+    /* what is trusted is disputed less; most edges are not, and need not be asked for */
+    edge.trusted = disputed && dp_trusts_pair(w, e);
+    if (edge.trusted) disputed = dp_is_disputed(w, edge, spine, sides);
+    if (disputed) {
         dp_leave_to_emerge(w, edge);
     } else if (dp_polygon_style(w->tile.frame, id)->lines & (1u << line) &&
                dp_note_drawn(w, e->a, e->edge_a) &&
