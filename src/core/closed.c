@@ -22,7 +22,7 @@ enum { BLOCK = DP_TUNED(16384, 5) };
 
 /* Sums for each vertex, or for each whose own sum is not 0 if that takes fewer: so that few places share
  * one with a place that is open. */
-enum { ROOM = 8, ROOM_OPEN = 1024 };
+enum { ROOM = 8, ROOM_OPEN = 4096 };
 
 static inline void add_to(uint32_t *sum, uint32_t v, bool alone) {
     if (alone)
