@@ -791,6 +791,9 @@ hidden_lines() {
     run 0 shape:gear $small -o plain.png -o trace=plain.txt
     run 0 shape:gear $small -o none.png --hidden none --levels 3
     cmp -s plain.png none.png || fail "--hidden none changes the picture"
+    says err 'add --hidden dashed'
+    run 0 shape:gear $small -o none.png --optimize
+    says err 'add -o drawing.svg'
     for look in dashed dotted thin solid; do
         run 0 shape:gear $small -o $look.png --hidden $look
         cmp -s plain.png $look.png && fail "--hidden $look changes nothing"
