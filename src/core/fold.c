@@ -7,6 +7,14 @@
 
 #include "base/elementary.h"
 
+/* Is it long enough to tell a direction? Not the sum of two normals that cancel: of polygons folded flat
+ * onto each other. */
+static bool has_direction(dp_vec3 mean) { return dp_length(mean) > 1e-3; }
+
+bool dp_fold_is_flat(const dp_fold *fold) {
+    return !has_direction(dp_add(fold->normal_a, fold->normal_b));
+}
+
 static dp_vec3 corner_position(const dp_polygons *polygons, uint32_t corner) {
     return dp_v3f(dp_vertex_position(polygons, dp_corner_vertex(polygons, corner)));
 }
@@ -37,7 +45,7 @@ static dp_fold fold_towards(const dp_frame *frame, uint32_t a, bool a_as_wound, 
     const dp_vec3 mean = dp_add(fold.normal_a, fold.normal_b);
     /* The two sides of a sheet folded flat have no mean: take the direction to the eye. */
     fold.normal =
-        dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(dp_view_vector(&frame->view, at), -1);
+        has_direction(mean) ? dp_unit(mean) : dp_scale(dp_view_vector(&frame->view, at), -1);
     fold.concave = dp_dot(fold.normal_a, into_b) > 0;
     return fold;
 }
@@ -91,7 +99,7 @@ dp_beside dp_beside_edge(const dp_frame *frame, const dp_sight *sight, uint32_t 
 dp_fold dp_fold_of_sides(const dp_sight *sight, const dp_beside *left, const dp_beside *right) {
     const dp_vec3 mean = dp_add(left->normal, right->normal);
     return (dp_fold){left->normal, right->normal,
-                     dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(sight->away, -1),
+                     has_direction(mean) ? dp_unit(mean) : dp_scale(sight->away, -1),
                      left->recedes > right->recedes};
 }
 
@@ -106,12 +114,12 @@ bool dp_is_one_plane(const dp_beside *a, const dp_beside *b) {
 dp_vec3 dp_outline_normal(const dp_sight *sight, const dp_beside *nearest, const dp_beside *behind,
                           bool right) {
     const dp_vec3 mean = dp_sub(nearest->normal, behind->normal);
-    return dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_scale(sight->right, right ? -1 : 1);
+    return has_direction(mean) ? dp_unit(mean) : dp_scale(sight->right, right ? -1 : 1);
 }
 
 dp_vec3 dp_pair_normal(const dp_frame *frame, uint32_t a, uint32_t b) {
     const dp_vec3 mean = dp_add(dp_polygon_normal(frame, a), dp_polygon_normal(frame, b));
-    return dp_length(mean) > 1e-3 ? dp_unit(mean) : dp_v3(0, 0, 0);
+    return has_direction(mean) ? dp_unit(mean) : dp_v3(0, 0, 0);
 }
 
 double dp_fold_dihedral(const dp_fold *fold) {

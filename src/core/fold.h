@@ -60,6 +60,9 @@ dp_vec3 dp_outline_normal(const dp_sight *sight, const dp_beside *nearest, const
  * such an edge is not lifted, and ends where the edge itself does. */
 dp_vec3 dp_pair_normal(const dp_frame *frame, uint32_t a, uint32_t b);
 
+/* Are its polygons folded flat onto each other, so that their normals have no mean? */
+bool dp_fold_is_flat(const dp_fold *fold);
+
 /* Degrees: 180 is flat, less is convex (Raskar 2001, 2.2). */
 double dp_fold_dihedral(const dp_fold *fold);
 

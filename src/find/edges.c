@@ -93,10 +93,8 @@ static void resolve_pair(dp_finder *w, const dp_edge_entry *met) {
     sides_of_pair(w, e, sides);
     const int line = is_fold(w, e) ? fold_line(w, e, &fold) : DP_LINE_SILHOUETTE;
     if (line < 0) return;
-    /* folded flat, they have no mean */
-    const bool flat = dp_length(dp_add(fold.normal_a, fold.normal_b)) <= 1e-3;
     const dp_vec3 normal =
-        flat && dp_trusts_pair(w, e)
+        dp_fold_is_flat(&fold) && dp_trusts_pair(w, e)
             ? dp_pair_normal(frame, w->tile.polygons[e->a].id, w->tile.polygons[e->b].id)
             : fold.normal;
     add_line(w, e, (dp_line)line, normal, sides);

@@ -45,6 +45,9 @@ typedef struct dp_cleaning {
     double joined_length; /* px */
 } dp_cleaning;
 
+/* Frees parts, partners and strands (strands.c). */
+void dp_cleaning_free(dp_cleaning *c);
+
 /* Each phase: false when memory is out, for which everything but its own results is unchanged. */
 
 bool dp_find_parts(dp_cleaning *c);      /* strands.c: each segment is one */

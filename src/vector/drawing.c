@@ -161,10 +161,6 @@ static bool put_path(dp_drawing *d, const dp_cleaning *c, const dp_strand *stran
 
 /* ------- the story ------- */
 
-static const dp_array scratch[] = {DP_ARRAY(dp_cleaning, parts, parts_cap),
-                                   DP_ARRAY(dp_cleaning, partner, partner_cap),
-                                   DP_ARRAY(dp_cleaning, strands, strands_cap)};
-
 static bool clean(dp_drawing *d, dp_cleaning *c) {
     bool ok = dp_find_parts(c) && (c->desc.keep_coincident || dp_drop_coincident(c)) &&
               dp_join_nodes(c, -2) && dp_join_gaps(c) && dp_find_strands(c);
@@ -172,7 +168,7 @@ static bool clean(dp_drawing *d, dp_cleaning *c) {
     d->info.coincident += c->coincident;
     d->info.joined = c->joined;
     d->info.joined_length = c->joined_length;
-    dp_arrays_free(c->memory, c, DP_ARRAYS(scratch));
+    dp_cleaning_free(c);
     return ok;
 }
 

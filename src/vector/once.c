@@ -14,7 +14,7 @@ static dp_point mix_points(dp_point a, dp_point b, double t) {
     return (dp_point){(float)p.x, (float)p.y, (float)p.d};
 }
 
-/* Puts part i at place i; `cut` is where it begins or ends on its segment. */
+/* Puts part i at place i: its segment, with other ends where it is cut. */
 static void put_part(const dp_cleaning *c, uint32_t i, const dp_lines *from, dp_lines *to) {
     const dp_part *const part = &c->parts[i];
     const dp_stroke *const whole = &from->strokes[part->segment];
@@ -31,10 +31,6 @@ static void put_part(const dp_cleaning *c, uint32_t i, const dp_lines *from, dp_
         *(k ? &to->strokes[i].b : &to->strokes[i].a) = mix_points(whole->a, whole->b, part->at[k]);
     }
 }
-
-static const dp_array scratch[] = {DP_ARRAY(dp_cleaning, parts, parts_cap),
-                                   DP_ARRAY(dp_cleaning, partner, partner_cap),
-                                   DP_ARRAY(dp_cleaning, strands, strands_cap)};
 
 bool dp_lines_once(const dp_frame *frame, dp_lines *from, dp_lines *to, dp_pool *pool) {
     const dp_allocator memory = dp_pool_allocator(pool, frame->memory);
@@ -60,6 +56,6 @@ bool dp_lines_once(const dp_frame *frame, dp_lines *from, dp_lines *to, dp_pool 
     to->stylizes = from->stylizes;
     to->paper = from->paper, to->surface = from->surface;
     to->hidden_look = from->hidden_look;
-    dp_arrays_free(&memory, &c, DP_ARRAYS(scratch));
+    dp_cleaning_free(&c);
     return ok;
 }

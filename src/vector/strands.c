@@ -8,6 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+static const dp_array arrays[] = {DP_ARRAY(dp_cleaning, parts, parts_cap),
+                                  DP_ARRAY(dp_cleaning, partner, partner_cap),
+                                  DP_ARRAY(dp_cleaning, strands, strands_cap)};
+
+void dp_cleaning_free(dp_cleaning *c) { dp_arrays_free(c->memory, c, DP_ARRAYS(arrays)); }
+
 /* ------- ends ------- */
 
 static float mix(float a, float b, double t) {
