@@ -1,6 +1,7 @@
 /* Appends batch after batch, vertices as they come: what the source did not weld stays apart. */
 #include "mesh.h"
 
+#include <drypoint/io.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,6 +63,22 @@ bool mesh_read(const char *path, mesh *m) {
     if (result)
         fprintf(stderr, "%s: %s\n", path, diag.message[0] ? diag.message : dp_result_name(result));
     if (result) mesh_free(m);
+    return !result;
+}
+
+bool mesh_write(const mesh *m, const char *path) {
+    const dp_batch arrays = {.positions = m->positions,
+                             .vertex_count = m->vertex_count,
+                             .indices = m->indices,
+                             .corner_count = 3 * m->triangle_count,
+                             .polygon_count = m->triangle_count,
+                             .stable = true};
+    dp_source *source = NULL;
+    dp_diag diag = {0};
+    dp_result result = dp_source_from_arrays(&arrays, NULL, &source, &diag);
+    if (!result) result = dp_io_write_mesh(path, DP_MESH_FILE_AUTO, source, NULL, NULL, &diag);
+    dp_source_destroy(source);
+    if (result) fprintf(stderr, "%s: %s\n", path, diag.message);
     return !result;
 }
 

@@ -14,6 +14,8 @@ typedef struct mesh {
 
 /* Reads a model file; polygons become fans of triangles. False: said why on stderr. */
 bool mesh_read(const char *path, mesh *m);
+/* Writes a model file, by its name's ending. False: said why on stderr. */
+bool mesh_write(const mesh *m, const char *path);
 void mesh_free(mesh *m);
 
 #endif

@@ -75,8 +75,8 @@ static void become_program(const turn *t, int frame, const char *picture) {
     snprintf(target, sizeof target, "--target=%.9g,%.9g,%.9g", t->centre[0], t->centre[1],
              t->centre[2]);
     snprintf(angle, sizeof angle, "--fov=%g", fov);
-    const char *words[WORDS_MAX] = {t->program, t->model,      "-o", picture, "--quiet",
-                                    "--threads", "1", eye,      target, angle};
+    const char *words[WORDS_MAX] = {t->program,  t->model, "-o", picture, "--quiet",
+                                    "--threads", "1",      eye,  target,  angle};
     size_t count = 10;
     if (!t->sized) words[count++] = "--size=800x600";
     memcpy(words + count, t->words, (t->count + 1) * sizeof *words);
@@ -152,7 +152,8 @@ static double measure(const turn *t, int frames) {
         sum = one < 0 || sum < 0 ? -1 : sum + one;
     }
     close(ends[0]);
-    while (wait(NULL) > 0) {}
+    while (wait(NULL) > 0) {
+    }
     return sum < 0 ? -1 : sum / pairs;
 }
 

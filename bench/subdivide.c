@@ -6,7 +6,6 @@
  * most half full). LEVELS 0 only converts, to binary PLY by the name of OUT. */
 #include "mesh.h"
 
-#include <drypoint/io.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -77,22 +76,6 @@ static bool subdivide(mesh *m) {
     return able;
 }
 
-static int write_mesh(const mesh *m, const char *path) {
-    const dp_batch arrays = {.positions = m->positions,
-                             .vertex_count = m->vertex_count,
-                             .indices = m->indices,
-                             .corner_count = 3 * m->triangle_count,
-                             .polygon_count = m->triangle_count,
-                             .stable = true};
-    dp_source *source = NULL;
-    dp_diag diag = {0};
-    dp_result result = dp_source_from_arrays(&arrays, NULL, &source, &diag);
-    if (!result) result = dp_io_write_mesh(path, DP_MESH_FILE_AUTO, source, NULL, NULL, &diag);
-    dp_source_destroy(source);
-    if (result) fprintf(stderr, "subdivide: %s: %s\n", path, diag.message);
-    return result ? EXIT_FAILURE : EXIT_SUCCESS;
-}
-
 int main(int argc, char **argv) {
     if (argc != 4) return fprintf(stderr, "usage: subdivide IN OUT.ply LEVELS\n"), 2;
     mesh m;
@@ -103,7 +86,7 @@ int main(int argc, char **argv) {
     if (code)
         fprintf(stderr, "subdivide: not enough memory for %s\n", argv[2]);
     else
-        code = write_mesh(&m, argv[2]);
+        code = mesh_write(&m, argv[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
     mesh_free(&m);
     return code;
 }

