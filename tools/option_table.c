@@ -95,8 +95,9 @@ const option option_table[] = {
     {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
     {"width", 0, "W or CLASS=W,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(width_of), 0, 0.5, 64,
-     "Whole width of the lines, of all classes or of each: pixels, or 0.5mm or 1pt. Default: 2; on pages 0.35mm, and "
-     "0.5mm on sheets."},
+     "Whole width of the lines, of all classes or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
+     "pixels), or 0.2%, a share of the picture's smaller side. Default: outlines and borders 0.25%, the others half of "
+     "it; on pages 0.5mm and 0.25mm, on sheets 0.5mm."},
     {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...",
      OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of the lines, of all classes or of each. Default: black."},
@@ -115,14 +116,14 @@ const option option_table[] = {
      "With --hidden: draw folds of less than 40 degrees as well."},
     {"hidden-width", 0, "W or [CLASS][:LEVEL]=W,...",
      OPTION_HIDDEN_WIDTHS, GROUP_LINES, PICTURE, AT(hidden_width), 0, 0.5, 64,
-     "Width of hidden lines, of all, or of a class, a level or both, as in ridge:2=1mm. Default: half the visible "
-     "line's; with --hidden solid, the same."},
+     "Width of hidden lines, of all, or of a class, a level or both, as in ridge:2=1mm. Default: that of ridges; half of "
+     "a --width, or of that with --hidden thin; with --hidden solid, the visible line's."},
     {"hidden-color", 0, "#RRGGBB or [CLASS][:LEVEL]=#RRGGBB,...",
      OPTION_HIDDEN_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of hidden lines, in the same way. Default: the visible line's."},
 
     {"join", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(join), 0, 0, 10000,
-     "Close gaps between paths up to this (or 0.5mm, 1pt); 0 closes none. Default: 2."},
+     "Close gaps between paths up to this (or 0.5mm, 1pt, 0.2%); 0 closes none. Default: 2."},
     {"min-length", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(min_length), 0, 0, 10000,
      "Leave out paths shorter than this; 0 leaves out none. Default: 1."},
     {"tolerance", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(tolerance), 0, 0, 10000,

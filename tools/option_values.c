@@ -311,11 +311,16 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
         return wrong_usage("--%s: \"%.*s\" is not a colour; give one like #3060A0", o->name, n,
                            text);
     if (o->kind == OPTION_WIDTHS && !read_length(text, end, &width))
-        return wrong_usage("--%s: \"%.*s\" is not a width; give pixels like 2.5, or 0.5mm or 1pt",
-                           o->name, n, text);
+        return wrong_usage(
+            "--%s: \"%.*s\" is not a width; give pixels like 2.5, or 0.5mm or 1pt, or "
+            "0.2%% of the picture",
+            o->name, n, text);
     if (width.unit == LENGTH_PX && (width.value < o->least || width.value > o->most))
         return wrong_usage("--%s: %.*s is out of range; give %g to %g pixels", o->name, n, text,
                            o->least, o->most);
+    if (width.unit == LENGTH_SHARE && !(width.value > 0 && width.value <= 1))
+        return wrong_usage("--%s: %.*s is out of range; give above 0%% and at most 100%%", o->name,
+                           n, text);
     if (width.unit == LENGTH_MM && !(width.value > 0 && width.value <= WIDEST))
         return wrong_usage("--%s: %.*s is out of range; give above 0 and at most %d mm", o->name, n,
                            text, WIDEST);

@@ -49,8 +49,9 @@ extern const char *const output_names[OUTPUT_COUNT];
 
 enum { FILES_MOST = 16 };
 
-/* A length on paper or screen; not given: value and unit are 0. */
-typedef enum length_unit { LENGTH_NONE = 0, LENGTH_PX, LENGTH_MM } length_unit;
+/* A length on paper or screen; not given: value and unit are 0. A share is of the picture's, or
+ * page's, smaller side. */
+typedef enum length_unit { LENGTH_NONE = 0, LENGTH_PX, LENGTH_MM, LENGTH_SHARE } length_unit;
 
 typedef struct tool_length {
     double value;

@@ -800,10 +800,10 @@ hidden_lines() {
     done
     cmp -s thin.png solid.png && fail "thin is solid"
     cmp -s dashed.png dotted.png && fail "dashed is dotted"
-    run 0 shape:gear $small -o trace=one.txt --hidden dashed
+    run 0 shape:gear $small -o trace=one.txt --hidden dashed --width 2
     says one.txt 'level 1 width 1'
     grep -q 'level 2' one.txt && fail "there is a second level"
-    run 0 shape:gear $small -o trace=three.txt --hidden dashed --levels 3
+    run 0 shape:gear $small -o trace=three.txt --hidden dashed --width 2 --levels 3
     says three.txt 'level 2 width 1'
     grep -q 'level 4' three.txt && fail "there is a fourth level"
     run 0 shape:gear $small -o trace=looks.txt --hidden solid --levels 3 --hidden-width '1.5,ridge=3,:2=4,ridge:2=5' \
@@ -1169,8 +1169,8 @@ widths_on_paper() {
     cmp -s mm.png px.png || fail "0.5 mm are not 5 pixels at 254 dpi"
     cmp -s mm.svg px.svg || fail "0.5 mm are not 5 pixels at 254 dpi"
     run 0 shape:cube -q --page A5 --dpi 254 -o usual.svg
-    run 0 shape:cube -q --page A5 --dpi 254 -o same.svg --width 0.35mm
-    cmp -s usual.svg same.svg || fail "the usual width on a page is not 0.35 mm"
+    run 0 shape:cube -q --page A5 --dpi 254 -o same.svg --width 0.25mm,silhouette=0.5mm,border=0.5mm
+    cmp -s usual.svg same.svg || fail "the usual widths on a page are not 0.5 and 0.25 mm"
     run 0 shape:cube -q --page A5 --hidden dashed --hidden-width 0.2mm,ridge:1=0.4mm -o hidden.png
 }
 # boxes FILE: the views of an SVG in mm; the test ends without Python.
@@ -1293,7 +1293,9 @@ paper_presets() {
     svg_size large.svg | grep -q 420mm || fail "options do not change presets: $(svg_size large.svg)"
 }
 
-tests="vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+. "$here/look.sh" # line weights, colours, presets, options without effect
+
+tests="$look_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
