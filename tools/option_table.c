@@ -37,11 +37,11 @@ const option option_table[] = {
      "Width and height of the picture in pixels. Default: 1600x1200. With --page, the page says it."},
     {"samples", 0, "1|4|8|16", OPTION_WORD, GROUP_PICTURE, PICTURE, AT(samples), 0, 0, 0,
      "Samples per pixel. Default: 4."},
-    {"paper", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
+    {"paper", 0, "COLOR|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
      "Colour of the background; none is transparent. Default: white."},
-    {"surface", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.surface), 0, 0, 0,
-     "Colour of the model's faces; none lets the paper show through, but still hides lines. "
-     "Default: white."},
+    {"surface", 0, "COLOR|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.surface), 0, 0, 0,
+     "Colour of the model's faces; none lets the paper show through, but still hides lines; "
+     "with alpha it is mixed with the paper. Default: white."},
 
     {"page", 0, "NAME|WxHmm|none", OPTION_PAGE, GROUP_PAGE, DRAW, AT(page), 0, 0, 0,
      "Draw on a page: A0 to A5, letter, legal, tabloid, or a size like 200x100mm (or cm, in). A4-landscape and "
@@ -98,9 +98,10 @@ const option option_table[] = {
      "Whole width of the lines, of all classes or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
      "pixels), or 0.2%, a share of the picture's smaller side. Default: outlines and borders 0.25%, the others half of "
      "it; on pages 0.5mm and 0.25mm, on sheets 0.5mm."},
-    {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...",
+    {"color", 0, "COLOR or CLASS=COLOR,...",
      OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
-     "Colour of the lines, of all classes or of each. Default: black."},
+     "Colour of the lines, of all classes or of each: #RRGGBB or #RGB, with alpha #RRGGBBAA or #RGBA, or a CSS name "
+     "like steelblue. Default: black."},
     {"ridge-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(ridge_angle), 0, 0, 360,
      "Edges whose dihedral angle is at most this are ridges; 180 is flat. Default: 150."},
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
@@ -118,7 +119,7 @@ const option option_table[] = {
      OPTION_HIDDEN_WIDTHS, GROUP_LINES, PICTURE, AT(hidden_width), 0, 0.5, 64,
      "Width of hidden lines, of all, or of a class, a level or both, as in ridge:2=1mm. Default: that of ridges; half of "
      "a --width, or of that with --hidden thin; with --hidden solid, the visible line's."},
-    {"hidden-color", 0, "#RRGGBB or [CLASS][:LEVEL]=#RRGGBB,...",
+    {"hidden-color", 0, "COLOR or [CLASS][:LEVEL]=COLOR,...",
      OPTION_HIDDEN_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of hidden lines, in the same way. Default: the visible line's."},
 
@@ -201,7 +202,7 @@ const option option_table[] = {
      "Strokes lie on the picture, or stick to the surface. Default: screen."},
     {"hatch-scale", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(hatch_scale), 0, 0.05, 50,
      "2: strokes twice as wide and as far apart. Default: 1."},
-    {"hatch-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(hatch_color), 0, 0, 0,
+    {"hatch-color", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(hatch_color), 0, 0, 0,
      "Colour of strokes and dots. Default: black."},
 
     {"edges", 0, "emergent|adjacency|map|both|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(edges), 0, 0, 0,
@@ -215,7 +216,7 @@ const option option_table[] = {
      "Side of the mirror, in the model's units. Default: half as much again as the model's largest side."},
     {"mirror-fade", 0, "S", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_fade), 0, 0, 1e30,
      "Distance from the mirror at which images have faded away. Default: they do not fade."},
-    {"mirror-tint", 0, "#RRGGBB", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(mirror_tint), 0, 0, 0,
+    {"mirror-tint", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(mirror_tint), 0, 0, 0,
      "Colour of the mirror. Default: white."},
     {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), 0, 0, 1,
      "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
@@ -244,9 +245,9 @@ const option option_table[] = {
      "Step in distance, in pixel sizes, that makes a whole profile edge. Default: 6."},
     {"profile-softness", 0, "F", OPTION_NUMBER, GROUP_EDGE_MAP, PICTURE, AT(profile_softness), 0, 0.001, 1,
      "How slowly profile edges become strong. Default: 0.5."},
-    {"inner-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(inner_color), 0, 0, 0,
+    {"inner-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(inner_color), 0, 0, 0,
      "Colour of inner edges. Default: black."},
-    {"profile-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
+    {"profile-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
      "Colour of profile edges. Default: black."},
     {"enhance", 0, "NAME,...", OPTION_TEXT, GROUP_EDGE_MAP, PICTURE, AT(enhance), 0, 0, 0,
      "Only these objects, groups or materials have edges from the map. Default: all."},

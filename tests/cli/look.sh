@@ -2,7 +2,8 @@
 # change nothing.
 # shellcheck shell=bash disable=SC2034
 
-look_tests="weights weights_of_sizes weights_on_paper shares_of_the_picture wrong_shares"
+look_tests="weights weights_of_sizes weights_on_paper shares_of_the_picture wrong_shares
+    colors_by_name colors_with_alpha wrong_colors"
 
 # weights_of TRACE: the classes of a trace with their widths, in order: "border 3 silhouette 3 ...".
 weights_of() {
@@ -72,4 +73,55 @@ wrong_shares() {
     wrong shape:cube -o out.svg --scale 1:1 --width 1% -- 'has nothing to be a share of'
     wrong shape:cube -o out.svg --tolerance 101% -- 'give 0% to 100%'
     run 0 shape:cube -o in.svg --scale 1:1 --page A4 --width 1%
+}
+
+# same TEXT FIRST... -- SECOND...: the same picture of a cube twice.
+same() {
+    local text=$1 first=()
+    shift
+    while [ "$1" != -- ]; do first+=("$1"); shift; done
+    shift
+    run 0 shape:cube $small "${first[@]}" -o first.png
+    run 0 shape:cube $small "$@" -o second.png
+    cmp -s first.png second.png || fail "$text"
+}
+colors_by_name() {
+    same "red is not #f00" --color red -- --color '#f00'
+    same "names are of small letters" --color SteelBlue -- --color '#4682B4'
+    same "gray is not grey" --surface gray -- --surface grey
+    same "rebeccapurple" --paper rebeccapurple -- --paper '#663399ff'
+    same "the last name" --color yellowgreen -- --color '#9ACD32'
+    same "of classes" --color 'black,ridge=tomato' -- --color '#000,ridge=#ff6347'
+    same "of hidden lines" --hidden thin --hidden-color ':1=navy' -- --hidden thin --hidden-color '#000080'
+    same "transparent is not none" --paper transparent --surface none -- --paper none --surface '#0000'
+    same "of strokes" --style hatch --hatch-color navy -- --style hatch --hatch-color '#000080'
+}
+colors_with_alpha() {
+    run 0 shape:cube $small --color '#ff000080' -o trace=alpha.txt -o alpha.svg -o alpha.json
+    says alpha.txt 'color #ff000080'
+    says alpha.svg 'stroke-opacity="0.502"'
+    says alpha.json '"color":"#ff000080"'
+    silent out
+    same "short alpha" --color '#f008' -- --color '#ff000088'
+    same "half black on white is not grey" --color '#00000080' --lines ridge -- --color '#7f7f7f' --lines ridge
+    same "a surface is not mixed with the paper" --surface '#0000ff80' --paper red -- --surface '#7f0080' --paper red
+    same "hatching" --style hatch --hatch-color '#00000080' -- --style hatch --hatch-color '#7f7f7f'
+    same "pencil" --style pencil --hatch-color '#00000080' -- --style pencil --hatch-color '#7f7f7f'
+    same "a mirror's tint" --mirror 0,1,0 --mirror-tint '#ff000080' --mirror-tint-share 1 -- \
+        --mirror 0,1,0 --mirror-tint red --mirror-tint-share 0.50196078431372548
+    same "lines that are not seen" --color 'red,ridge=transparent' -- --color red --lines silhouette,valley,intersection,border
+    run 0 shape:cube $small --color '#ff000080' -o alpha.eps
+    says err 'EPS has no transparency: colours with alpha are mixed with the paper'
+    run 0 shape:cube $small --color none -o none.svg
+    says err 'no line is in it'
+}
+wrong_colors() {
+    wrong shape:cube -o out.png --color stelblue -- '--color: "stelblue" is not a colour; did you mean steelblue?'
+    wrong shape:cube -o out.png --color ridge=blakc -- 'did you mean black?'
+    wrong shape:cube -o out.png --color xyzzy -- 'give one like #3060A0, #3060A080 with its alpha, or a name like steelblue'
+    local value
+    for value in '#12' '#12345' '#1234567' '#123456789' '#ggg' '' '#'; do
+        wrong shape:cube -o out.png --color "$value" -- 'is not a colour; give one like #3060A0'
+        wrong shape:cube -o out.png --paper "$value" -- 'is not a colour; give one like #3060A0'
+    done
 }

@@ -353,7 +353,7 @@ wrong_values() {
     for value in 0 65 ridge=0.1 ridge= =3 3,; do
         wrong shape:cube --width "$value" -o out.png -- '--width: '
     done
-    for value in red '#12345' '#GGGGGG' ridge=none; do
+    for value in rde '#12345' '#GGGGGG' ridge=nonce; do
         wrong shape:cube --color "$value" -o out.png -- '--color: '
     done
     wrong shape:cube --samples 3 -o out.png -- '1|4|8|16'
@@ -826,7 +826,7 @@ wrong_hidden_lines() {
     wrong shape:cube -o out.png --hidden-width ridge:=2 -- 'is no level'
     wrong shape:cube -o out.png --hidden-width rigde:1=2 -- 'did you mean ridge?'
     wrong shape:cube -o out.png --hidden-width 100 -- '--hidden-width: 100 is out of range'
-    wrong shape:cube -o out.png --hidden-color :1=red -- '--hidden-color: "red" is not a colour'
+    wrong shape:cube -o out.png --hidden-color :1=rde -- '--hidden-color: "rde" is not a colour; did you mean red?'
     for option in "--ink quads" "--edges adjacency"; do
         "$program" shape:cube $small -o out.png --hidden dashed $option 2>err && fail "$option is allowed"
         one_line
