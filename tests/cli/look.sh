@@ -3,7 +3,8 @@
 # shellcheck shell=bash disable=SC2034
 
 look_tests="weights weights_of_sizes weights_on_paper shares_of_the_picture wrong_shares
-    colors_by_name colors_with_alpha wrong_colors"
+    colors_by_name colors_with_alpha wrong_colors options_without_effect options_with_effect presets_change_nothing_unasked
+    angles_that_overlap lengths_of_strokes gaps_and_paths"
 
 # weights_of TRACE: the classes of a trace with their widths, in order: "border 3 silhouette 3 ...".
 weights_of() {
@@ -124,4 +125,158 @@ wrong_colors() {
         wrong shape:cube -o out.png --color "$value" -- 'is not a colour; give one like #3060A0'
         wrong shape:cube -o out.png --paper "$value" -- 'is not a colour; give one like #3060A0'
     done
+}
+
+# Each line: OPTION [VALUE] | other options beside which it changes nothing | other options beside which it
+# does | what is said.
+effects() {
+    cat <<'END'
+--method paper || --ink quads | add --ink quads
+--between stencil || --ink quads | add --ink quads
+--between stencil | --edges adjacency | --ink quads | add --ink quads
+--edge-table off | --ink quads || only emergent strokes have that table
+--width 5 | --edges map | --edges both | --edges both adds them
+--color red | --lines none || leave out --lines none
+--ridge-angle 80 | --lines silhouette || add them to --lines
+--valley-angle 300 | --lines ridge || add them to --lines
+--levels 3 | --hidden none | --hidden dashed --hidden-color :2=red | add --hidden dashed
+--hidden-width 4 || --hidden dashed | add --hidden dashed
+--hidden-color red || --hidden dashed | add --hidden dashed
+--hidden-smooth ||| add --hidden dashed
+--tolerance 2 ||| add -o drawing.svg
+--join 20 ||| add -o drawing.svg
+--min-length 20 ||| add -o drawing.svg
+--optimize ||| add -o drawing.svg
+--join-classes ||| add -o drawing.svg
+--keep-coincident ||| add -o drawing.svg
+--ground png ||| add -o drawing.svg
+--title Bracket ||| a picture has no title
+--jitter 3 | --ink quads | --ink strokes | with --ink quads lines are plain
+--taper 20 | --edges none || --edges both draws lines
+--stroke-u polar || --stroke pencil | add --stroke pencil
+--stroke-scale 3 || --stroke pencil | add --stroke pencil
+--stroke-k 3 | --stroke pencil | --stroke pencil --stroke-u polar | add --stroke-u polar
+--seed 4 || --stroke pencil | add --stroke pencil or --jitter 1
+--seed 4 | --stroke dashes | --jitter 2 | add --stroke pencil or --jitter 1
+--light 60,10 || --style lambert | add --style lambert
+--light 60,10 | --width-by-light 1 | --style toon | add --style lambert
+--normals facet || --style lambert | add --style lambert
+--crease-angle 5 || --style lambert | add --style lambert
+--surface tan | --style paper | --style toon | surfaces have the paper's colour
+--surface tan | --style gooch --gooch-plain | --style gooch | --gooch-plain leaves
+--highlight 1 || --style lambert --light 0,0 --surface gray --view front | only --style lambert, gooch and toon
+--highlight 1 | --style hatch || only --style lambert, gooch and toon
+--gooch-plain || --style gooch | add --style gooch
+--cartoon-map off || --style toon | add --style toon
+--hatch-scale 3 || --style halftone | add --style hatch, halftone or pencil
+--hatch-color red | --style toon | --style pencil | add --style hatch, halftone or pencil
+--hatch-space object | --style pencil | --style hatch | add --style hatch or halftone
+--pencil-s 6 || --style pencil | add --style pencil
+--pencil-o 2 | --style hatch | --style pencil | add --style pencil
+--pencil-tones 4 || --style pencil | add --style pencil
+--pencil-turns printed || --style pencil | add --style pencil
+--pencil-s 6 | --style pencil --pencil-tones 4 || --pencil-tones stands for it
+--mirror-tint red || --mirror 0,1,0 | add --mirror 0,1,0
+--mirror-tint red | --mirror 0,1,0 --mirror-tint-share 0 || --mirror-tint-share is 0
+--mirror-size 1 || --mirror 0,1,0 | add --mirror 0,1,0
+--mirror-fade 0.1 || --mirror 0,1,0 | add --mirror 0,1,0
+--mirror-tint-share 1 || --mirror 0,1,0 --mirror-tint red | add --mirror 0,1,0
+--edge-map c1 | --edges emergent | --edges both | add --edges both
+--c1-passes 1 | --edges both | --edges both --edge-map c1 | add --edge-map c1
+--edge-measure paper || --edges both | add --edges both
+--precision 8 || --edges both --edge-measure paper | add --edges both
+--edge-radius 4 || --edges both | add --edges both
+--edge-sides both || --edges both | add --edges both
+--inner-angle 80 || --edges both | add --edges both
+--inner-angle 80 | --edges both --edge-measure paper || has no thresholds
+--profile-depth 400 || --edges both | add --edges both
+--inner-color red || --edges both | add --edges both
+--profile-color red || --edge-map diagonal | add --edges both
+END
+}
+# trim TEXT: without the spaces around it.
+trim() { sed 's/^ *//; s/ *$//' <<<"$1"; }
+# picture NAME ARGUMENTS...: a bracket.
+bracket() {
+    local name=$1
+    shift
+    run 0 shape:bracket --size 240x180 "$@" -o "$name"
+}
+# An option that is said to change nothing changes nothing, and says so in one line.
+options_without_effect() {
+    local option beside works text
+    while IFS='|' read -r option beside works text; do
+        # shellcheck disable=SC2086 # words
+        {
+            bracket base.png $beside
+            bracket other.png $beside $option
+        }
+        one_line
+        says err "drypoint: warning: ${option%% *} changes nothing: "
+        says err "$(trim "$text")"
+        cmp -s base.png other.png || fail "$option changes the picture beside \"$beside\""
+        # shellcheck disable=SC2086
+        bracket other.png $beside $option --quiet
+        silent err
+    done < <(effects)
+    bracket two.png --mirror-tint red --mirror-fade 0.1
+    says err '--mirror-fade, --mirror-tint change nothing: there is no mirror'
+    one_line
+    run 0 shape:cube $small --title Cube -o titled.svg
+    grep -q 'changes nothing' err && fail "an SVG has a title: $(cat err)"
+    run 0 make cube --seed 3 -o cube.ply
+    says err '--seed changes nothing: only terrains differ by their seed'
+    run 0 make terrain --seed 3 -o terrain.ply
+    silent err
+}
+# Where it counts nothing is said, and the picture is another.
+options_with_effect() {
+    local option beside works text
+    while IFS='|' read -r option beside works text; do
+        [ -n "$(trim "$works")" ] || continue
+        # shellcheck disable=SC2086
+        {
+            bracket base.png $works
+            bracket other.png $works $option
+        }
+        silent err
+        cmp -s base.png other.png && fail "$option changes nothing beside \"$works\""
+    done < <(effects)
+}
+presets_change_nothing_unasked() {
+    run 0 shape:cube $small --preset pencil --ink quads -o quads.png
+    silent err
+    run 0 shape:cube $small --preset pencil --ink quads --taper 3 -o quads.png
+    says err '--taper changes nothing'
+    run 0 bench shape:cube $small --frames 1 --preset sketch --pencil-s 2
+    says err '--pencil-s changes nothing'
+}
+angles_that_overlap() {
+    bracket both.png --ridge-angle 220
+    says err '--ridge-angle 220 is above --valley-angle 210: edges between the two are drawn as ridges'
+    bracket both.png --valley-angle 120
+    says err '--ridge-angle 150 is above --valley-angle 120'
+    bracket one.png --ridge-angle 220 --lines silhouette,ridge
+    silent err
+}
+lengths_of_strokes() {
+    run 0 shape:cube -q --size 400x400 --taper 5% --jitter 0.5% --overshoot 2% -o share.png
+    run 0 shape:cube -q --size 400x400 --taper 20 --jitter 2 --overshoot 8 -o px.png
+    cmp -s share.png px.png || fail "5 % of 400 pixels are not 20"
+    run 0 shape:cube -q --page A5 --dpi 254 --taper 2mm -o mm.png
+    run 0 shape:cube -q --page A5 --dpi 254 --taper 20 -o px.png
+    cmp -s mm.png px.png || fail "2 mm are not 20 pixels at 254 dpi"
+    run 0 shape:cube $small --stroke pencil -o usual.png
+    run 0 shape:cube $small --stroke pencil --taper 0 -o none.png
+    cmp -s usual.png none.png && fail "--taper 0 leaves the pencil's taper"
+    wrong shape:cube -o out.png --taper 1km -- 'is not a length; give pixels like 2.5, or 0.5mm or 1pt, or 0.2%'
+}
+
+# Textures with gaps are chained only when paths are asked for, after the picture.
+gaps_and_paths() {
+    run 0 shape:bracket -q --size 240x180 --stroke dashes -o dashes.svg -o trace=dashes.txt
+    run 0 shape:bracket -q --size 240x180 --stroke dashes -o dashes.png -o with.svg
+    cmp -s dashes.svg with.svg || fail "the paths differ beside a picture"
+    run 0 shape:bracket -q --size 240x180 --edges adjacency --ink strokes --stroke dots -o dots.svg
+    run 0 shape:bracket -q --size 240x180 --edges adjacency --stroke dots -o dots.svg
 }
