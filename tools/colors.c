@@ -110,7 +110,8 @@ bool color_read(const char *text, const char *end, dp_color *color) {
 static uint32_t part_of(dp_color color, int shift) { return color >> shift & 0xFF; }
 
 dp_color color_over(dp_color over, dp_color under) {
-    const uint32_t share = part_of(over, 0) * 255, rest = part_of(under, 0) * (255 - part_of(over, 0)),
+    const uint32_t share = part_of(over, 0) * 255,
+                   rest = part_of(under, 0) * (255 - part_of(over, 0)),
                    alpha = share + rest; /* of 255 squared */
     dp_color color = (alpha + 127) / 255;
     for (int shift = 8; shift < 32 && alpha; shift += 8)

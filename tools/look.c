@@ -213,7 +213,7 @@ void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
     m->size = (float)(s->mirror_size > 0 ? s->mirror_size : 1.5 * largest);
     m->fade = (float)s->mirror_fade;
     m->tint = s->mirror_tint ? s->mirror_tint | 0xFF : 0;
-    m->tint_share = (float)(s->mirror_tint_share > 0 ? s->mirror_tint_share
+    m->tint_share = (float)(s->has_mirror_tint_share ? s->mirror_tint_share
                             : s->mirror_tint         ? 0.25
                                                      : 0);
     if (s->mirror_tint) m->tint_share *= (float)(s->mirror_tint & 0xFF) / 255;

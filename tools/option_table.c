@@ -147,11 +147,11 @@ const option option_table[] = {
      "Polar: weight of the distance, per half a picture height; 0 for round models. Default: 0.5."},
     {"stroke-scale", 0, "F", OPTION_INSIDE, GROUP_STROKES, PICTURE, AT(stroke_scale), 0, 0, 1000,
      "How many times longer than natural textures are. Default: 1."},
-    {"taper", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(taper), AT(has_taper), 0, 10000,
-     "Strokes thin out over this length at both ends. Default: what suits --stroke."},
-    {"jitter", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(jitter), AT(has_jitter), 0, 64,
+    {"taper", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(taper), 0, 0, 10000,
+     "Strokes thin out over this length (or 5mm, 10pt, 1%) at both ends. Default: what suits --stroke."},
+    {"jitter", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(jitter), 0, 0, 64,
      "How far the hand is off the line, about. Default: what suits --stroke."},
-    {"overshoot", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(overshoot), AT(has_overshoot), 0, 1000,
+    {"overshoot", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(overshoot), 0, 0, 1000,
      "How far strokes run on beyond their ends. Default: what suits --stroke."},
     {"repeats", 0, "N", OPTION_COUNT, GROUP_STROKES, PICTURE, AT(repeats), 0, 1, 8,
      "Draw each line so often, each time with other small errors. Default: 1."},
@@ -218,7 +218,7 @@ const option option_table[] = {
      "Distance from the mirror at which images have faded away. Default: they do not fade."},
     {"mirror-tint", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(mirror_tint), 0, 0, 0,
      "Colour of the mirror. Default: white."},
-    {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), 0, 0, 1,
+    {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), AT(has_mirror_tint_share), 0, 1,
      "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
 
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
@@ -305,6 +305,7 @@ const option option_table[] = {
      "Print the man page."},
 };
 const size_t option_count = sizeof option_table / sizeof *option_table;
+_Static_assert(sizeof option_table / sizeof *option_table <= OPTIONS_MOST, "make OPTIONS_MOST more");
 
 const command_text command_table[COMMAND_COUNT] = {
     [COMMAND_DRAW] = {"",

@@ -178,8 +178,9 @@ static bool has_alpha(const dp_style *style) {
 }
 
 void paths_warn(const tool_settings *s, const dp_style *style) {
-    const bool textured = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
-                          s->repeats > 1 || s->width_by_depth > 0 || s->width_by_light > 0;
+    const bool textured = s->stroke || s->taper.value > 0 || s->jitter.value > 0 ||
+                          s->overshoot.value > 0 || s->repeats > 1 || s->width_by_depth > 0 ||
+                          s->width_by_light > 0;
     const dp_shading shading = style->shade.shading;
     const bool shaded = (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) ||
                         (style->edge_map.detector && !style->edge_map.hidden);

@@ -677,9 +677,9 @@ strokes() {
     cmp -s pencil.png polar.png && fail "--stroke-u polar changes nothing"
     silent err
     run 0 shape:gear $small --edges map --stroke pencil -o map.png
-    says err 'warning: an edge map is of pixels and has no strokes'
+    says err 'warning: --stroke changes nothing: an edge map is of pixels and has no strokes'
     run 0 shape:gear $small --ink quads --stroke pencil -o quads.png
-    says err 'warning: with --ink quads lines are plain'
+    says err 'warning: --stroke changes nothing: with --ink quads lines are plain'
     run 0 shape:gear $small --ink quads --stroke pencil --edges adjacency -o quads.png
     silent err
 }
