@@ -63,21 +63,6 @@ static bool check_page(const tool_settings *s) {
     return true;
 }
 
-static bool is_share(const tool_length *length) { return length->unit == LENGTH_SHARE; }
-
-/* Of what would a share be, where the page is made as large as the lines need? */
-static bool check_shares(const tool_settings *s) {
-    bool any = is_share(&s->join) || is_share(&s->min_length) || is_share(&s->tolerance);
-    for (int k = 0; k < DP_LINE_COUNT; k++) {
-        any |= is_share(&s->width_of[k]);
-        for (int level = 0; level < DP_LEVELS; level++) any |= is_share(&s->hidden_width[level][k]);
-    }
-    if (!any || !(s->scale.paper > 0) || s->page.width > 0 || s->width || s->sheet.count)
-        return true;
-    return wrong_usage("with --scale alone the page is as large as the drawing, and a length in %% "
-                       "has nothing to be a share of; give it in mm, or add --page A4, say");
-}
-
 static bool check_sheet(const tool_settings *s) {
     if (s->angle && !s->sheet.count)
         return wrong_usage("--angle says where the views of a sheet lie; add --sheet "
@@ -99,6 +84,5 @@ static bool check_sheet(const tool_settings *s) {
 }
 
 bool options_check(const tool_settings *s) {
-    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && check_shares(s);
+    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) && check_sheet(s);
 }

@@ -113,12 +113,14 @@ static const rule drawing_rules[] = {
     {"join|min-length|tolerance|join-classes|keep-coincident|optimize|ground", files_have_paths,
      "no vector file is written; add -o drawing.svg, say"},
     {"ground", has_ground, "only SVG, PDF and EPS files have one; add -o drawing.svg, say"},
-    {"title", has_title, "a picture has no title; add --sheet front,top,right,iso, say, or write an "
-                         "SVG or PDF"},
+    {"title", has_title,
+     "a picture has no title; add --sheet front,top,right,iso, say, or write an "
+     "SVG or PDF"},
 
     {STROKES "|stroke-u|stroke-k|stroke-scale|seed", has_pens,
      "with --ink quads lines are plain; leave it out for strokes, or add --edges adjacency"},
-    {"stroke-u|stroke-k|stroke-scale", has_texture, "lines have no texture; add --stroke pencil, say"},
+    {"stroke-u|stroke-k|stroke-scale", has_texture,
+     "lines have no texture; add --stroke pencil, say"},
     {"stroke-k", is_polar, "textures lie along the lines; add --stroke-u polar"},
     {"seed", has_errors,
      "strokes have no errors of the hand; add --stroke pencil or --jitter 1, say"},
@@ -206,7 +208,8 @@ static void check_angles(const tool_settings *s) {
                  valley = s->valley_angle > 0 ? s->valley_angle : 210;
     if (ridge <= valley || !finds_lines(s) || !has_ridges(s) || !has_valleys(s)) return;
     if (option_given(s, "ridge-angle") || option_given(s, "valley-angle"))
-        warn("--ridge-angle %g is above --valley-angle %g: edges between the two are drawn as ridges",
+        warn("--ridge-angle %g is above --valley-angle %g: edges between the two are drawn as "
+             "ridges",
              ridge, valley);
 }
 

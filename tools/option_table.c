@@ -30,7 +30,7 @@ const option option_table[] = {
      "with their edges and what ends them. segments=FILE.json writes the paths of the drawing."},
     {"format", 0, "png|svg|pdf|eps|dxf|json", OPTION_WORD, GROUP_PICTURE, DRAW, AT(format), 0, 0, 0,
      "How outputs are written whose name does not end so: -, devices and pipes. Default: png."},
-    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
+    {"preset", 0, "technical|illustration|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
      "A look: options that go together; those on the command line change it."},
     {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,

@@ -180,11 +180,20 @@ static int lie_on_page(picture *p) {
     return code ? code : place(p);
 }
 
-/* The page is as large as the drawing and its margins, in whole pixels. */
+static uint32_t some_pixels(const picture *p, double mm) {
+    return (uint32_t)fmin(fmax(round(mm / p->plan->mm_per_px), 1), PIXELS_MOST);
+}
+
+/* The page is as large as the drawing and its margins, in whole pixels. Widths that are shares of it
+ * are, for now, of what it is without its lines. */
 static int wrap_drawing(picture *p) {
     const double mm = p->plan->mm_per_px;
     double m[4];
     for (int k = 0; k < 4; k++) m[k] = mm * round(page_margins(p->s)[k] / mm);
+    p->plan->width =
+        some_pixels(p, m[MARGIN_LEFT] + view_box_width(&p->box) * p->mm_per_unit + m[MARGIN_RIGHT]);
+    p->plan->height = some_pixels(p, m[MARGIN_TOP] + view_box_height(&p->box) * p->mm_per_unit +
+                                         m[MARGIN_BOTTOM]);
     p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
     p->mm_width = mm * ceil(drawn_width(p, p->mm_per_unit) / mm);
     p->mm_height = mm * ceil(drawn_height(p, p->mm_per_unit) / mm);

@@ -69,40 +69,49 @@ double page_widest(const tool_settings *s, const page_plan *plan) {
     return widest * plan->mm_per_px;
 }
 
-static bool too_wide(const page_plan *plan, double px, const tool_length *given) {
-    if (given->unit == LENGTH_SHARE)
-        return wrong_usage("--width: %g%% of %.0f pixels are %.0f, and %.0f are the most; give a "
-                           "smaller share",
-                           100 * given->value, smaller_side(plan), px, thickest);
-    return wrong_usage("--width: %g mm are %.0f pixels at %.0f dpi, and %.0f are the most; give a "
+/* Which limits widths have met. */
+typedef struct limits {
+    bool thin, thick;
+} limits;
+
+/* Stores a width, and notes whether it had to be changed. A share of a large picture is made smaller;
+ * a length on paper cannot be. */
+static bool put_width(const page_plan *plan, double px, const tool_length *given, float *to,
+                      limits *met) {
+    const bool shared = given->unit == LENGTH_SHARE;
+    met->thin |= given->unit == LENGTH_MM && px > (double)page_length(plan, given) + 1e-3;
+    met->thick |= shared && px > thickest;
+    *to = (float)(shared ? fmin(px, thickest) : px);
+    return (double)*to <= thickest ||
+           wrong_usage("--width: %g mm are %.0f pixels at %.0f dpi, and %.0f are the most; give a "
                        "smaller --dpi",
                        px * plan->mm_per_px, px, 25.4 / plan->mm_per_px, thickest);
 }
 
-/* Stores a width, and notes whether it had to be made larger. */
-static bool put_width(const page_plan *plan, double px, const tool_length *given, float *to,
-                      bool *thin) {
-    *thin |= given->unit == LENGTH_MM && px > (double)page_length(plan, given) + 1e-3;
-    *to = (float)px;
-    return px <= thickest || too_wide(plan, px, given);
+static void warn_limits(const page_plan *plan, const limits *met) {
+    if (met->thin)
+        warn("--width: lines are at least half a pixel wide, %.3g mm at %.0f dpi; give a larger "
+             "--dpi for finer ones",
+             thinnest * plan->mm_per_px, 25.4 / plan->mm_per_px);
+    if (met->thick)
+        warn("--width: lines are at most %.0f pixels wide, %.2g%% of %.0f; draw a smaller picture "
+             "for bolder ones",
+             thickest, 100 * thickest / smaller_side(plan), smaller_side(plan));
 }
 
 bool page_widths(const tool_settings *s, const page_plan *plan, dp_style *style) {
-    bool thin = false;
+    limits met = {false, false};
     for (int k = 0; k < DP_LINE_COUNT; k++) {
-        if (!put_width(plan, width_of(s, plan, k), &s->width_of[k], &style->line[k].width, &thin))
+        if (!put_width(plan, width_of(s, plan, k), &s->width_of[k], &style->line[k].width, &met))
             return false;
         for (int level = 0; level < DP_LEVELS; level++) {
             const tool_length *const given = &s->hidden_width[level][k];
             const double px = fmax((double)page_length(plan, given), thinnest);
             float *const to = &style->hidden.line[level][k].width;
             *to = (float)hidden_width(s, plan, style->hidden.look, k);
-            if (given->unit && !put_width(plan, px, given, to, &thin)) return false;
+            if (given->unit && !put_width(plan, px, given, to, &met)) return false;
         }
     }
-    if (thin && !s->quiet)
-        warn("--width: lines are at least half a pixel wide, %.3g mm at %.0f dpi; give a larger "
-             "--dpi for finer ones",
-             thinnest * plan->mm_per_px, 25.4 / plan->mm_per_px);
+    if (!s->quiet) warn_limits(plan, &met);
     return true;
 }

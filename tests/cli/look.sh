@@ -4,7 +4,7 @@
 
 look_tests="weights weights_of_sizes weights_on_paper shares_of_the_picture wrong_shares
     colors_by_name colors_with_alpha wrong_colors options_without_effect options_with_effect presets_change_nothing_unasked
-    angles_that_overlap lengths_of_strokes gaps_and_paths"
+    angles_that_overlap lengths_of_strokes gaps_and_paths presets_of_sizes technical"
 
 # weights_of TRACE: the classes of a trace with their widths, in order: "border 3 silhouette 3 ...".
 weights_of() {
@@ -61,6 +61,8 @@ shares_of_the_picture() {
     run 0 shape:bracket -q --page A4-landscape --dpi 254 -o share.svg --width 0.5%
     run 0 shape:bracket -q --page A4-landscape --dpi 254 -o mm.svg --width 1.05mm
     cmp -s share.svg mm.svg || fail "0.5 % of A4 are not 1.05 mm"
+    run 0 shape:cube -q --view front --ortho 0 --scale 50:1 --margin 0 --dpi 254 --width 1% -o trace=wrapped.txt
+    grep -q 'width 10\.11 ' wrapped.txt || fail "1 % of a page made for the drawing: $(weights_of wrapped.txt)"
     run 0 shape:bracket -q --size 400x400 --hidden dashed --hidden-width 0.5% -o trace=hidden.txt
     says hidden.txt "level 1 width 2 "
     run 0 shape:bracket -q --size 400x400 --min-length 5% -o share.svg
@@ -70,10 +72,10 @@ shares_of_the_picture() {
 wrong_shares() {
     wrong shape:cube -o out.png --width 0% -- 'give above 0% and at most 100%'
     wrong shape:cube -o out.png --width % -- 'is not a width'
-    wrong shape:cube -o out.png --width 20% -- '20% of 1200 pixels are 240, and 64 are the most'
-    wrong shape:cube -o out.svg --scale 1:1 --width 1% -- 'has nothing to be a share of'
+    run 0 shape:cube -o thick.png --width 20%
+    says err 'lines are at most 64 pixels wide, 5.3% of 1200'
+    one_line
     wrong shape:cube -o out.svg --tolerance 101% -- 'give 0% to 100%'
-    run 0 shape:cube -o in.svg --scale 1:1 --page A4 --width 1%
 }
 
 # same TEXT FIRST... -- SECOND...: the same picture of a cube twice.
@@ -279,4 +281,30 @@ gaps_and_paths() {
     cmp -s dashes.svg with.svg || fail "the paths differ beside a picture"
     run 0 shape:bracket -q --size 240x180 --edges adjacency --ink strokes --stroke dots -o dots.svg
     run 0 shape:bracket -q --size 240x180 --edges adjacency --stroke dots -o dots.svg
+}
+
+# Presets keep their look at all sizes, and go with pages, scales and sheets.
+presets_of_sizes() {
+    local preset
+    for preset in technical illustration cartoon engraving blueprint sketch pencil patent; do
+        run 0 shape:bolt -q --preset $preset --size 32x32 -o small.png
+        run 0 shape:bolt -q --preset $preset --scale 10:1 --dpi 40 -o scaled.png -o scaled.svg
+        run 0 shape:bolt -q --preset $preset --page A5 --dpi 40 -o page.png -o page.pdf
+        run 0 shape:bolt -q --preset $preset --sheet front,iso --dpi 40 -o sheet.png -o sheet.dxf
+    done
+    weighs "silhouette 6" --lines silhouette --preset cartoon --size 1000x1000
+    weighs "silhouette 30" --lines silhouette --preset cartoon --size 5000x5000
+}
+# Black lines of three weights, dashed where they are hidden; the Gooch shading that it once had is illustration.
+technical() {
+    run 0 shape:bracket --size 1000x1000 --preset technical -o trace=technical.txt -o technical.svg
+    silent out
+    [ "$(grep -v 'level [1-9]' technical.txt | weights_of /dev/stdin)" = "ridge 1.5 silhouette 3 " ] ||
+        fail "widths: $(weights_of technical.txt)"
+    says technical.txt "level 1 width 0.9 color #000000ff"
+    says technical.svg stroke-dasharray
+    run 0 shape:bracket --size 160x160 --preset illustration -o one.png
+    run 0 shape:bracket --size 160x160 --preset technical -o other.png
+    silent err
+    cmp -s one.png other.png && fail "technical is illustration"
 }

@@ -937,7 +937,7 @@ mirrors() {
     wrong shape:bolt -o out.png --mirror 0,1,0,1,2 -- "not a plane"
 }
 presets() {
-    for preset in technical cartoon engraving blueprint sketch patent; do
+    for preset in technical illustration cartoon engraving blueprint sketch patent; do
         run 0 shape:bolt -o $preset.png --size 120x90 --preset $preset
         silent err
         is_png $preset.png
