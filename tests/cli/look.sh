@@ -299,7 +299,7 @@ presets_of_sizes() {
 technical() {
     run 0 shape:bracket --size 1000x1000 --preset technical -o trace=technical.txt -o technical.svg
     silent out
-    [ "$(grep -v 'level [1-9]' technical.txt | weights_of /dev/stdin)" = "ridge 1.5 silhouette 3 " ] ||
+    [ "$(grep -v "level [1-9]" technical.txt | weights_of /dev/stdin)" = "ridge 1.5 silhouette 3 valley 1.5 " ] ||
         fail "widths: $(weights_of technical.txt)"
     says technical.txt "level 1 width 0.9 color #000000ff"
     says technical.svg stroke-dasharray
