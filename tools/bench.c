@@ -73,7 +73,7 @@ static int measure(const tool_settings *s, bench *b) {
     if (!code) code = page_make(s, b->source, &extent, &plan);
     if (!code && !page_widths(s, &plan, &style)) code = EXIT_USAGE;
     if (!code) look_deepen(&style, &extent, camera);
-    if (!code) code = make_stroke(s, &style, &b->texture);
+    if (!code) code = make_stroke(s, &plan, &style, &b->texture);
     if (!code) code = look_make(s, b->source, &b->look, &style);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);

@@ -24,9 +24,9 @@ int make_camera(const tool_settings *s, const dp_extent *extent, double aspect, 
 /* All but the lines' widths, which the page says (page.h). */
 dp_style make_style(const tool_settings *s);
 /* Fills style->stroke; the caller destroys *texture. 0, or the exit code after a message. */
-int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture);
-/* Warns if stroke options are given for lines that have no strokes. */
-void warn_strokeless(const tool_settings *s, const dp_style *style);
+struct page_plan;
+int make_stroke(const tool_settings *s, const struct page_plan *plan, dp_style *style,
+                dp_texture **texture);
 /* The target's size and samples; no planes yet. */
 dp_target make_target(const tool_settings *s);
 

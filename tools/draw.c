@@ -52,19 +52,6 @@ static int make_page(const tool_settings *s, drawing *d) {
     return 0;
 }
 
-/* Says which options change nothing in what is drawn. */
-static void warn_unused(const tool_settings *s, const drawing *d) {
-    if (d->style.hidden.look == DP_HIDDEN_NONE && !s->sheet.count &&
-        (s->levels || s->hidden_smooth))
-        warn("%s is of hidden lines: add --hidden dashed to draw them",
-             s->levels ? "--levels" : "--hidden-smooth");
-    if (!d->paths && (s->optimize || s->join_classes || s->keep_coincident))
-        warn("%s is of vector files: add -o drawing.svg, say", s->optimize ? "--optimize"
-                                                               : s->join_classes
-                                                                   ? "--join-classes"
-                                                                   : "--keep-coincident");
-}
-
 /* Everything but the drawing itself; fills in what all views share. */
 static int prepare(const tool_settings *s, drawing *d, const dp_extent *extent) {
     const dp_context_desc desc = {
@@ -80,7 +67,7 @@ static int prepare(const tool_settings *s, drawing *d, const dp_extent *extent) 
     if (!page_widths(s, &d->plan, &d->style)) return EXIT_USAGE;
     for (int k = 0; k < d->plan.view_count; k++)
         look_deepen(&d->style, &seen, &d->plan.views[k].camera);
-    code = make_stroke(s, &d->style, &d->texture);
+    code = make_stroke(s, &d->plan, &d->style, &d->texture);
     if (code) return code;
     code = look_make(s, d->source, &d->look, &d->style);
     d->target.samples = make_target(s).samples;
@@ -89,9 +76,7 @@ static int prepare(const tool_settings *s, drawing *d, const dp_extent *extent) 
     if (!code) code = make_page(s, d);
     if (code) return code;
     if (!s->quiet && d->style.shade.model_colors) warn_source(dp_source_color_remark(d->source));
-    if (!s->quiet && d->pixels) warn_strokeless(s, &d->style);
     if (d->paths) paths_warn(s, &d->style);
-    if (!s->quiet) warn_unused(s, d);
     return dp_context_create(&desc, &d->context, &diag) ? report_failure(NULL, &diag) : 0;
 }
 

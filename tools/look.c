@@ -1,6 +1,7 @@
 /* From settings to shading, edge map and mirror: words to values, textures from PNG files, names to
  * groups. */
 #include "look.h"
+#include "colors.h"
 #include "report.h"
 
 #include <drypoint/io.h>
@@ -144,6 +145,9 @@ int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_sty
     if (s->shading > 2) shade->shading = (dp_shading)(s->shading - 1);
     const bool lit = shade->shading != DP_SHADING_FLAT && shade->shading != DP_SHADING_PAPER;
     shade->model_colors = s->model_colors ? s->model_colors == SWITCH_ON : lit && !s->style.surface;
+    if (style->surface && style->surface != DP_COLOR_NONE)
+        style->surface =
+            color_over(style->surface, style->paper ? style->paper : DP_RGB(255, 255, 255));
     if (s->has_light) from_angles(s->light, shade->light);
     if (s->normals) shade->normals = (dp_normals)(s->normals - 1);
     shade->crease_angle = (float)s->crease_angle;
@@ -208,10 +212,11 @@ void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
     m->offset = offset;
     m->size = (float)(s->mirror_size > 0 ? s->mirror_size : 1.5 * largest);
     m->fade = (float)s->mirror_fade;
-    m->tint = s->mirror_tint;
-    m->tint_share = (float)(s->mirror_tint_share > 0 ? s->mirror_tint_share
+    m->tint = s->mirror_tint ? s->mirror_tint | 0xFF : 0;
+    m->tint_share = (float)(s->has_mirror_tint_share ? s->mirror_tint_share
                             : s->mirror_tint         ? 0.25
                                                      : 0);
+    if (s->mirror_tint) m->tint_share *= (float)(s->mirror_tint & 0xFF) / 255;
     const double off = n[0] * m->center[0] + n[1] * m->center[1] + n[2] * m->center[2] - offset;
     for (int i = 0; i < 8; i++) /* corners of a box around the mirror */
         for (int k = 0; k < 3; k++) {

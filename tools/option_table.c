@@ -30,18 +30,18 @@ const option option_table[] = {
      "with their edges and what ends them. segments=FILE.json writes the paths of the drawing."},
     {"format", 0, "png|svg|pdf|eps|dxf|json", OPTION_WORD, GROUP_PICTURE, DRAW, AT(format), 0, 0, 0,
      "How outputs are written whose name does not end so: -, devices and pipes. Default: png."},
-    {"preset", 0, "technical|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
+    {"preset", 0, "technical|illustration|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
      "A look: options that go together; those on the command line change it."},
     {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,
      "Width and height of the picture in pixels. Default: 1600x1200. With --page, the page says it."},
     {"samples", 0, "1|4|8|16", OPTION_WORD, GROUP_PICTURE, PICTURE, AT(samples), 0, 0, 0,
      "Samples per pixel. Default: 4."},
-    {"paper", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
+    {"paper", 0, "COLOR|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
      "Colour of the background; none is transparent. Default: white."},
-    {"surface", 0, "#RRGGBB|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.surface), 0, 0, 0,
-     "Colour of the model's faces; none lets the paper show through, but still hides lines. "
-     "Default: white."},
+    {"surface", 0, "COLOR|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.surface), 0, 0, 0,
+     "Colour of the model's faces; none lets the paper show through, but still hides lines; "
+     "with alpha it is mixed with the paper. Default: white."},
 
     {"page", 0, "NAME|WxHmm|none", OPTION_PAGE, GROUP_PAGE, DRAW, AT(page), 0, 0, 0,
      "Draw on a page: A0 to A5, letter, legal, tabloid, or a size like 200x100mm (or cm, in). A4-landscape and "
@@ -95,11 +95,13 @@ const option option_table[] = {
     {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
     {"width", 0, "W or CLASS=W,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(width_of), 0, 0.5, 64,
-     "Whole width of the lines, of all classes or of each: pixels, or 0.5mm or 1pt. Default: 2; on pages 0.35mm, and "
-     "0.5mm on sheets."},
-    {"color", 0, "#RRGGBB or CLASS=#RRGGBB,...",
+     "Whole width of the lines, of all classes or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
+     "pixels), or 0.2%, a share of the picture's smaller side. Default: outlines and borders 0.25%, the others half of "
+     "it; on pages 0.5mm and 0.25mm, on sheets 0.5mm."},
+    {"color", 0, "COLOR or CLASS=COLOR,...",
      OPTION_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
-     "Colour of the lines, of all classes or of each. Default: black."},
+     "Colour of the lines, of all classes or of each: #RRGGBB or #RGB, with alpha #RRGGBBAA or #RGBA, or a CSS name "
+     "like steelblue. Default: black."},
     {"ridge-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(ridge_angle), 0, 0, 360,
      "Edges whose dihedral angle is at most this are ridges; 180 is flat. Default: 150."},
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
@@ -115,14 +117,14 @@ const option option_table[] = {
      "With --hidden: draw folds of less than 40 degrees as well."},
     {"hidden-width", 0, "W or [CLASS][:LEVEL]=W,...",
      OPTION_HIDDEN_WIDTHS, GROUP_LINES, PICTURE, AT(hidden_width), 0, 0.5, 64,
-     "Width of hidden lines, of all, or of a class, a level or both, as in ridge:2=1mm. Default: half the visible "
-     "line's; with --hidden solid, the same."},
-    {"hidden-color", 0, "#RRGGBB or [CLASS][:LEVEL]=#RRGGBB,...",
+     "Width of hidden lines, of all, or of a class, a level or both, as in ridge:2=1mm. Default: that of ridges; half of "
+     "a --width, or of that with --hidden thin; with --hidden solid, the visible line's."},
+    {"hidden-color", 0, "COLOR or [CLASS][:LEVEL]=COLOR,...",
      OPTION_HIDDEN_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of hidden lines, in the same way. Default: the visible line's."},
 
     {"join", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(join), 0, 0, 10000,
-     "Close gaps between paths up to this (or 0.5mm, 1pt); 0 closes none. Default: 2."},
+     "Close gaps between paths up to this (or 0.5mm, 1pt, 0.2%); 0 closes none. Default: 2."},
     {"min-length", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(min_length), 0, 0, 10000,
      "Leave out paths shorter than this; 0 leaves out none. Default: 1."},
     {"tolerance", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(tolerance), 0, 0, 10000,
@@ -145,11 +147,11 @@ const option option_table[] = {
      "Polar: weight of the distance, per half a picture height; 0 for round models. Default: 0.5."},
     {"stroke-scale", 0, "F", OPTION_INSIDE, GROUP_STROKES, PICTURE, AT(stroke_scale), 0, 0, 1000,
      "How many times longer than natural textures are. Default: 1."},
-    {"taper", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(taper), AT(has_taper), 0, 10000,
-     "Strokes thin out over this length at both ends. Default: what suits --stroke."},
-    {"jitter", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(jitter), AT(has_jitter), 0, 64,
+    {"taper", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(taper), 0, 0, 10000,
+     "Strokes thin out over this length (or 5mm, 10pt, 1%) at both ends. Default: what suits --stroke."},
+    {"jitter", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(jitter), 0, 0, 64,
      "How far the hand is off the line, about. Default: what suits --stroke."},
-    {"overshoot", 0, "PX", OPTION_NUMBER, GROUP_STROKES, PICTURE, AT(overshoot), AT(has_overshoot), 0, 1000,
+    {"overshoot", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(overshoot), 0, 0, 1000,
      "How far strokes run on beyond their ends. Default: what suits --stroke."},
     {"repeats", 0, "N", OPTION_COUNT, GROUP_STROKES, PICTURE, AT(repeats), 0, 1, 8,
      "Draw each line so often, each time with other small errors. Default: 1."},
@@ -200,7 +202,7 @@ const option option_table[] = {
      "Strokes lie on the picture, or stick to the surface. Default: screen."},
     {"hatch-scale", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(hatch_scale), 0, 0.05, 50,
      "2: strokes twice as wide and as far apart. Default: 1."},
-    {"hatch-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(hatch_color), 0, 0, 0,
+    {"hatch-color", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(hatch_color), 0, 0, 0,
      "Colour of strokes and dots. Default: black."},
 
     {"edges", 0, "emergent|adjacency|map|both|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(edges), 0, 0, 0,
@@ -214,9 +216,9 @@ const option option_table[] = {
      "Side of the mirror, in the model's units. Default: half as much again as the model's largest side."},
     {"mirror-fade", 0, "S", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_fade), 0, 0, 1e30,
      "Distance from the mirror at which images have faded away. Default: they do not fade."},
-    {"mirror-tint", 0, "#RRGGBB", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(mirror_tint), 0, 0, 0,
+    {"mirror-tint", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(mirror_tint), 0, 0, 0,
      "Colour of the mirror. Default: white."},
-    {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), 0, 0, 1,
+    {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), AT(has_mirror_tint_share), 0, 1,
      "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
 
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
@@ -243,9 +245,9 @@ const option option_table[] = {
      "Step in distance, in pixel sizes, that makes a whole profile edge. Default: 6."},
     {"profile-softness", 0, "F", OPTION_NUMBER, GROUP_EDGE_MAP, PICTURE, AT(profile_softness), 0, 0.001, 1,
      "How slowly profile edges become strong. Default: 0.5."},
-    {"inner-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(inner_color), 0, 0, 0,
+    {"inner-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(inner_color), 0, 0, 0,
      "Colour of inner edges. Default: black."},
-    {"profile-color", 0, "#RRGGBB", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
+    {"profile-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
      "Colour of profile edges. Default: black."},
     {"enhance", 0, "NAME,...", OPTION_TEXT, GROUP_EDGE_MAP, PICTURE, AT(enhance), 0, 0, 0,
      "Only these objects, groups or materials have edges from the map. Default: all."},
@@ -303,6 +305,7 @@ const option option_table[] = {
      "Print the man page."},
 };
 const size_t option_count = sizeof option_table / sizeof *option_table;
+_Static_assert(sizeof option_table / sizeof *option_table <= OPTIONS_MOST, "make OPTIONS_MOST more");
 
 const command_text command_table[COMMAND_COUNT] = {
     [COMMAND_DRAW] = {"",

@@ -1,4 +1,5 @@
 /* Parses values of options, strictly. Errors name the option, the bad value and valid ones. */
+#include "colors.h"
 #include "options.h"
 #include "report.h"
 
@@ -274,27 +275,8 @@ static bool store_lines(const option *o, const char *value, dp_style *style) {
 
 /* ---- colours ---- */
 
-/* #RRGGBB, or #RGB for short. */
-static bool read_color(const char *text, const char *end, dp_color *color) {
-    const size_t n = (size_t)(end - text);
-    if ((n != 7 && n != 4) || *text != '#') return false;
-    if (strspn(text + 1, "0123456789abcdefABCDEF") < n - 1) return false;
-    char digits[8];
-    memcpy(digits, text + 1, n - 1);
-    digits[n - 1] = 0;
-    const unsigned long rgb = strtoul(digits, NULL, 16);
-    const unsigned long r = rgb >> 8 & 15, g = rgb >> 4 & 15, b = rgb & 15;
-    *color = n == 7 ? (dp_color)(rgb << 8 | 0xFF) : DP_RGB(17 * r, 17 * g, 17 * b);
-    return true;
-}
-
 static bool store_color(const option *o, const char *value, dp_color *to) {
-    if (!strcmp(value, "none"))
-        *to = DP_COLOR_NONE;
-    else if (!read_color(value, end_of(value), to))
-        return wrong_usage("--%s: \"%s\" is not a colour; give one like #3060A0, or none", o->name,
-                           value);
-    return true;
+    return color_read(value, end_of(value), to) || color_wrong(o->name, value, end_of(value));
 }
 
 /* ---- CLASS=VALUE,… ---- */
@@ -307,15 +289,19 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
     tool_length width = {0};
     dp_color color = 0;
     const int n = (int)(end - text);
-    if (o->kind == OPTION_COLORS && !read_color(text, end, &color))
-        return wrong_usage("--%s: \"%.*s\" is not a colour; give one like #3060A0", o->name, n,
-                           text);
+    if (o->kind == OPTION_COLORS && !color_read(text, end, &color))
+        return color_wrong(o->name, text, end);
     if (o->kind == OPTION_WIDTHS && !read_length(text, end, &width))
-        return wrong_usage("--%s: \"%.*s\" is not a width; give pixels like 2.5, or 0.5mm or 1pt",
-                           o->name, n, text);
+        return wrong_usage(
+            "--%s: \"%.*s\" is not a width; give pixels like 2.5, or 0.5mm or 1pt, or "
+            "0.2%% of the picture",
+            o->name, n, text);
     if (width.unit == LENGTH_PX && (width.value < o->least || width.value > o->most))
         return wrong_usage("--%s: %.*s is out of range; give %g to %g pixels", o->name, n, text,
                            o->least, o->most);
+    if (width.unit == LENGTH_SHARE && !(width.value > 0 && width.value <= 1))
+        return wrong_usage("--%s: %.*s is out of range; give above 0%% and at most 100%%", o->name,
+                           n, text);
     if (width.unit == LENGTH_MM && !(width.value > 0 && width.value <= WIDEST))
         return wrong_usage("--%s: %.*s is out of range; give above 0 and at most %d mm", o->name, n,
                            text, WIDEST);

@@ -78,6 +78,7 @@ static bool take_option(walk *w, const option *o, const char *value) {
         return wrong_usage("option --%s takes no value; leave out \"=%s\"", o->name, value);
     if (!find_value(w, o, &value)) return false;
     if (o->given) *((bool *)((char *)w->settings + o->given)) = true;
+    w->settings->given[o - option_table] |= !w->of_preset;
     return option_store(o, value, w->settings);
 }
 
@@ -187,5 +188,8 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
         const int word = word_index(command_words, w.argv[w.at]);
         if (word) settings->command = (tool_command)word;
     }
-    return settings->question || options_check(settings);
+    if (settings->question) return true;
+    if (!options_check(settings)) return false;
+    options_warn(settings);
+    return true;
 }

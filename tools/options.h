@@ -27,6 +27,19 @@ enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, 
 enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
 enum { HIDDEN_DASHED = 1, HIDDEN_DOTTED, HIDDEN_THIN, HIDDEN_SOLID, HIDDEN_NONE };
+enum { INK_STROKES = 1, INK_QUADS };
+enum {
+    SHADING_PAPER = 1,
+    SHADING_FLAT,
+    SHADING_LAMBERT,
+    SHADING_GOOCH,
+    SHADING_TOON,
+    SHADING_HATCH,
+    SHADING_HALFTONE,
+    SHADING_PENCIL
+};
+enum { EDGE_MAP_DIAGONAL = 1, EDGE_MAP_C1 };
+enum { MEASURE_SCALED = 1, MEASURE_PAPER };
 enum { EDGES_EMERGENT = 1, EDGES_ADJACENCY, EDGES_MAP, EDGES_BOTH, EDGES_NONE };
 
 enum { UNIT_MM = 1, UNIT_CM, UNIT_M, UNIT_IN, UNIT_FT };
@@ -47,10 +60,11 @@ typedef enum output_plane {
 } output_plane;
 extern const char *const output_names[OUTPUT_COUNT];
 
-enum { FILES_MOST = 16 };
+enum { FILES_MOST = 16, OPTIONS_MOST = 192 };
 
-/* A length on paper or screen; not given: value and unit are 0. */
-typedef enum length_unit { LENGTH_NONE = 0, LENGTH_PX, LENGTH_MM } length_unit;
+/* A length on paper or screen; not given: value and unit are 0. A share is of the picture's, or
+ * page's, smaller side. */
+typedef enum length_unit { LENGTH_NONE = 0, LENGTH_PX, LENGTH_MM, LENGTH_SHARE } length_unit;
 
 typedef struct tool_length {
     double value;
@@ -84,8 +98,9 @@ typedef struct tool_sheet {
 typedef struct tool_settings {
     tool_command command;
     question question;
-    const char *model;             /* of make: the shape's name */
-    const char *output;            /* of make */
+    bool given[OPTIONS_MOST]; /* on the command line itself: by the option's place in its table */
+    const char *model;        /* of make: the shape's name */
+    const char *output;       /* of make */
     const char *files[FILES_MOST]; /* of drawing */
     uint32_t file_count;
     int format, ground; /* words */
@@ -131,8 +146,9 @@ typedef struct tool_settings {
     int pencil_turns;   /* word */
     const char *stroke; /* a name, or a PNG file */
     int stroke_u;       /* word */
-    double stroke_k, stroke_scale, taper, jitter, overshoot, width_by_depth, width_by_light;
-    bool has_stroke_k, has_taper, has_jitter, has_overshoot;
+    double stroke_k, stroke_scale, width_by_depth, width_by_light;
+    tool_length taper, jitter, overshoot;
+    bool has_stroke_k;
     uint32_t repeats;
     int preset;  /* word; its options come first */
     int shading; /* word */
@@ -152,7 +168,7 @@ typedef struct tool_settings {
     dp_color inner_color, profile_color;
     const char *enhance;
     double mirror[4]; /* normal, offset */
-    bool has_mirror, has_mirror_offset;
+    bool has_mirror, has_mirror_offset, has_mirror_tint_share;
     double mirror_size, mirror_fade, mirror_tint_share;
     dp_color mirror_tint;
     const char *outputs[OUTPUT_COUNT]; /* files */
@@ -259,6 +275,11 @@ const char *nearest_word(const char *words, const char *word, char *best, size_t
 
 /* Do the settings say enough, and no two of them different things? A message on stderr if not. */
 bool options_check(const tool_settings *settings);
+
+/* Says on stderr which given options change nothing beside the others (option_effects.c). */
+void options_warn(const tool_settings *settings);
+/* Was the option given on the command line itself, not by a preset? */
+bool option_given(const tool_settings *settings, const char *name);
 
 /* Which of `words` ("exact|paper") is the word, from 1; 0: none. */
 int word_index(const char *words, const char *word);

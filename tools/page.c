@@ -22,8 +22,7 @@
 
 enum { PIXELS_MOST = 32768 };
 
-static const double usual_margins[4] = {10, 10, 10, 10};   /* mm */
-static const double usual_width = 0.35, sheet_width = 0.5; /* mm */
+static const double usual_margins[4] = {10, 10, 10, 10}; /* mm */
 
 /* ---- scales ---- */
 
@@ -55,58 +54,6 @@ void page_scale_text(double scale, char text[32]) {
         snprintf(text, 32, "%.10g:1", scale);
     else
         snprintf(text, 32, "1:%.10g", 1 / scale);
-}
-
-/* ---- lines ---- */
-
-float page_length(const page_plan *plan, const tool_length *length) {
-    if (length->unit == LENGTH_NONE) return 0;
-    if (!(length->value > 0)) return -1;
-    return (float)(length->unit == LENGTH_MM ? length->value / plan->mm_per_px : length->value);
-}
-
-static const double thinnest = 0.5, thickest = 64; /* px */
-
-static double width_of(const tool_settings *s, const page_plan *plan, int line) {
-    const double given = (double)page_length(plan, &s->width_of[line]);
-    if (given > 0) return fmax(given, thinnest);
-    return plan->line_width > 0 ? fmax(plan->line_width / plan->mm_per_px, thinnest) : 2;
-}
-
-double page_widest(const tool_settings *s, const page_plan *plan) {
-    double widest = 0;
-    for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmax(widest, width_of(s, plan, k));
-    return widest * plan->mm_per_px;
-}
-
-/* Stores a width, and notes whether it had to be made larger. */
-static bool put_width(const page_plan *plan, double px, const tool_length *given, float *to,
-                      bool *thin) {
-    *thin |= given->unit == LENGTH_MM && px > (double)page_length(plan, given) + 1e-3;
-    *to = (float)px;
-    return px <= thickest ||
-           wrong_usage("--width: %g mm are %.0f pixels at %.0f dpi, and %.0f are the most; give a "
-                       "smaller --dpi",
-                       px * plan->mm_per_px, px, 25.4 / plan->mm_per_px, thickest);
-}
-
-bool page_widths(const tool_settings *s, const page_plan *plan, dp_style *style) {
-    bool thin = false;
-    for (int k = 0; k < DP_LINE_COUNT; k++) {
-        if (!put_width(plan, width_of(s, plan, k), &s->width_of[k], &style->line[k].width, &thin))
-            return false;
-        for (int level = 0; level < DP_LEVELS; level++) {
-            const tool_length *const given = &s->hidden_width[level][k];
-            const double px = fmax((double)page_length(plan, given), thinnest);
-            float *const to = &style->hidden.line[level][k].width;
-            if (given->unit && !put_width(plan, px, given, to, &thin)) return false;
-        }
-    }
-    if (thin && !s->quiet)
-        warn("--width: lines are at least half a pixel wide, %.3g mm at %.0f dpi; give a larger "
-             "--dpi for finer ones",
-             thinnest * plan->mm_per_px, 25.4 / plan->mm_per_px);
-    return true;
 }
 
 /* ---- what lies on the page ---- */
@@ -233,11 +180,20 @@ static int lie_on_page(picture *p) {
     return code ? code : place(p);
 }
 
-/* The page is as large as the drawing and its margins, in whole pixels. */
+static uint32_t some_pixels(const picture *p, double mm) {
+    return (uint32_t)fmin(fmax(round(mm / p->plan->mm_per_px), 1), PIXELS_MOST);
+}
+
+/* The page is as large as the drawing and its margins, in whole pixels. Widths that are shares of it
+ * are, for now, of what it is without its lines. */
 static int wrap_drawing(picture *p) {
     const double mm = p->plan->mm_per_px;
     double m[4];
     for (int k = 0; k < 4; k++) m[k] = mm * round(page_margins(p->s)[k] / mm);
+    p->plan->width =
+        some_pixels(p, m[MARGIN_LEFT] + view_box_width(&p->box) * p->mm_per_unit + m[MARGIN_RIGHT]);
+    p->plan->height = some_pixels(p, m[MARGIN_TOP] + view_box_height(&p->box) * p->mm_per_unit +
+                                         m[MARGIN_BOTTOM]);
     p->left = m[MARGIN_LEFT], p->top = m[MARGIN_TOP];
     p->mm_width = mm * ceil(drawn_width(p, p->mm_per_unit) / mm);
     p->mm_height = mm * ceil(drawn_height(p, p->mm_per_unit) / mm);
@@ -346,7 +302,6 @@ int page_make(const tool_settings *s, dp_source *source, const dp_extent *extent
     const uint32_t dpi = s->dpi ? s->dpi : plan->paged ? 150 : 96;
     plan->mm_per_px = 25.4 / dpi;
     plan->dpi = s->dpi || plan->paged ? dpi : 0;
-    if (plan->paged) plan->line_width = s->sheet.count ? sheet_width : usual_width;
     return s->sheet.count ? sheet_make(s, source, extent, plan)
                           : make_picture(s, source, extent, plan);
 }

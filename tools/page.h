@@ -18,9 +18,8 @@ typedef struct page_plan {
     uint32_t width, height;     /* px, of the page */
     double mm_width, mm_height; /* of the page; 0: the picture's */
     double mm_per_px;
-    double line_width; /* mm, of lines whose width is not given; 0: 2 px */
-    uint32_t dpi;      /* for PNG; 0: it does not say */
-    bool paged;        /* lengths are told in mm */
+    uint32_t dpi; /* for PNG; 0: it does not say */
+    bool paged;   /* lengths are told in mm */
     page_view views[SHEET_MOST];
     int view_count;
     dp_page_rule rules[RULES_MOST];

@@ -10,31 +10,40 @@
 
 typedef struct unit {
     const char *name;
-    double mm; /* 0: pixels */
+    length_unit kind;
+    double factor; /* mm, or the share */
 } unit;
 
-static const unit units[] = {{"px", 0}, {"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}};
+static const unit units[] = {{"px", LENGTH_PX, 1},         {"mm", LENGTH_MM, 1},
+                             {"cm", LENGTH_MM, 10},        {"in", LENGTH_MM, 25.4},
+                             {"pt", LENGTH_MM, 25.4 / 72}, {"%", LENGTH_SHARE, 0.01}};
 
 /* The unit that [text, end) ends in, or NULL. */
 static const unit *unit_at_end(const char *text, const char *end) {
-    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-        if (end - text >= 2 && !strncmp(end - 2, units[k].name, 2)) return &units[k];
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
+        const size_t n = strlen(units[k].name);
+        if ((size_t)(end - text) >= n && !strncmp(end - n, units[k].name, n)) return &units[k];
+    }
     return NULL;
 }
 
 bool read_length(const char *text, const char *end, tool_length *length) {
-    const unit *const u = unit_at_end(text, end);
+    static const unit pixels = {"", LENGTH_PX, 1};
+    const unit *const found = unit_at_end(text, end), *const u = found ? found : &pixels;
     double number;
-    if (!read_number(text, u ? end - 2 : end, &number)) return false;
-    const bool on_paper = u && u->mm > 0;
-    *length = (tool_length){on_paper ? number * u->mm : number, on_paper ? LENGTH_MM : LENGTH_PX};
+    if (!read_number(text, end - strlen(u->name), &number)) return false;
+    *length = (tool_length){number * u->factor, u->kind};
     return true;
 }
 
 bool store_length(const option *o, const char *value, tool_length *to) {
     if (!read_length(value, value + strlen(value), to))
-        return wrong_usage("--%s: \"%s\" is not a length; give pixels like 2.5, or 0.5mm or 1pt",
-                           o->name, value);
+        return wrong_usage(
+            "--%s: \"%s\" is not a length; give pixels like 2.5, or 0.5mm or 1pt, or "
+            "0.2%%",
+            o->name, value);
+    if (to->unit == LENGTH_SHARE && !(to->value >= 0 && to->value <= 1))
+        return wrong_usage("--%s: %s is out of range; give 0%% to 100%%", o->name, value);
     if (to->value >= o->least && to->value <= o->most) return true;
     return wrong_usage("--%s: %s is out of range; give %g to %g", o->name, value, o->least,
                        o->most);
@@ -81,13 +90,13 @@ static bool store_paper_size(const option *o, const char *value, tool_page *to) 
     const char *const cross = value + strcspn(value, "xX"), *const end = value + strlen(value);
     const unit *const u = unit_at_end(value, end);
     double side[2];
-    if (!u || !(u->mm > 0))
+    if (!u || u->kind != LENGTH_MM)
         return wrong_usage("--%s: \"%s\" has no unit; give one like 200x100mm, or 8x5in", o->name,
                            value);
     if (!read_number(value, cross, &side[0]) || !read_number(cross + 1, end - 2, &side[1]))
         return wrong_usage("--%s: \"%s\" is not a size; give one like 200x100mm", o->name, value);
     for (int k = 0; k < 2; k++) {
-        side[k] *= u->mm;
+        side[k] *= u->factor;
         if (!(side[k] >= smallest && side[k] <= largest))
             return wrong_usage("--%s: %s is out of range; each side can be %g to %g mm", o->name,
                                value, smallest, largest);

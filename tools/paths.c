@@ -164,9 +164,23 @@ static bool has_faces(const dp_style *style) {
     return surface != paper && surface != DP_COLOR_NONE;
 }
 
+static bool is_mixed(dp_color color) { return color && (color & 0xFF) && (color & 0xFF) != 0xFF; }
+
+/* Has any line a colour with alpha? */
+static bool has_alpha(const dp_style *style) {
+    bool any = false;
+    for (int k = 0; k < DP_LINE_COUNT; k++) {
+        any |= is_mixed(style->line[k].color);
+        for (int level = 0; level < DP_LEVELS; level++)
+            any |= is_mixed(style->hidden.line[level][k].color);
+    }
+    return any;
+}
+
 void paths_warn(const tool_settings *s, const dp_style *style) {
-    const bool textured = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
-                          s->repeats > 1 || s->width_by_depth > 0 || s->width_by_light > 0;
+    const bool textured = s->stroke || s->taper.value > 0 || s->jitter.value > 0 ||
+                          s->overshoot.value > 0 || s->repeats > 1 || s->width_by_depth > 0 ||
+                          s->width_by_light > 0;
     const dp_shading shading = style->shade.shading;
     const bool shaded = (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) ||
                         (style->edge_map.detector && !style->edge_map.hidden);
@@ -181,6 +195,9 @@ void paths_warn(const tool_settings *s, const dp_style *style) {
         warn("vector files have no shaded surface: --ground png puts it under the lines");
     else if (has_faces(style) && s->ground != GROUND_PNG)
         warn("vector files have no faces, the paper shows through: --ground png puts them there");
+    if (has_alpha(style) && (files_have(s, DP_FORMAT_EPS) || files_have(s, DP_FORMAT_DXF)))
+        warn("%s has no transparency: colours with alpha are mixed with the paper's",
+             files_have(s, DP_FORMAT_EPS) ? "EPS" : "DXF");
     if (s->has_mirror)
         warn("vector files have no lines of what a mirror shows: only PNGs have them");
 }

@@ -6,25 +6,30 @@
 #include <string.h>
 
 static const preset table[] = {
-    {"technical", "--style gooch --edges both --lines silhouette,border,ridge,valley --width "
-                  "silhouette=3.5,border=3,ridge=1.5,valley=1.5 "
-                  "--color ridge=#FFFFFF,valley=#FFFFFF --inner-color #FFFFFF --surface #B8B8B8 "
-                  "--highlight 0.6"},
+    /* As a drawing office draws: three weights, and what is hidden dashed. */
+    {"technical", "--style paper --color black --hidden dashed --hidden-width 0.09% --width "
+                  "silhouette=0.3%,border=0.3%,ridge=0.15%,valley=0.15%,intersection=0.15%"},
+    /* Gooch et al. 1998: outlines black, creases white, surfaces from cool to warm. */
+    {"illustration", "--style gooch --edges both --lines silhouette,border,ridge,valley --width "
+                     "silhouette=0.5%,border=0.4%,ridge=0.2%,valley=0.2% "
+                     "--color ridge=white,valley=white --inner-color white --surface #B8B8B8 "
+                     "--highlight 0.6"},
     {"cartoon", "--style toon --lines silhouette,border,valley,intersection --width "
-                "silhouette=4,border=4,valley=2,intersection=2 "
+                "silhouette=0.6%,border=0.6%,valley=0.3%,intersection=0.3% "
                 "--surface #F2B04A"},
     {"engraving", "--style hatch --hatch-space object --lines silhouette,border,intersection "
-                  "--width silhouette=2.5 "
+                  "--width silhouette=0.4%,border=0.4%,intersection=0.3% "
                   "--surface #FBF6E9 --paper #FBF6E9 --hatch-color #2A2018 --color #2A2018"},
     {"blueprint", "--style paper --paper #1F3F7A --color #E8EEF8 --width "
-                  "silhouette=2.5,border=2.5,ridge=1.25,valley=1.25,intersection=1.25"},
+                  "silhouette=0.35%,border=0.35%,ridge=0.175%,valley=0.175%,intersection=0.175%"},
     {"sketch", "--style halftone --hatch-scale 0.6 --hatch-color #9A9A9A --edges map --edge-radius "
                "1 --inner-color #606060 --profile-color #202020"},
     {"pencil",
      "--style pencil --lines silhouette,border,valley,intersection --stroke pencil --width "
      "silhouette=3.5,border=3.5,valley=2.5,intersection=2.5 "
      "--repeats 2 --jitter 1 --overshoot 9 --taper 16 --color #303034 --hatch-color #303034"},
-    {"patent", "--style paper --width silhouette=3,border=3,ridge=1.5,valley=1.5,intersection=1.5"},
+    {"patent", "--style paper --width "
+               "silhouette=0.35%,border=0.35%,ridge=0.175%,valley=0.175%,intersection=0.175%"},
 
     /* ISO 128-2, line group 0.5: visible outlines and edges 0.5 mm, hidden ones 0.25 mm and dashed,
      * 12 widths drawn and 3 not, which is what `dashed` means. */

@@ -1,9 +1,11 @@
 /* --stroke and related options: from settings to a texture and a stroke style. */
 #include "commands.h"
+#include "page.h"
 #include "report.h"
 
 #include <drypoint/io.h>
 
+#include <math.h>
 #include <string.h>
 
 static bool is_known(const char *name) {
@@ -33,7 +35,13 @@ static int load(const tool_settings *s, dp_style *style, dp_texture **texture) {
                                                                : 0;
 }
 
-int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
+/* px; a length of 0 is none, whatever the stroke's kind has. */
+static void put_length(const page_plan *plan, const tool_length *given, float *to) {
+    if (given->unit) *to = fmaxf(page_length(plan, given), 0);
+}
+
+int make_stroke(const tool_settings *s, const page_plan *plan, dp_style *style,
+                dp_texture **texture) {
     *texture = NULL;
     const int code = s->stroke ? load(s, style, texture) : 0;
     if (code) return code;
@@ -43,26 +51,13 @@ int make_stroke(const tool_settings *s, dp_style *style, dp_texture **texture) {
     stroke->u =
         (s->stroke_u ? s->stroke_u == STROKE_POLAR : fins) ? DP_STROKE_POLAR : DP_STROKE_ARC;
     if (s->has_stroke_k) stroke->k = s->stroke_k == 0 ? -1e-9f : (float)s->stroke_k;
-    if (s->has_taper) stroke->taper = (float)s->taper;
-    if (s->has_jitter) stroke->jitter = (float)s->jitter;
-    if (s->has_overshoot) stroke->overshoot = (float)s->overshoot;
+    put_length(plan, &s->taper, &stroke->taper);
+    put_length(plan, &s->jitter, &stroke->jitter);
+    put_length(plan, &s->overshoot, &stroke->overshoot);
     if (s->repeats) stroke->repeats = s->repeats;
     stroke->scale = (float)s->stroke_scale;
     stroke->depth = (float)s->width_by_depth;
     stroke->light = (float)s->width_by_light;
     stroke->seed = s->seed;
     return 0;
-}
-
-/* No option is ignored without a message. */
-void warn_strokeless(const tool_settings *s, const dp_style *style) {
-    const bool asked = s->stroke || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 ||
-                       s->repeats > 1 || s->width_by_depth > 0 || s->width_by_light > 0;
-    if (!asked) return;
-    if (s->edges == EDGES_MAP)
-        warn("an edge map is of pixels and has no strokes: --edges both draws lines with them as "
-             "well");
-    else if (style->ink == DP_INK_QUADS && style->edges != DP_EDGES_ADJACENCY)
-        warn(
-            "with --ink quads lines are plain: leave it out for strokes, or add --edges adjacency");
 }

@@ -151,6 +151,15 @@ int make_camera(const tool_settings *s, const dp_extent *extent, double aspect, 
 
 /* ---- style and target ---- */
 
+/* Lines that would not be seen are not drawn: no pen follows them. */
+static void leave_out_transparent(dp_style *style) {
+    if (style->hidden.look != DP_HIDDEN_NONE) return; /* theirs may be seen */
+    if (!style->lines) style->lines = DP_ALL_LINES;
+    for (int k = 0; k < DP_LINE_COUNT; k++)
+        if (style->line[k].color && !(style->line[k].color & 0xFF)) style->lines &= ~(1u << k);
+    if (!style->lines) style->lines = DP_NO_LINES;
+}
+
 dp_style make_style(const tool_settings *s) {
     dp_style style = s->style;
     style.ridge_angle = (float)s->ridge_angle;
@@ -169,6 +178,7 @@ dp_style make_style(const tool_settings *s) {
     style.passes = s->passes;
     style.cull_back_faces = s->cull_back_faces;
     style.edge_table_off = s->edge_table == SWITCH_OFF;
+    leave_out_transparent(&style);
     return style;
 }
 

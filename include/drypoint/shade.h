@@ -83,7 +83,8 @@ typedef struct dp_shade {
     bool object_space;  /* hatch, halftone: strokes stick to the surface, by texture coordinates
                           or, without any, along the three axes. Default: to the screen */
     float stroke_scale; /* 0 means 1; 2: twice as large */
-    dp_color ink;       /* of strokes and dots; 0 means black */
+    dp_color ink;       /* of strokes, dots and graphite, over the surface by its alpha; 0 means
+                          black */
 
     /* Pencil: brightness ^ ((1 - max(N·L, 0)) S + O) (Hermosilla and Vázquez 2010, 2.4.3). */
     float pencil_s, pencil_o; /* 0 means 2.6, 0.12; negative means 0 */

@@ -134,6 +134,7 @@ static void set_up(dp_shade_store *s, const dp_frame *frame) {
                                   .shades = shade->shades.values,
                                   .shade_count = shade->shades.width};
     for (int k = 0; k < 3; k++) s->setup.ink[k] = (float)(ink >> (24 - 8 * k) & 0xff) / 255;
+    s->setup.ink_alpha = (float)(ink & 0xff) / 255;
     if (s->setup.shades) return;
     s->setup.shades = built_in_shades[0];
     s->setup.shade_count = 8;

@@ -51,7 +51,7 @@ typedef struct dp_shading_setup {
     const dp_hatch_anchor *anchor; /* hatch, halftone; NULL: world space is that of positions */
     const uint8_t *shades;         /* toon: [shade_count][4] */
     uint32_t shade_count;
-    float ink[3];
+    float ink[3], ink_alpha;
 
     /* pencil */
     const dp_frame *frame; /* its polygons */

@@ -53,10 +53,9 @@ static int8_t side_of(const dp_frame *frame, const dp_lines *d, size_t i) {
 }
 
 static bool find_sides(const dp_frame *frame, dp_lines *d) {
-    const bool any = dp_lies_outside(frame);
     if (!dp_reserve(frame->memory, &d->sides, &d->sides_cap, d->count, sizeof *d->sides))
         return false;
-    for (size_t i = 0; i < d->count; i++) d->sides[i] = any ? side_of(frame, d, i) : 0;
+    for (size_t i = 0; i < d->count; i++) d->sides[i] = d->lies_outside ? side_of(frame, d, i) : 0;
     return true;
 }
 
@@ -70,9 +69,7 @@ static double nearest_depth(const dp_lines *d) {
 }
 
 /* Thin extruded lines must not run over what no edge does. */
-static float gap_outside(const dp_frame *f) {
-    return dp_minf(GAP, f->styles[0].line[DP_LINE_SILHOUETTE].width / 4);
-}
+static float gap_outside(const dp_lines *d) { return dp_minf(GAP, d->silhouette_width / 4); }
 
 /* They are chained where their ends are equal, and nowhere else. */
 dp_chain_rule dp_plain_chain_rule(void) { return (dp_chain_rule){.sharpest = TURN}; }
@@ -82,7 +79,7 @@ static dp_chain_rule rule_of(const dp_frame *frame, const dp_lines *d) {
     return (dp_chain_rule){.sharpest = TURN,
                            .side = d->sides,
                            .gap = GAP,
-                           .side_gap = gap_outside(frame),
+                           .side_gap = gap_outside(d),
                            .step = (float)dp_depth_step(&frame->view, nearest_depth(d), 30)};
 }
 

@@ -37,7 +37,10 @@ typedef struct dp_lines {
     dp_color paper, surface; /* of the first style */
     dp_hidden_look hidden_look;
 
-    bool stylizes; /* the style asks for stylized strokes */
+    /* Of the first style, which is no longer there when chains are asked for after the picture. */
+    bool stylizes;          /* it asks for stylized strokes */
+    bool lies_outside;      /* they lie beside their lines, as extruded ones do */
+    float silhouette_width; /* px */
 
     dp_chain_store chains;
     bool chained;  /* `chains` are of these segments, and segments know of their chains */

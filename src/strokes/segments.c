@@ -277,6 +277,8 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *st
     store->chained = false;
     store->inks_hidden = false;
     store->stylizes = dp_is_stylized(frame);
+    store->lies_outside = dp_lies_outside(frame);
+    store->silhouette_width = frame->styles[0].line[DP_LINE_SILHOUETTE].width;
     store->paper = frame->styles[0].paper;
     store->hidden_look = frame->styles[0].hidden.look;
     store->surface = frame->styles[0].surface;

@@ -353,7 +353,7 @@ wrong_values() {
     for value in 0 65 ridge=0.1 ridge= =3 3,; do
         wrong shape:cube --width "$value" -o out.png -- '--width: '
     done
-    for value in red '#12345' '#GGGGGG' ridge=none; do
+    for value in rde '#12345' '#GGGGGG' ridge=nonce; do
         wrong shape:cube --color "$value" -o out.png -- '--color: '
     done
     wrong shape:cube --samples 3 -o out.png -- '1|4|8|16'
@@ -677,9 +677,9 @@ strokes() {
     cmp -s pencil.png polar.png && fail "--stroke-u polar changes nothing"
     silent err
     run 0 shape:gear $small --edges map --stroke pencil -o map.png
-    says err 'warning: an edge map is of pixels and has no strokes'
+    says err 'warning: --stroke changes nothing: an edge map is of pixels and has no strokes'
     run 0 shape:gear $small --ink quads --stroke pencil -o quads.png
-    says err 'warning: with --ink quads lines are plain'
+    says err 'warning: --stroke changes nothing: with --ink quads lines are plain'
     run 0 shape:gear $small --ink quads --stroke pencil --edges adjacency -o quads.png
     silent err
 }
@@ -800,10 +800,10 @@ hidden_lines() {
     done
     cmp -s thin.png solid.png && fail "thin is solid"
     cmp -s dashed.png dotted.png && fail "dashed is dotted"
-    run 0 shape:gear $small -o trace=one.txt --hidden dashed
+    run 0 shape:gear $small -o trace=one.txt --hidden dashed --width 2
     says one.txt 'level 1 width 1'
     grep -q 'level 2' one.txt && fail "there is a second level"
-    run 0 shape:gear $small -o trace=three.txt --hidden dashed --levels 3
+    run 0 shape:gear $small -o trace=three.txt --hidden dashed --width 2 --levels 3
     says three.txt 'level 2 width 1'
     grep -q 'level 4' three.txt && fail "there is a fourth level"
     run 0 shape:gear $small -o trace=looks.txt --hidden solid --levels 3 --hidden-width '1.5,ridge=3,:2=4,ridge:2=5' \
@@ -826,7 +826,7 @@ wrong_hidden_lines() {
     wrong shape:cube -o out.png --hidden-width ridge:=2 -- 'is no level'
     wrong shape:cube -o out.png --hidden-width rigde:1=2 -- 'did you mean ridge?'
     wrong shape:cube -o out.png --hidden-width 100 -- '--hidden-width: 100 is out of range'
-    wrong shape:cube -o out.png --hidden-color :1=red -- '--hidden-color: "red" is not a colour'
+    wrong shape:cube -o out.png --hidden-color :1=rde -- '--hidden-color: "rde" is not a colour; did you mean red?'
     for option in "--ink quads" "--edges adjacency"; do
         "$program" shape:cube $small -o out.png --hidden dashed $option 2>err && fail "$option is allowed"
         one_line
@@ -937,7 +937,7 @@ mirrors() {
     wrong shape:bolt -o out.png --mirror 0,1,0,1,2 -- "not a plane"
 }
 presets() {
-    for preset in technical cartoon engraving blueprint sketch patent; do
+    for preset in technical illustration cartoon engraving blueprint sketch patent; do
         run 0 shape:bolt -o $preset.png --size 120x90 --preset $preset
         silent err
         is_png $preset.png
@@ -1169,8 +1169,8 @@ widths_on_paper() {
     cmp -s mm.png px.png || fail "0.5 mm are not 5 pixels at 254 dpi"
     cmp -s mm.svg px.svg || fail "0.5 mm are not 5 pixels at 254 dpi"
     run 0 shape:cube -q --page A5 --dpi 254 -o usual.svg
-    run 0 shape:cube -q --page A5 --dpi 254 -o same.svg --width 0.35mm
-    cmp -s usual.svg same.svg || fail "the usual width on a page is not 0.35 mm"
+    run 0 shape:cube -q --page A5 --dpi 254 -o same.svg --width 0.25mm,silhouette=0.5mm,border=0.5mm
+    cmp -s usual.svg same.svg || fail "the usual widths on a page are not 0.5 and 0.25 mm"
     run 0 shape:cube -q --page A5 --hidden dashed --hidden-width 0.2mm,ridge:1=0.4mm -o hidden.png
 }
 # boxes FILE: the views of an SVG in mm; the test ends without Python.
@@ -1293,7 +1293,9 @@ paper_presets() {
     svg_size large.svg | grep -q 420mm || fail "options do not change presets: $(svg_size large.svg)"
 }
 
-tests="vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+. "$here/look.sh" # line weights, colours, presets, options without effect
+
+tests="$look_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"

@@ -103,21 +103,24 @@ static void toon_looks_up_the_nearest_shade(void **state) {
     for (int i = 0; i < N; i++) assert_color(&b, i, 0.8 * 0.4, 0.4 * 0.4, 0.2 * 0.4);
 }
 
-/* ink = clamp(1/2 + 5 (priority - tone)) */
+/* ink = alpha clamp(1/2 + 5 (priority - tone)) */
 static void hatching_is_a_smooth_threshold(void **state) {
     (void)state;
     static const uint8_t levels[4] = {0, 100, 200, 255};
-    for (int level = 0; level < 4; level++) {
+    for (int step = 0; step < 8; step++) {
+        const int level = step / 2;
+        const float alpha = step % 2 ? 1 : 0.25f;
         const uint8_t values[4] = {levels[level], levels[level], levels[level], levels[level]};
         bench b;
         begin(&b);
         b.setup.shade.stroke_scale = 1;
         b.setup.strokes = (dp_strokes_texture){values, 2, 2};
-        b.setup.ink[0] = 0.1f;
+        b.setup.ink[0] = 0.1f, b.setup.ink_alpha = alpha;
         plain->styles[DP_SHADING_HATCH](&b.setup, &b.run);
         const double tones[N] = {1.1776, 0.1976, 0.08}, priority = levels[level] / 255.0;
         for (int i = 0; i < N; i++) {
-            const double ink = priority > 0 ? fmin(fmax(0.5 + 5 * (priority - tones[i]), 0), 1) : 0;
+            const double whole = fmin(fmax(0.5 + 5 * (priority - tones[i]), 0), 1),
+                         ink = priority > 0 ? (double)alpha * whole : 0;
             assert_color(&b, i, 0.8 + (0.1 - 0.8) * ink, 0.4 - 0.4 * ink, 0.2 - 0.2 * ink);
         }
     }
@@ -168,8 +171,11 @@ static void shade_run(const dp_shaders *shaders, int style, bool object, bool te
                      .eye = {1, 2, 3},
                      .other = p->other[0] - 10 * DP_TILE};
     for (int i = 0; i < 3; i++) g.rotation[i][(i + 1) % 3] = 1;
-    dp_shading_setup setup = {
-        .g = &g, .strokes = {p->strokes, 37, 21}, .shades = p->shades[0], .shade_count = 5};
+    dp_shading_setup setup = {.ink_alpha = 0.75f,
+                              .g = &g,
+                              .strokes = {p->strokes, 37, 21},
+                              .shades = p->shades[0],
+                              .shade_count = 5};
     setup.shade = (dp_shade){.light = {0.6f, 0, 0.8f},
                              .highlight = 0.3f,
                              .gooch_blue = 0.4f,

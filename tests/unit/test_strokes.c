@@ -341,6 +341,31 @@ static void test_creases_are_drawn_beside_extruded_outlines(void **state) {
     dp_texture_destroy(texture);
 }
 
+/* Textures with gaps are not chained for the picture, but when segments are asked for after it. */
+static void test_dashed_lines_are_chained_after_the_picture(void **state) {
+    (void)state;
+    dp_texture *texture = NULL;
+    dp_context *context = NULL;
+    dp_source *source = NULL;
+    dp_camera camera;
+    assert_int_equal(dp_texture_named("dashes", 0, NULL, &texture, NULL), DP_OK);
+    assert_int_equal(dp_context_create(NULL, &context, NULL), DP_OK);
+    assert_int_equal(dp_source_from_shape(&(dp_shape){.name = "gear"}, &source, NULL), DP_OK);
+    dp_camera_fit(&camera, &(dp_fit){.min = {-1, -1, -1}, .max = {1, 1, 1}});
+    const dp_target target = {.width = WIDTH, .height = HEIGHT};
+    for (int k = 0; k < 2; k++) {
+        size_t count = 0;
+        const dp_style style = {.edges = k ? DP_EDGES_ADJACENCY : DP_EDGES_EMERGENT,
+                                .stroke = {.texture = texture}};
+        assert_int_equal(dp_draw(context, source, &camera, &style, &target, NULL), DP_OK);
+        assert_non_null(dp_segments(context, &count));
+        assert_true(count > 100);
+    }
+    dp_source_destroy(source);
+    dp_context_destroy(context);
+    dp_texture_destroy(texture);
+}
+
 /* Between two dashes or dots there is nothing: a pixel belongs to its nearest mark also where that
  * has no ink. Texels right of the middle are ink, the others none: along any line ink comes and
  * goes once a repeat. */
@@ -464,6 +489,7 @@ int main(void) {
         cmocka_unit_test(test_u_goes_on_along_a_stroke_in_arc_mode),
         cmocka_unit_test(test_the_same_seed_draws_the_same_picture),
         cmocka_unit_test(test_creases_are_drawn_beside_extruded_outlines),
+        cmocka_unit_test(test_dashed_lines_are_chained_after_the_picture),
         cmocka_unit_test(test_gaps_of_a_texture_stay_open),
         cmocka_unit_test(test_extruded_silhouettes_have_no_gaps),
         cmocka_unit_test(test_memory_may_run_out),
