@@ -1,5 +1,6 @@
 /* The program: parses the command line and calls a command. */
 #include "commands.h"
+#include "models.h"
 #include "progress.h"
 #include "report.h"
 
@@ -22,13 +23,14 @@ int main(int argc, char **argv) {
     tool_settings settings;
     dp_diag diag;
     if (dp_version_check(&diag)) return report_failure(NULL, &diag);
-    if (!options_parse(argc, argv, &settings)) return EXIT_USAGE;
+    const bool sound = options_parse(argc, argv, &settings);
     interrupt_install();
-    int code = 0;
-    if (settings.question)
+    int code = sound ? 0 : EXIT_USAGE;
+    if (sound && settings.question)
         answer(&settings);
-    else
+    else if (sound)
         code = commands[settings.command](&settings);
+    models_free(&settings);
     if (!fflush(stdout) && !ferror(stdout)) return code;
     wrong_usage("cannot write standard output: %s", strerror(errno));
     return code ? code : EXIT_FAILED;

@@ -5,6 +5,7 @@
 #include "report.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 static bool check_camera(const tool_settings *s) {
     if (s->has_fov && s->has_ortho)
@@ -15,9 +16,23 @@ static bool check_camera(const tool_settings *s) {
     return true;
 }
 
+/* Is the first word a command that is spelt wrong? What is a file is none. */
+static bool check_command(const tool_settings *s) {
+    struct stat status;
+    char best[16];
+    const char *const word = s->model_count ? s->models[0] : "";
+    if (s->command != COMMAND_DRAW || !*word || strpbrk(word, "./:") || !stat(word, &status))
+        return true;
+    nearest_word("info|make|bench|help", word, best, sizeof best);
+    if (spelling_distance(word, best) > 2) return true;
+    return wrong_usage("%s: there is no such file or command; did you mean \"drypoint %s\"?", word,
+                       best);
+}
+
 static bool check_present(const tool_settings *s) {
     const command_text *const text = &command_table[s->command];
     const char *const space = *text->name ? " " : "";
+    if (!check_command(s)) return false;
     if (!s->model)
         return wrong_usage("no %s given; usage: drypoint %s%s%s",
                            s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,

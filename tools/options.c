@@ -2,6 +2,7 @@
  *
  * The first word may be a command; without one the program draws. Options may come anywhere, as
  * --name value, --name=value or -o value; -- ends them; - is a model or output. */
+#include "models.h"
 #include "options.h"
 #include "presets.h"
 #include "report.h"
@@ -111,13 +112,13 @@ static bool take_short(walk *w, const char *text) {
 
 static bool take_word(walk *w, const char *word) {
     tool_settings *const s = w->settings;
-    if (!s->model) {
-        s->model = word;
-        return true;
-    }
-    return wrong_usage(
-        "there is one %s at a time: \"%s\" comes after \"%s\"; options begin with --",
-        s->command == COMMAND_MAKE ? "shape" : "model", word, s->model);
+    if (s->command != COMMAND_MAKE) return models_add(s, word);
+    if (s->model)
+        return wrong_usage(
+            "there is one shape at a time: \"%s\" comes after \"%s\"; options begin with --", word,
+            s->model);
+    s->model = word;
+    return true;
 }
 
 static bool take(walk *w) {
@@ -187,5 +188,5 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
         const int word = word_index(command_words, w.argv[w.at]);
         if (word) settings->command = (tool_command)word;
     }
-    return settings->question || options_check(settings);
+    return settings->question || (models_settle(settings) && options_check(settings));
 }

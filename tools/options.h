@@ -84,8 +84,13 @@ typedef struct tool_sheet {
 typedef struct tool_settings {
     tool_command command;
     question question;
-    const char *model;             /* of make: the shape's name */
-    const char *output;            /* of make */
+    const char *model;     /* its name, or what several are called together; of make: the shape's */
+    char **models;         /* [model_count] what to draw, inspect or time (models.h) */
+    uint32_t model_count;  /* of make: 0 */
+    char models_name[600]; /* "a.stl and 2 more" */
+    bool is_one_of_several; /* this run is about one model, and others come before or after it */
+    uint32_t number;        /* of it among them, from 0 */
+    const char *output;     /* of make */
     const char *files[FILES_MOST]; /* of drawing */
     uint32_t file_count;
     int format, ground; /* words */
@@ -236,7 +241,7 @@ typedef struct command_text {
 extern const command_text command_table[COMMAND_COUNT];
 extern const char *const group_names[GROUP_COUNT];
 
-/* Fills *settings. False: the command line is wrong, and a message is on stderr. */
+/* Fills *settings; models_free frees what it holds. False: the command line is wrong, and a message is on stderr. */
 bool options_parse(int argc, char **argv, tool_settings *settings);
 
 /* Stores one option's value. False: it is wrong, and a message is on stderr. */

@@ -90,8 +90,8 @@ static const char *scene_group_name(void *user, uint32_t group) {
     scene *const s = user;
     if (group >= s->member_count) return NULL;
     member *const m = &s->members[group];
-    const char *const whole = s->parts[m->part].name,
-               *const own = dp_source_group_name(s->parts[m->part].source, m->group);
+    const char *const whole = s->parts[m->part].name, *const own = dp_source_group_name(
+                                                          s->parts[m->part].source, m->group);
     if (!whole || !own) return whole ? whole : own;
     if (!m->name) {
         const size_t size = strlen(whole) + strlen(own) + 2;
@@ -194,8 +194,7 @@ static dp_result scene_records(void *user, uint64_t first, uint32_t count, uint8
         const uint64_t left = p->first + r->count - first;
         const uint32_t n = left < count ? (uint32_t)left : count;
         if (!n) continue;
-        const dp_result result =
-            r->read(p->source->callbacks.user, first - p->first, n, to, diag);
+        const dp_result result = r->read(p->source->callbacks.user, first - p->first, n, to, diag);
         if (result) return name_failure(p, result, diag);
         first += n, count -= n, to += n * r->size;
     }

@@ -374,7 +374,7 @@ missing_words() {
     wrong make cube -- 'add -o OUT.ply'
     wrong shape:cube -o -- 'needs a value'
     wrong shape:cube --width --samples 4 -o out.png -- 'needs a value'
-    wrong shape:cube other.obj -o out.png -- 'one model at a time'
+    wrong make cube sphere -o out.ply -- 'one shape at a time'
     wrong info shape:cube --width 3 -- 'does not belong to'
     wrong bench shape:cube -o out.png -- 'does not belong to'
 }
