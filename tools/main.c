@@ -7,10 +7,12 @@
 #include <errno.h>
 #include <string.h>
 
-static void answer(const tool_settings *s) {
-    if (s->question == QUESTION_HELP) options_help(stdout, s->command);
+static int answer(const tool_settings *s) {
+    if (s->question == QUESTION_HELP && !options_help(stdout, s->command, s->topic))
+        return EXIT_USAGE;
     if (s->question == QUESTION_MAN) options_man(stdout);
     if (s->question == QUESTION_VERSION) printf("drypoint %s\n", dp_version());
+    return 0;
 }
 
 int main(int argc, char **argv) {
@@ -27,7 +29,7 @@ int main(int argc, char **argv) {
     interrupt_install();
     int code = sound ? 0 : EXIT_USAGE;
     if (sound && settings.question)
-        answer(&settings);
+        code = answer(&settings);
     else if (sound)
         code = commands[settings.command](&settings);
     models_free(&settings);

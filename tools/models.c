@@ -124,8 +124,8 @@ static void tell_failed(const tool_settings *s, const bool *failed, uint32_t cou
     uint32_t told = 0;
     for (uint32_t k = 0; k < s->model_count; k++) {
         if (!failed[k] || length + strlen(s->models[k]) + 16 > sizeof names) continue;
-        length += (size_t)snprintf(names + length, sizeof names - length, "%s%s",
-                                   told ? ", " : "", model_spoken(s->models[k]));
+        length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", told ? ", " : "",
+                                   model_spoken(s->models[k]));
         told++;
     }
     if (told < count)

@@ -184,9 +184,6 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
     if (!apply_presets(&w)) return false;
     while (w.at < w.argc && !settings->question)
         if (!take(&w)) return false;
-    if (settings->question && w.at < w.argc) { /* drypoint --help make */
-        const int word = word_index(command_words, w.argv[w.at]);
-        if (word) settings->command = (tool_command)word;
-    }
+    if (settings->question && w.at < w.argc) settings->topic = w.argv[w.at]; /* --help camera */
     return settings->question || (models_settle(settings) && options_check(settings));
 }

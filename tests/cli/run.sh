@@ -304,8 +304,11 @@ bench_json() {
     ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null || fail "no JSON"
 }
 helps() {
+    run 0 --help all
+    cp out all
     for command in '' info make bench; do
         run 0 $command --help
+        [ -n "$command" ] || cp all out
         says out "Usage: drypoint $command"
         says out 'Examples:'
         silent err
@@ -313,7 +316,7 @@ helps() {
     done
     run 0 --help make
     says out 'Usage: drypoint make'
-    run 0 -h
+    run 0 -h all
     for name in size samples threads eye target up fov ortho view azimuth elevation zoom lines width \
         color paper surface ridge-angle valley-angle method between ink passes stats quiet; do
         says out "--$name"
