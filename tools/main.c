@@ -1,5 +1,6 @@
 /* The program: parses the command line and calls a command. */
 #include "commands.h"
+#include "completions.h"
 #include "models.h"
 #include "progress.h"
 #include "report.h"
@@ -11,6 +12,7 @@ static int answer(const tool_settings *s) {
     if (s->question == QUESTION_HELP && !options_help(stdout, s->command, s->topic))
         return EXIT_USAGE;
     if (s->question == QUESTION_MAN) options_man(stdout);
+    if (s->question == QUESTION_COMPLETIONS) completions_write(stdout, s->completions);
     if (s->question == QUESTION_VERSION) printf("drypoint %s\n", dp_version());
     return 0;
 }

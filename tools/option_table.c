@@ -316,6 +316,8 @@ const option option_table[] = {
      "Print a summary; followed by a topic, a command, the name of an option or \"all\", more about that."},
     {"version", 'V', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_VERSION, 0, 0, 0,
      "Print the version."},
+    {"completions", 0, "bash|zsh|fish", OPTION_WORD, GROUP_PROGRAM, DRAW, AT(completions), 0, 0, 0,
+     "Print what completes these options in a shell, to be read by it: source <(drypoint --completions bash)."},
     {"man", 0, NULL, OPTION_QUESTION, GROUP_HIDDEN, EVERY, QUESTION_MAN, 0, 0, 0,
      "Print the man page."},
 };

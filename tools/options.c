@@ -185,5 +185,6 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
     while (w.at < w.argc && !settings->question)
         if (!take(&w)) return false;
     if (settings->question && w.at < w.argc) settings->topic = w.argv[w.at]; /* --help camera */
+    if (settings->completions) settings->question = QUESTION_COMPLETIONS;
     return settings->question || (models_settle(settings) && options_check(settings));
 }

@@ -18,7 +18,13 @@ typedef enum tool_command {
 } tool_command;
 
 /* A question about the command, instead of running it. */
-typedef enum question { QUESTION_NONE = 0, QUESTION_HELP, QUESTION_VERSION, QUESTION_MAN } question;
+typedef enum question {
+    QUESTION_NONE = 0,
+    QUESTION_HELP,
+    QUESTION_VERSION,
+    QUESTION_MAN,
+    QUESTION_COMPLETIONS
+} question;
 
 typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 
@@ -85,6 +91,7 @@ typedef struct tool_settings {
     tool_command command;
     question question;
     const char *topic;     /* of --help; NULL: none */
+    int completions;       /* word */
     const char *model;     /* its name, or what several are called together; of make: the shape's */
     char **models;         /* [model_count] what to draw, inspect or time (models.h) */
     uint32_t model_count;  /* of make: 0 */
