@@ -142,7 +142,7 @@ static const char bash_head[] =
     "    read -ra line <<<\"${COMP_LINE:0:COMP_POINT}\"\n"
     "    case ${COMP_LINE:0:COMP_POINT} in *[[:space:]]) line+=('') ;; esac\n"
     "    cur=${line[${#line[@]}-1]}\n"
-    "    command=${line[1]}\n"
+    "    command=${line[1]-}\n"
     "    [ ${#line[@]} -gt 2 ] || command=\n";
 
 static const char bash_middle[] =
@@ -184,13 +184,13 @@ static const char bash_tail[] =
     "        [ ${#COMPREPLY[@]} -gt 0 ] || compopt -o filenames 2>/dev/null\n"
     "        COMPREPLY+=($(compgen -P \"$before\" -f -- \"$cur\"))\n"
     "    fi\n"
-    "    case ${COMPREPLY[0]} in *=) compopt -o nospace 2>/dev/null ;; esac\n"
+    "    case ${COMPREPLY[0]-} in *=) compopt -o nospace 2>/dev/null ;; esac\n"
     "    # What the shell takes for words of their own is there already.\n"
     "    cur=$before$cur before=$cur\n"
     "    case $COMP_WORDBREAKS in *=*) before=${before##*=} ;; esac\n"
     "    case $COMP_WORDBREAKS in *:*) before=${before##*:} ;; esac\n"
     "    cur=${cur%\"$before\"}\n"
-    "    COMPREPLY=(\"${COMPREPLY[@]#\"$cur\"}\")\n"
+    "    [ ${#COMPREPLY[@]} -eq 0 ] || COMPREPLY=(\"${COMPREPLY[@]#\"$cur\"}\")\n"
     "}\n"
     "complete -F _drypoint drypoint\n";
 
@@ -214,7 +214,8 @@ static void write_bash(FILE *out) {
 /* Where a help text first says less than all: at the end of a sentence, at a colon. */
 static size_t short_length(const char *help) {
     size_t length = 0;
-    while (help[length] && !(strchr(".:;", help[length]) && (!help[length + 1] || help[length + 1] == ' ')))
+    while (help[length] &&
+           !(strchr(".:;", help[length]) && (!help[length + 1] || help[length + 1] == ' ')))
         length++;
     return length;
 }
@@ -352,9 +353,11 @@ static void write_fish(FILE *out) {
             "'Generated model'\n",
             words);
     shape_words("", words);
-    fprintf(out, "complete -c drypoint -n 'contains (__drypoint_command) make' -f -a '%s'\n", words);
+    fprintf(out, "complete -c drypoint -n 'contains (__drypoint_command) make' -f -a '%s'\n",
+            words);
     topic_words(words, sizeof words, " ");
-    fprintf(out, "complete -c drypoint -n 'contains (__drypoint_command) help' -f -a '%s'\n", words);
+    fprintf(out, "complete -c drypoint -n 'contains (__drypoint_command) help' -f -a '%s'\n",
+            words);
     fprintf(out, "complete -c drypoint -n '__fish_prev_arg_in -h --help' -f -a '%s'\n", words);
     for (const option *o = option_table; o < option_table + option_count; o++)
         if (is_shown(o)) fish_option(out, o);

@@ -63,8 +63,10 @@ static bool check_no_folder(const tool_settings *s, const char *before, const ch
     if (!output_is_folder(path)) return true;
     const char *const slash = path[strlen(path) - 1] == '/' ? "" : "/";
     model_stem(s->model_count ? s->models[0] : s->model, stem);
-    return wrong_usage("-o %s%s: that is a folder; name a file in it: -o %s%s%s%s.%s", before, path,
-                       before, path, slash, stem, ending);
+    const bool several = s->model_count > 1; /* the shell would like quotes there */
+    return wrong_usage("-o %s%s: that is a folder; name a file in it: -o %s%s%s%s%s.%s%s", before,
+                       path, several ? "'" : "", before, path, slash, several ? "%s" : stem, ending,
+                       several ? "'" : "");
 }
 
 bool files_no_folder(const tool_settings *s, const char *path, const char *ending) {
