@@ -1,5 +1,5 @@
 # Tests of what helps at the keyboard, for run.sh, which reads this file: --help and its topics, completions.
-# shellcheck shell=bash disable=SC2034,SC2154
+# shellcheck shell=bash disable=SC2034,SC2086,SC2154
 
 helps_tests="first_screen topics wrong_topics versions bash_completion zsh_completion fish_completion"
 
