@@ -256,6 +256,8 @@ folders_as_outputs() {
 outputs_without_a_model() {
     wrong -o depth=d.png -- 'no model given; usage: drypoint MODEL'
     wrong -o out.png -- 'no model given'
+    wrong shape:cube out.png -- 'no output given; did you mean -o out.png?'
+    wrong shape:cube shape:gear -- "or -o '%s.png' for a drawing of each"
     run 0 shape:cube $small -o depth=d.png
     is_png d.png
     wrong inof x.obj -- 'inof: there is no such file or command; did you mean "drypoint info"?'
