@@ -1,4 +1,5 @@
 /* mesh/join: several sources as one scene. */
+#include "base/hostile.h"
 #include "mesh/source.h"
 #include "scene.h"
 #include "temporary.h"
@@ -350,13 +351,14 @@ static void missing_normals_are_made(void **state) {
 /* A scene of large binary STLs is that of one file with all their triangles, in memory and in parts. */
 static void large_scenes_are_streamed(void **state) {
     (void)state;
+    enum { TRIANGLES = DP_TUNED(150000, 500) }; /* too many for 48 MB; tiny steps would take long */
     static picture whole, parted;
     static const char *const shapes[] = {"sphere", "terrain", "torus"};
     static const size_t memories[] = {SIZE_MAX / 2, 48 << 20};
     const dp_style style = {.lines = DP_SILHOUETTE | DP_RIDGE | DP_VALLEY};
     dp_source *parts[3];
     for (int k = 0; k < 3; k++) {
-        dp_source *const made = shape(shapes[k], 150000);
+        dp_source *const made = shape(shapes[k], TRIANGLES);
         parts[k] = stl_of(made);
         dp_source_destroy(made);
     }
