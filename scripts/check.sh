@@ -4,7 +4,8 @@
 # One phase is one preset of CMakePresets.json and the tests that say something new there. Counted are single
 # tests, not programs: a cmocka program that runs nine tests counts nine; a program that crashes, hangs
 # or fails without saying which test it was counts as one failure; so does a phase that does not build.
-# A failing phase shows what failed and the others still run.
+# A failing phase shows what failed and the others still run. It says at the start how long it takes, and at least
+# every 30 s what runs now.
 set -u
 cd "$(dirname "$0")/.." || exit
 jobs=${JOBS:-$(nproc)}
@@ -12,6 +13,71 @@ logs=build/check-logs
 mkdir -p "$logs"
 passed=0 failed=0
 width=46
+
+# ---- time ----
+
+# usual PHASE: how long a phase takes: as last time here, or some seconds of 2 processors for one that has not been run.
+usual() {
+    local seconds
+    seconds=$(awk -v phase="$1" '$1 == phase { print $2 }' "$logs/times" 2>/dev/null)
+    [ -z "$seconds" ] || { echo "$seconds"; return; }
+    case $1 in
+    gcc) seconds=290 ;;
+    clang) seconds=230 ;;
+    asan) seconds=300 ;;
+    hostile) seconds=150 ;;
+    tsan) seconds=130 ;;
+    fuzz) seconds=120 ;;
+    accuracy) seconds=60 ;;
+    *) seconds=1 ;;
+    esac
+    [ "$jobs" -le 2 ] || seconds=$((seconds * 2 / jobs))
+    [ "$jobs" -gt 1 ] || seconds=$((seconds * 2))
+    echo "$seconds"
+}
+
+# note_time PHASE SECONDS: for the next time.
+note_time() {
+    { grep -v "^$1 " "$logs/times" 2>/dev/null; echo "$1 $2"; } >"$logs/times.new"
+    mv "$logs/times.new" "$logs/times"
+}
+
+# spoken SECONDS: "12 min", or "40 s".
+spoken() { if [ "$1" -lt 120 ]; then echo "$1 s"; else echo "$((($1 + 30) / 60)) min"; fi; }
+
+# now LOG: what the phase does whose log that is: its build's last step, or how many tests are over and which began last.
+now() {
+    local over
+    if [ ! -s "$1" ]; then
+        printf 'building %s' "$(grep -aoE '^\[[^]]*\]' "$1.build" 2>/dev/null | tail -n 1)"
+        return
+    fi
+    over=$(grep -acE '^ *[0-9]+/[0-9]+ +Test +#' "$1")
+    printf '%d tests are over, %s runs' "$over" "$(sed -n 's/^ *Start *[0-9]*: *//p' "$1" | tail -n 1)"
+}
+
+# begin TITLE LOG: from now on a line every 25 s says what runs, until `end`. It shares no output with its sleep, which
+# may outlive it for as long.
+begin() {
+    (
+        start=$SECONDS
+        while kill -0 $$ 2>/dev/null; do
+            sleep 25 >/dev/null 2>&1 &
+            wait $!
+            printf '    ... %s: %s (%d s)\n' "$1" "$(now "$2")" $((SECONDS - start))
+        done
+    ) &
+    beat=$!
+}
+end() {
+    [ -z "$beat" ] || kill "$beat" 2>/dev/null
+    wait "$beat" 2>/dev/null
+    beat=
+}
+beat=
+trap end EXIT
+
+# ---- phases ----
 
 # count FILE: "passed failed" of a log of `ctest -V`, whose lines begin with the test's number.
 count() {
@@ -63,9 +129,12 @@ phase() {
     local name=$1 title=$2 target=$3
     shift 3
     local log=$logs/$name.log start=$SECONDS good wrong
-    printf "%-${width}s" "$title"
+    : >"$log"
+    begin "$title" "$log"
     if ! build "$name" "$target" >"$log.build" 2>&1; then
+        end
         failed=$((failed + 1))
+        printf "%-${width}s" "$title"
         printf 'does not build (%s)\n' "$log.build"
         grep -E -A2 '(error|Error|warning):|undefined reference|^CMake Error' "$log.build" |
             head -n 15 | sed 's/^/    /'
@@ -73,6 +142,8 @@ phase() {
     fi
     ctest --test-dir "build/$name" -V --no-tests=error --parallel "$jobs" "$@" >"$log" 2>&1
     local status=$?
+    end
+    printf "%-${width}s" "$title"
     read -r good wrong <<<"$(count "$log")"
     if [ "$status" -ne 0 ] && [ "$wrong" -eq 0 ]; then wrong=1; fi
     passed=$((passed + good)) failed=$((failed + wrong))
@@ -139,7 +210,10 @@ run_phase() {
         phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context|stream$' -E context_memory
         ;;
     hostile)
-        build check-gcc drypoint_tool >"$logs/reference.build" 2>&1 # whose pictures are compared
+        : >"$logs/reference.log"
+        begin "hostile build: its reference" "$logs/reference.log"
+        build check-gcc drypoint_tool >"$logs/reference.log.build" 2>&1 # whose pictures are compared
+        end
         phase check-hostile "hostile build: tiny batches, bins and tiles" all \
         -L 'unit|golden' -E 'write_mesh|shapes|number|context_memory|stats_bytes|progress|locale|sort|own_memory|io_assimp'
         # those are large, and slow in tiny steps, or count what tiny steps do not change
@@ -154,7 +228,15 @@ run_phase() {
 }
 
 [ $# -gt 0 ] || set -- format structure gcc clang asan tsan hostile fuzz
-for name; do run_phase "$name"; done
+total=0
+for name; do total=$((total + $(usual "$name"))); done
+echo "check: $*: about $(spoken $total) with $jobs processors; longer where much is to be built"
+for name; do
+    since=$SECONDS
+    run_phase "$name"
+    note_time "$name" $((SECONDS - since))
+done
 echo
+echo "check: took $(spoken $SECONDS)"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -38,6 +38,9 @@ find_missing() {
     [ "${1:-build}" = check ] || return 0
     module cmocka || missing="$missing libcmocka-dev"
     have clang || missing="$missing clang"
+    have clang-format || missing="$missing clang-format"
+    have zsh || missing="$missing zsh" # these try their completions
+    have fish || missing="$missing fish"
     [ -e /usr/share/i18n/locales/de_DE ] || missing="$missing locales" # a test makes one with a decimal comma
     have xmllint || missing="$missing libxml2-utils" # these look at pages as others do
     have rsvg-convert || missing="$missing librsvg2-bin"

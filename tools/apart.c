@@ -4,7 +4,8 @@
  *     child    limits its memory and time, dp_io_open, sends what it has got
  *     parent   receives it until the deadline, then waits for the child
  *
- * fork is safe because no thread has been started: models are opened before contexts are made. */
+ * fork is safe because no thread runs: models are opened before contexts are made, and contexts of
+ * earlier pictures are gone. */
 #include "apart.h"
 
 #include "progress.h"

@@ -48,12 +48,13 @@ static void print_result(const tool_settings *s, const bench *b, double *times) 
            b->target.height, b->target.samples, s->threads ? (long)s->threads : processors);
 }
 
-static int draw_frames(bench *b, const dp_camera *camera, const dp_style *style,
-                       const char *model) {
+static int draw_frames(const tool_settings *s, bench *b, const dp_camera *camera,
+                       const dp_style *style) {
     for (uint32_t k = 0; k <= b->count; k++) { /* frame 0 is not counted */
         dp_diag diag = {0};
         const dp_result result = dp_draw(b->context, b->source, camera, style, &b->target, &diag);
-        if (result) return report_failure(result == DP_ERR_ARGUMENT ? NULL : model, &diag);
+        if (result)
+            return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
         if (k) dp_stats_of(b->context, &b->frames[k - 1]);
     }
     return 0;
@@ -77,7 +78,7 @@ static int measure(const tool_settings *s, bench *b) {
     if (!code) code = look_make(s, b->source, &b->look, &style);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
-    return draw_frames(b, camera, &style, s->model);
+    return draw_frames(s, b, camera, &style);
 }
 
 static int run(const tool_settings *s, bench *b) {

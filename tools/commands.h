@@ -10,9 +10,16 @@ int command_info(const tool_settings *s);
 int command_make(const tool_settings *s);
 int command_bench(const tool_settings *s);
 
-/* Opens a file, standard input ("-") or a generated model ("shape:NAME[:TRIANGLES]").
- * 0, or the exit code after a message. */
+/* Draws all models as one scene. */
+int draw_scene(const tool_settings *s);
+
+/* Opens all models as one scene: files, standard input ("-") or generated ones
+ * ("shape:NAME[:TRIANGLES]"). 0, or the exit code after a message. */
 int open_model(const tool_settings *s, dp_source **out);
+/* Reports a failure of the open model; the exit code. */
+int report_model(const tool_settings *s, const dp_diag *diag);
+/* Warns of something about this run's model, which is named if others come before or after. */
+void warn_of_model(const tool_settings *s, const char *text);
 /* The model's extent. 0, or the exit code after a message, also when there is nothing to see. */
 int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent);
 /* Warns if the model lies so far from 0 that its float32 coordinates no longer tell its shape. */
@@ -31,11 +38,12 @@ int make_stroke(const tool_settings *s, const struct page_plan *plan, dp_style *
 dp_target make_target(const tool_settings *s);
 
 /* Prints the statistics of a frame. */
-void print_stats_table(FILE *out, const dp_stats *stats);
-void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target);
+void print_stats_table(FILE *out, const tool_settings *s, const dp_stats *stats);
+void print_stats_json(FILE *out, const tool_settings *s, const dp_stats *stats,
+                      const dp_target *target);
 /* Warns of dropped polygons, counted by cause, if it matters: of bad ones, or of many without area. */
-void warn_dropped(const dp_stats *stats);
+void warn_dropped(const tool_settings *s, const dp_stats *stats);
 /* Warns that lines may be missing, if not all edges were followed. */
-void warn_lost(const dp_stats *stats);
+void warn_lost(const tool_settings *s, const dp_stats *stats);
 
 #endif

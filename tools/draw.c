@@ -32,8 +32,8 @@ typedef struct drawing {
 } drawing;
 
 /* Warns of what a source is to be remarked on; NULL: nothing. */
-static void warn_source(const char *remark) {
-    if (remark) warn("%s", remark);
+static void warn_source(const tool_settings *s, const char *remark) {
+    if (remark && !s->quiet) warn_of_model(s, remark);
 }
 
 /* ---- preparing ---- */
@@ -50,6 +50,11 @@ static int make_page(const tool_settings *s, drawing *d) {
     }
     if (plan->paged) ink_paper(&d->target, s->style.paper);
     return 0;
+}
+
+/* Warns of options, once for all models. */
+static void warn_options(const tool_settings *s, const drawing *d) {
+    if (d->paths) paths_warn(s, &d->style);
 }
 
 /* Everything but the drawing itself; fills in what all views share. */
@@ -75,8 +80,8 @@ static int prepare(const tool_settings *s, drawing *d, const dp_extent *extent) 
     if (!code) code = planes_prepare(s, &d->target);
     if (!code) code = make_page(s, d);
     if (code) return code;
-    if (!s->quiet && d->style.shade.model_colors) warn_source(dp_source_color_remark(d->source));
-    if (d->paths) paths_warn(s, &d->style);
+    if (d->style.shade.model_colors) warn_source(s, dp_source_color_remark(d->source));
+    if (!s->number) warn_options(s, d);
     return dp_context_create(&desc, &d->context, &diag) ? report_failure(NULL, &diag) : 0;
 }
 
@@ -89,7 +94,7 @@ static int draw_into(const tool_settings *s, drawing *d, const page_view *v, con
     const dp_result result = dp_draw(d->context, d->source, &v->camera, style, target, &diag);
     progress_end();
     if (!result) return 0;
-    return report_failure(result == DP_ERR_ARGUMENT ? NULL : s->model, &diag);
+    return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
 }
 
 /* The surface under the lines of view k, without paper: the page has it. */
@@ -176,16 +181,16 @@ static int write_planes(const tool_settings *s, const drawing *d) {
 }
 
 static void print_stats(const tool_settings *s, const drawing *d) {
-    if (!s->quiet) warn_source(dp_source_remark(d->source));
-    if (!s->quiet) warn_dropped(&d->stats[0]);
-    if (!s->quiet) warn_lost(&d->stats[0]);
+    warn_source(s, dp_source_remark(d->source));
+    if (!s->quiet) warn_dropped(s, &d->stats[0]);
+    if (!s->quiet) warn_lost(s, &d->stats[0]);
     for (int k = 0; k < d->plan.view_count; k++) {
         const dp_target view = {.width = d->plan.views[k].width,
                                 .height = d->plan.views[k].height,
                                 .samples = d->target.samples};
-        if (s->stats == STATS_TABLE) print_stats_table(stderr, &d->stats[k]);
+        if (s->stats == STATS_TABLE) print_stats_table(stderr, s, &d->stats[k]);
         if (s->stats == STATS_JSON)
-            print_stats_json(files_standard(s) ? stderr : stdout, &d->stats[k], &view);
+            print_stats_json(files_standard(s) ? stderr : stdout, s, &d->stats[k], &view);
     }
     if (d->paths) paths_tell(s, &d->plan, d->views);
 }
@@ -205,7 +210,7 @@ static int run(const tool_settings *s, drawing *d) {
     return code;
 }
 
-int command_draw(const tool_settings *s) {
+int draw_scene(const tool_settings *s) {
     int code = files_check(s);
     if (code) return code;
     drawing d = {0};

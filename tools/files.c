@@ -1,5 +1,6 @@
 /* The files that a run writes: how, and that none is written twice or lies over the model. */
 #include "files.h"
+#include "models.h"
 #include "output.h"
 #include "report.h"
 
@@ -55,6 +56,38 @@ bool files_have_paths(const tool_settings *s) {
     return s->outputs[OUTPUT_SEGMENTS] != NULL;
 }
 
+/* A folder is no file: says what would be one. */
+static bool check_no_folder(const tool_settings *s, const char *before, const char *path,
+                            const char *ending) {
+    char stem[STEM_BYTES];
+    if (!output_is_folder(path)) return true;
+    const char *const slash = path[strlen(path) - 1] == '/' ? "" : "/";
+    model_stem(s->model_count ? s->models[0] : s->model, stem);
+    const bool several = s->model_count > 1; /* the shell would like quotes there */
+    return wrong_usage("-o %s%s: that is a folder; name a file in it: -o %s%s%s%s%s.%s%s", before,
+                       path, several ? "'" : "", before, path, slash, several ? "%s" : stem, ending,
+                       several ? "'" : "");
+}
+
+bool files_no_folder(const tool_settings *s, const char *path, const char *ending) {
+    return check_no_folder(s, "", path, ending);
+}
+
+static bool check_no_folders(const tool_settings *s) {
+    for (uint32_t k = 0; k < s->file_count; k++)
+        if (!files_no_folder(s, s->files[k], "png")) return false;
+    for (int k = 0; k < OUTPUT_COUNT; k++) {
+        char before[32];
+        snprintf(before, sizeof before, "%s=", output_names[k]);
+        if (s->outputs[k] && !check_no_folder(s, before, s->outputs[k],
+                                              k < PLANE_COUNT        ? "png"
+                                              : k == OUTPUT_SEGMENTS ? "json"
+                                                                     : "txt"))
+            return false;
+    }
+    return true;
+}
+
 /* An unknown ending is taken for a mistake, and so is a format that no output takes. */
 static bool check_formats(const tool_settings *s) {
     bool used = !s->format;
@@ -72,25 +105,32 @@ static bool check_formats(const tool_settings *s) {
                        "none; leave it out");
 }
 
-/* Every output has a file of its own, and none is the model. */
+static bool is_model(const tool_settings *s, const char *path) {
+    for (uint32_t k = 0; k < s->model_count; k++)
+        if (!is_standard(s->models[k]) && output_same(path, s->models[k])) return true;
+    return false;
+}
+
+/* Every output has a file of its own, and none is a model. */
 static bool check_apart(const tool_settings *s) {
-    const char *paths[FILES_MOST + OUTPUT_COUNT + 1] = {s->model};
-    size_t count = 1;
+    const char *paths[FILES_MOST + OUTPUT_COUNT];
+    size_t count = 0;
     for (uint32_t k = 0; k < s->file_count; k++) paths[count++] = s->files[k];
     for (int k = 0; k < OUTPUT_COUNT; k++)
         if (s->outputs[k]) paths[count++] = s->outputs[k];
-    for (size_t i = 1; i < count; i++)
-        for (size_t k = 0; k < i; k++) {
-            if (k == 0 && is_standard(paths[0])) continue; /* standard input */
-            if (!output_same(paths[i], paths[k])) continue;
-            return k ? wrong_usage("two outputs go to %s; name another file", paths[i])
-                     : wrong_usage("%s is the model; name another file for the output", paths[i]);
-        }
+    for (size_t i = 0; i < count; i++) {
+        if (is_model(s, paths[i]))
+            return wrong_usage("%s is %s model; name another file for the output", paths[i],
+                               s->model_count > 1 ? "a" : "the");
+        for (size_t k = 0; k < i; k++)
+            if (output_same(paths[i], paths[k]))
+                return wrong_usage("two outputs go to %s; name another file", paths[i]);
+    }
     return true;
 }
 
 int files_check(const tool_settings *s) {
-    if (!check_formats(s) || !check_apart(s)) return EXIT_USAGE;
+    if (!check_no_folders(s) || !check_formats(s) || !check_apart(s)) return EXIT_USAGE;
     for (uint32_t k = 0; k < s->file_count; k++)
         if (!output_possible(s->files[k])) return EXIT_FAILED;
     for (int k = PLANE_COUNT; k < OUTPUT_COUNT; k++)

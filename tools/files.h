@@ -19,6 +19,9 @@ bool files_have_paths(const tool_settings *s);
 /* Is one of them written so? */
 bool files_have(const tool_settings *s, int format);
 
+/* Is an output no folder? A message if it is, with a name that would do. */
+bool files_no_folder(const tool_settings *s, const char *path, const char *ending);
+
 /* Can every output be written, each to a file of its own that is not the model? 0, or the exit code
  * after a message. */
 int files_check(const tool_settings *s);

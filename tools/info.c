@@ -1,27 +1,13 @@
-/* drypoint info MODEL: what a model contains, and which of its polygons drawing would drop. */
+/* drypoint info MODEL...: what each model contains, and which of its polygons drawing would drop. */
 #include "commands.h"
 #include "edges.h"
+#include "models.h"
 #include "progress.h"
 #include "report.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Prints a JSON string; names of files may contain any byte. */
-static void json_string(FILE *out, const char *text) {
-    fputc('"', out);
-    for (; *text; text++) {
-        const unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\')
-            fprintf(out, "\\%c", c);
-        else if (c < ' ')
-            fprintf(out, "\\u%04x", c);
-        else
-            fputc(c, out);
-    }
-    fputc('"', out);
-}
 
 typedef struct line {
     const char *key, *text;
@@ -76,7 +62,7 @@ static void print_table(const tool_settings *s, const dp_extent *e, const line l
 
 static void print_json(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
     printf("{\"model\": ");
-    json_string(stdout, s->model);
+    print_json_string(stdout, s->model);
     for (int k = 0; k < LINES; k++)
         printf(", \"%s\": %llu", lines[k].key, (unsigned long long)lines[k].value);
     print_place(", \"min\": [", ", ", "]", e->exact_min, e->spacing);
@@ -92,7 +78,7 @@ static int inspect(const tool_settings *s, dp_source *source) {
     if (!result) result = count_edges(source, &extent, &edges, &diag);
     progress_end();
     if (result) {
-        report_failure(s->model, &diag);
+        report_model(s, &diag);
         return EXIT_FAILED;
     }
     if (!extent.polygons) {
@@ -100,11 +86,12 @@ static int inspect(const tool_settings *s, dp_source *source) {
         return EXIT_FAILED;
     }
     const char *const remark = dp_source_remark(source);
-    if (remark && !s->quiet) warn("%s", remark);
+    if (remark && !s->quiet) warn_of_model(s, remark);
     line lines[LINES];
     warn_coarse(s, &measured);
     extent.spacing = measured.spacing;
     fill_lines(&extent, &edges, lines);
+    if (s->number && !s->json) fputc('\n', stdout);
     if (s->json)
         print_json(s, &extent, lines);
     else
@@ -112,10 +99,12 @@ static int inspect(const tool_settings *s, dp_source *source) {
     return 0;
 }
 
-int command_info(const tool_settings *s) {
+static int inform(const tool_settings *s) {
     dp_source *source = NULL;
     int code = open_model(s, &source);
     if (!code) code = inspect(s, source);
     dp_source_destroy(source);
     return code;
 }
+
+int command_info(const tool_settings *s) { return models_each(s, inform); }

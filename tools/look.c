@@ -62,12 +62,11 @@ static void from_angles(const double angles[2], float light[3]) {
 
 enum { GROUPS = 65536 };
 
-/* Has the group this name? Parts of "object/group/material" count as names too. */
+/* Has the group this name? Parts of "file/object/group/material" count as names too, one or more. */
 static bool is_called(const char *group, const char *name, size_t length) {
-    if (strlen(group) == length && !strncmp(group, name, length)) return true;
     for (const char *part = group;;) {
+        if (!strncmp(part, name, length) && (part[length] == '/' || !part[length])) return true;
         const size_t n = strcspn(part, "/");
-        if (n == length && !strncmp(part, name, n)) return true;
         if (!part[n]) return false;
         part += n + 1;
     }

@@ -1,15 +1,20 @@
 /* The program: parses the command line and calls a command. */
 #include "commands.h"
+#include "completions.h"
+#include "models.h"
 #include "progress.h"
 #include "report.h"
 
 #include <errno.h>
 #include <string.h>
 
-static void answer(const tool_settings *s) {
-    if (s->question == QUESTION_HELP) options_help(stdout, s->command);
+static int answer(const tool_settings *s) {
+    if (s->question == QUESTION_HELP && !options_help(stdout, s->command, s->topic))
+        return EXIT_USAGE;
     if (s->question == QUESTION_MAN) options_man(stdout);
+    if (s->question == QUESTION_COMPLETIONS) completions_write(stdout, s->completions);
     if (s->question == QUESTION_VERSION) printf("drypoint %s\n", dp_version());
+    return 0;
 }
 
 int main(int argc, char **argv) {
@@ -22,13 +27,14 @@ int main(int argc, char **argv) {
     tool_settings settings;
     dp_diag diag;
     if (dp_version_check(&diag)) return report_failure(NULL, &diag);
-    if (!options_parse(argc, argv, &settings)) return EXIT_USAGE;
+    const bool sound = options_parse(argc, argv, &settings);
     interrupt_install();
-    int code = 0;
-    if (settings.question)
-        answer(&settings);
-    else
+    int code = sound ? 0 : EXIT_USAGE;
+    if (sound && settings.question)
+        code = answer(&settings);
+    else if (sound)
         code = commands[settings.command](&settings);
+    models_free(&settings);
     if (!fflush(stdout) && !ferror(stdout)) return code;
     wrong_usage("cannot write standard output: %s", strerror(errno));
     return code ? code : EXIT_FAILED;

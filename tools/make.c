@@ -1,5 +1,6 @@
 /* drypoint make SHAPE -o FILE: writes a generated model to a file, batch by batch. */
 #include "commands.h"
+#include "files.h"
 #include "output.h"
 #include "progress.h"
 #include "report.h"
@@ -39,7 +40,7 @@ static int write_model(const tool_settings *s, dp_mesh_file kind, dp_source *sou
 
 int command_make(const tool_settings *s) {
     dp_mesh_file kind;
-    if (!file_kind(s->output, &kind)) return EXIT_USAGE;
+    if (!files_no_folder(s, s->output, "ply") || !file_kind(s->output, &kind)) return EXIT_USAGE;
     if (!output_possible(s->output)) return EXIT_FAILED;
     const dp_shape shape = {
         .name = s->model, .triangles = s->triangles, .size = s->shape_size, .seed = s->seed};

@@ -1,7 +1,8 @@
-/* Opens models for every command: files, standard input, generated shapes. */
+/* Opens models for every command: files, standard input, generated shapes; several as one scene. */
 #include "apart.h"
 #include "commands.h"
 #include "keep.h"
+#include "models.h"
 #include "progress.h"
 #include "report.h"
 
@@ -10,9 +11,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 static const char scheme[] = "shape:";
+static const char no_polygons[] = "%s: there are no polygons in it; give a model with faces";
 static const double default_memory = 256.0 * (1 << 20); /* bytes, as dp_context_desc.memory */
 
 static bool is_shape(const char *name) {
@@ -50,36 +53,100 @@ static bool is_drawn_unseen(const tool_settings *s) {
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be
  * read only once, and is no other format: Assimp wants to go back in it. */
-static dp_result open_file(const tool_settings *s, dp_source **out, dp_diag *diag) {
+static dp_result open_file(const tool_settings *s, const char *model, dp_source **out,
+                           dp_diag *diag) {
     const dp_file_options options = {.progress = progress_report};
     struct stat status;
-    if (!strcmp(s->model, "-") || stat(s->model, &status) || !S_ISREG(status.st_mode))
-        return dp_io_open(s->model, &options, out, diag);
-    const dp_result result = dp_source_open(s->model, &options, out, diag);
-    return result == DP_ERR_UNSUPPORTED ? open_apart(s->model, s->read_time, out, diag) : result;
+    if (!strcmp(model, "-") || stat(model, &status) || !S_ISREG(status.st_mode))
+        return dp_io_open(model, &options, out, diag);
+    const dp_result result = dp_source_open(model, &options, out, diag);
+    return result == DP_ERR_UNSUPPORTED ? open_apart(model, s->read_time, out, diag) : result;
 }
 
-int open_model(const tool_settings *s, dp_source **out) {
-    *out = NULL;
-    if (!strncmp(s->model, scheme, sizeof scheme - 1))
-        return open_shape(s->model + sizeof scheme - 1, out);
+static int open_one(const tool_settings *s, const char *model, dp_source **out) {
     struct stat status;
-    const bool standard = !strcmp(s->model, "-");
-    if (!standard && is_shape(s->model) && stat(s->model, &status)) {
+    if (!strncmp(model, scheme, sizeof scheme - 1))
+        return open_shape(model + sizeof scheme - 1, out);
+    if (strcmp(model, "-") && is_shape(model) && stat(model, &status)) {
         wrong_usage("%s: there is no such file; did you mean shape:%s, or \"drypoint make %s -o "
                     "%s.ply\"?",
-                    s->model, s->model, s->model, s->model);
+                    model, model, model, model);
         return EXIT_FAILED;
     }
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
-    dp_result result = open_file(s, out, &diag);
+    dp_result result = open_file(s, model, out, &diag);
     if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
         result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();
     if (!result) return 0;
-    report_failure(standard ? "standard input" : s->model, &diag);
+    report_failure(model_spoken(model), &diag);
     return EXIT_FAILED;
+}
+
+/* ---- scenes ---- */
+
+/* An STL file stays open while the scene is there. */
+static void allow_many_files(void) {
+    struct rlimit files;
+    if (getrlimit(RLIMIT_NOFILE, &files)) return;
+    files.rlim_cur = files.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &files);
+}
+
+/* A scene is not drawn without one of its models: looks for a first polygon in each. */
+static int check_not_empty(const char *model, dp_source *source) {
+    dp_batch batch;
+    dp_diag diag = {0};
+    if (!dp_source_rewindable(source)) return 0;
+    dp_result result = dp_source_next(source, &batch, &diag);
+    const bool empty = !result && !batch.polygon_count;
+    if (!result) result = dp_source_rewind(source, &diag);
+    if (empty) wrong_usage(no_polygons, model_spoken(model));
+    if (result) report_failure(model_spoken(model), &diag);
+    return empty || result ? EXIT_FAILED : 0;
+}
+
+static int join(const tool_settings *s, dp_source **parts, dp_source **out) {
+    const char **const names = calloc(s->model_count, sizeof *names);
+    dp_diag diag = {.result = DP_ERR_MEMORY};
+    for (uint32_t k = 0; names && k < s->model_count; k++) names[k] = model_spoken(s->models[k]);
+    const dp_result result =
+        names ? dp_source_join(parts, names, s->model_count, NULL, out, &diag) : DP_ERR_MEMORY;
+    free(names);
+    return result ? report_failure(NULL, &diag) : 0;
+}
+
+static int open_scene(const tool_settings *s, dp_source **out) {
+    dp_source **const parts = calloc(s->model_count, sizeof *parts);
+    int code = parts ? 0 : EXIT_FAILED;
+    if (code) wrong_usage("out of memory for %u models", s->model_count);
+    allow_many_files();
+    for (uint32_t k = 0; k < s->model_count && !code; k++) {
+        code = open_one(s, s->models[k], &parts[k]);
+        if (!code) code = check_not_empty(s->models[k], parts[k]);
+    }
+    if (!code) code = join(s, parts, out);
+    for (uint32_t k = 0; parts && k < s->model_count && code; k++) dp_source_destroy(parts[k]);
+    free(parts);
+    return code;
+}
+
+int open_model(const tool_settings *s, dp_source **out) {
+    *out = NULL;
+    return s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
+}
+
+/* A scene's messages name the model already. */
+int report_model(const tool_settings *s, const dp_diag *diag) {
+    return report_failure(s->model_count > 1 ? NULL : model_spoken(s->model), diag);
+}
+
+void warn_of_model(const tool_settings *s, const char *text) {
+    if (s->is_one_of_several)
+        warn("%s: %s", model_spoken(s->model), text);
+    else
+        warn("%s", text);
 }
 
 /* The extent assumed then, for near and far: a hundred times the eye's distance, on all sides. */
@@ -94,7 +161,7 @@ static void unseen_extent(const tool_settings *s, dp_extent *extent) {
 }
 
 int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) {
-    const char *const name = strcmp(s->model, "-") ? s->model : "standard input";
+    const char *const name = model_spoken(s->model);
     dp_diag diag = {0};
     if (!dp_source_rewindable(source)) { /* drawn with an assumed extent around the target */
         unseen_extent(s, extent);
@@ -104,12 +171,12 @@ int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) 
     const dp_result result = dp_source_extent(source, extent, &diag);
     progress_end();
     if (result) {
-        report_failure(name, &diag);
+        report_model(s, &diag);
         return EXIT_FAILED;
     }
     if (extent->polygons > extent->not_finite + extent->bad_index) return 0;
     if (!extent->polygons)
-        wrong_usage("%s: there are no polygons in it; give a model with faces", name);
+        wrong_usage(no_polygons, name);
     else
         wrong_usage(
             "%s: none of its %llu polygons can be drawn: %llu have coordinates that are not "
@@ -129,5 +196,5 @@ void warn_coarse(const tool_settings *s, const dp_extent *extent) {
     if (s->quiet || !(extent->spacing > coarsest * size)) return;
     warn("%s: so far from 0 its coordinates are %g apart as float32, and its shape is rounded to "
          "that; export it nearer to 0, or with all digits, as OBJ or as PLY with doubles",
-         strcmp(s->model, "-") ? s->model : "standard input", extent->spacing);
+         model_spoken(s->model), extent->spacing);
 }

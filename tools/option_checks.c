@@ -5,6 +5,8 @@
 #include "report.h"
 
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static bool check_camera(const tool_settings *s) {
     if (s->has_fov && s->has_ortho)
@@ -15,17 +17,42 @@ static bool check_camera(const tool_settings *s) {
     return true;
 }
 
+/* Is the first word a command that is spelt wrong? What is a file is none. */
+static bool check_command(const tool_settings *s) {
+    struct stat status;
+    char best[16];
+    const char *const word = s->model_count ? s->models[0] : "";
+    if (s->command != COMMAND_DRAW || !*word || strpbrk(word, "./:") || !stat(word, &status))
+        return true;
+    nearest_word("info|make|bench|help", word, best, sizeof best);
+    if (spelling_distance(word, best) > 2) return true;
+    return wrong_usage("%s: there is no such file or command; did you mean \"drypoint %s\"?", word,
+                       best);
+}
+
+/* The last word may be the output, without its -o. */
+static bool no_output(const tool_settings *s) {
+    const char *const last = s->models[s->model_count - 1];
+    if (access(last, F_OK) && files_format(s, last) != FORMAT_UNKNOWN)
+        return wrong_usage("no output given; did you mean -o %s?", last);
+    if (s->model_count > 1)
+        return wrong_usage("no output given; add -o OUT.png for one scene of %u models, or "
+                           "-o '%%s.png' for a drawing of each",
+                           s->model_count);
+    return wrong_usage("no output given; add -o OUT.png");
+}
+
 static bool check_present(const tool_settings *s) {
     const command_text *const text = &command_table[s->command];
     const char *const space = *text->name ? " " : "";
+    if (!check_command(s)) return false;
     if (!s->model)
         return wrong_usage("no %s given; usage: drypoint %s%s%s",
                            s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,
                            text->arguments);
     if (s->command == COMMAND_MAKE && !s->output)
         return wrong_usage("no output given; add -o OUT.ply");
-    if (s->command == COMMAND_DRAW && !files_count(s))
-        return wrong_usage("no output given; add -o OUT.png");
+    if (s->command == COMMAND_DRAW && !files_count(s)) return no_output(s);
     if (files_standard(s) > 1)
         return wrong_usage("only one output can go to standard output; give the others files");
     return true;

@@ -1,24 +1,30 @@
-/* Writes --help and the man page from the tables. */
+/* Writes --help from the tables: a first screen, and topics. */
 #include "options.h"
+#include "report.h"
 
-#include <ctype.h>
 #include <string.h>
 
 enum { INDENT = 26, COLUMNS = 80 };
 
-/* Prints `text` in lines that start at column INDENT, where the cursor already is. */
-static void wrap(FILE *out, const char *text) {
-    int column = INDENT;
+/* Prints words of `text` in lines that start at column `indent`, where the cursor already is. */
+static void wrap(FILE *out, int indent, const char *text) {
+    int column = indent;
     while (*text) {
         const int length = (int)strcspn(text, " ");
         const bool fits = column + 1 + length <= COLUMNS;
-        if (column > INDENT && fits) column += fprintf(out, " ");
-        if (column > INDENT && !fits) column = fprintf(out, "\n%*s", INDENT, "") - 1;
+        if (column > indent && fits) column += fprintf(out, " ");
+        if (column > indent && !fits) column = fprintf(out, "\n%*s", indent, "") - 1;
         column += fprintf(out, "%.*s", length, text);
         text += length;
         text += strspn(text, " ");
     }
     fputc('\n', out);
+}
+
+/* The same, where a line begins. */
+static void wrap_from(FILE *out, int indent, const char *text) {
+    fprintf(out, "%*s", indent, "");
+    wrap(out, indent, text);
 }
 
 /* Prints an option and its words, in more lines where they are many; the column it ends in. */
@@ -43,33 +49,41 @@ static void help_option(FILE *out, const option *o) {
         fprintf(out, "%*s", INDENT - column, "");
     else
         fprintf(out, "\n%*s", INDENT, "");
-    wrap(out, o->help);
+    wrap(out, INDENT, o->help);
 }
 
 static bool shown(const option *o, tool_command command, option_group group) {
     return o->group == group && o->commands >> command & 1;
 }
 
+static bool has_options(option_group group, tool_command command) {
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (shown(o, command, group)) return true;
+    return false;
+}
+
+static void help_group(FILE *out, tool_command command, option_group group) {
+    fprintf(out, "%s:\n", group_names[group]);
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (shown(o, command, group)) help_option(out, o);
+}
+
 static void help_groups(FILE *out, tool_command command) {
     for (int group = 0; group < GROUP_HIDDEN; group++) {
-        bool first = true;
-        for (const option *o = option_table; o < option_table + option_count; o++) {
-            if (!shown(o, command, (option_group)group)) continue;
-            if (first) fprintf(out, "\n%s:\n", group_names[group]);
-            first = false;
-            help_option(out, o);
-        }
+        if (!has_options((option_group)group, command)) continue;
+        fputc('\n', out);
+        help_group(out, command, (option_group)group);
     }
 }
 
 static void help_shapes(FILE *out) {
-    fputs("\nShapes:\n", out);
+    fputs("Shapes:\n", out);
     for (uint32_t k = 0; k < dp_shape_count(); k++)
         fprintf(out, "  %-13s %s\n", dp_shape_name(k), dp_shape_about(k));
 }
 
 static void help_examples(FILE *out, tool_command command) {
-    fputs("\nExamples:\n", out);
+    fputs("Examples:\n", out);
     for (const char *const *e = command_table[command].examples; *e; e += 2)
         fprintf(out, "  %s\n      %s\n", e[0], e[1]);
 }
@@ -79,18 +93,23 @@ static void usage_line(FILE *out, const char *before, const command_text *text) 
             text->arguments);
 }
 
-void options_help(FILE *out, tool_command command) {
+/* What MODEL can be; scenes come last, of which info and make know nothing. */
+static void help_models(FILE *out, tool_command command) {
+    const bool scenes = command == COMMAND_DRAW || command == COMMAND_BENCH;
+    for (const char *const *text = models_text; *text; text++)
+        if (scenes || text[1]) wrap_from(out, 0, *text);
+}
+
+/* All about a command. */
+static void help_command(FILE *out, tool_command command) {
     usage_line(out, "Usage: ", &command_table[command]);
     for (int other = 1; command == COMMAND_DRAW && other < COMMAND_COUNT; other++)
         usage_line(out, "       ", &command_table[other]);
     fprintf(out, "\n%s\n", command_table[command].about);
-    if (command != COMMAND_MAKE)
-        fputs("MODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more through\n"
-              "Assimp), - for standard input, or a generated model: shape:gear, or\n"
-              "shape:terrain:1000000 with a number of triangles.\n",
-              out);
+    if (command != COMMAND_MAKE) help_models(out, command);
     help_groups(out, command);
-    if (command == COMMAND_MAKE) help_shapes(out);
+    fputc('\n', out);
+    if (command == COMMAND_MAKE) help_shapes(out), fputc('\n', out);
     help_examples(out, command);
     if (command == COMMAND_DRAW)
         fputs("\n\"drypoint COMMAND --help\" tells more about info, make and bench.\n"
@@ -98,99 +117,115 @@ void options_help(FILE *out, tool_command command) {
               out);
 }
 
-/* ---- man ---- */
+/* ---- topics ---- */
 
-/* Prints text with troff's special characters escaped. */
-static void troff(FILE *out, const char *text) {
-    for (; *text; text++) {
-        if (*text == '-')
-            fputs("\\-", out);
-        else if (*text == '\\')
-            fputs("\\e", out);
-        else if (*text == '\'')
-            fputs("\\(aq", out);
-        else
-            fputc(*text, out);
-    }
+static void text_of_shapes(FILE *out, tool_command command) {
+    (void)command;
+    help_shapes(out);
+}
+static void text_of_topics(FILE *out, tool_command command) {
+    char text[600];
+    (void)command;
+    fputs("Topics of \"drypoint --help TOPIC\":\n", out);
+    topic_words(text, sizeof text, ", ");
+    wrap_from(out, 2, text);
 }
 
-static void man_heading(FILE *out, const char *macro, const char *text) {
-    fprintf(out, "%s ", macro);
-    for (; *text; text++) fputc(toupper((unsigned char)*text), out);
-    fputc('\n', out);
+/* Topics that are neither a group of options nor a command. */
+static const struct {
+    const char *word;
+    void (*print)(FILE *out, tool_command command);
+} texts[] = {{"models", help_models},
+             {"shapes", text_of_shapes},
+             {"examples", help_examples},
+             {"topics", text_of_topics},
+             {"all", help_command}};
+enum { TEXTS = sizeof texts / sizeof *texts };
+
+static void add_word(char *text, size_t size, const char *between, const char *word) {
+    const size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s%s", length ? between : "", word);
 }
 
-static void man_option(FILE *out, const option *o) {
-    fputs(".TP\n\\fB", out);
-    if (o->letter) fprintf(out, "\\-%c\\fR, \\fB", o->letter);
-    fputs("\\-\\-", out);
-    troff(out, o->name);
-    fputs("\\fR", out);
-    if (o->argument) {
-        fputs(" \\fI", out);
-        troff(out, o->argument);
-        fputs("\\fR", out);
-    }
-    fputc('\n', out);
-    troff(out, o->help);
-    fputc('\n', out);
+void topic_words(char *text, size_t size, const char *between) {
+    *text = 0;
+    for (int group = 0; group < GROUP_HIDDEN; group++)
+        if (group_topics[group] && has_options((option_group)group, COMMAND_DRAW))
+            add_word(text, size, between, group_topics[group]);
+    for (int command = 1; command < COMMAND_COUNT; command++)
+        add_word(text, size, between, command_table[command].name);
+    for (int k = 0; k < TEXTS; k++) add_word(text, size, between, texts[k].word);
 }
 
-static void man_options(FILE *out) {
-    for (int group = 0; group < GROUP_HIDDEN; group++) {
-        fprintf(out, ".SS %s\n", group_names[group]);
-        for (const option *o = option_table; o < option_table + option_count; o++)
-            if (o->group == (option_group)group) man_option(out, o);
-    }
+/* Is it the word, or that but for a final s? */
+static bool is_topic(const char *word, const char *topic) {
+    const size_t n = strlen(word), m = strlen(topic), least = n < m ? n : m;
+    if (n == m) return !strcmp(word, topic);
+    return !strncmp(word, topic, least) && n + m == 2 * least + 1 &&
+           (n > m ? word : topic)[least] == 's';
 }
 
-static void man_commands(FILE *out) {
-    for (int k = 0; k < COMMAND_COUNT; k++) {
-        fputs(".TP\n\\fBdrypoint ", out);
-        fputs(command_table[k].name, out);
-        fputs("\\fR ", out);
-        troff(out, command_table[k].arguments);
-        fputc('\n', out);
-        troff(out, command_table[k].about);
-        fputc('\n', out);
-    }
+static const option *named_option(const char *name, unsigned commands) {
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (o->commands & commands && o->group != GROUP_HIDDEN &&
+            (!strcmp(o->name, name) || (o->letter == *name && *name && !name[1])))
+            return o;
+    return NULL;
 }
 
-static void man_shapes(FILE *out) {
-    for (uint32_t k = 0; k < dp_shape_count(); k++) {
-        fprintf(out, ".TP\n\\fB%s\\fR\n", dp_shape_name(k));
-        troff(out, dp_shape_about(k));
-        fputc('\n', out);
-    }
+static bool unknown_topic(const char *topic) {
+    char words[600], best[32];
+    topic_words(words, sizeof words, "|");
+    nearest_word(words, topic, best, sizeof best);
+    if (spelling_distance(topic, best) < strlen(best))
+        return wrong_usage("--help: \"%s\" is no topic; did you mean %s?", topic, best);
+    return wrong_usage("--help: \"%s\" is neither a topic nor an option; \"drypoint --help\" lists "
+                       "topics",
+                       topic);
 }
 
-static void man_examples(FILE *out) {
-    for (int k = 0; k < COMMAND_COUNT; k++)
-        for (const char *const *e = command_table[k].examples; *e; e += 2) {
-            fputs(".TP\n", out);
-            troff(out, e[0]);
-            fputc('\n', out);
-            troff(out, e[1]);
-            fputc('\n', out);
-        }
+static bool help_topic(FILE *out, tool_command command, const char *topic) {
+    for (int k = 0; k < TEXTS; k++)
+        if (is_topic(topic, texts[k].word)) return texts[k].print(out, command), true;
+    for (int other = 1; other < COMMAND_COUNT; other++)
+        if (!strcmp(topic, command_table[other].name))
+            return help_command(out, (tool_command)other), true;
+    for (int group = 0; group < GROUP_HIDDEN; group++)
+        if (group_topics[group] && is_topic(topic, group_topics[group]) &&
+            has_options((option_group)group, command))
+            return help_group(out, command, (option_group)group), true;
+    const char *const name = topic + strspn(topic, "-");
+    const option *o = named_option(name, 1u << command);
+    if (!o) o = named_option(name, ~0u);
+    return o ? help_option(out, o), true : unknown_topic(topic);
 }
 
-void options_man(FILE *out) {
-    fprintf(out, ".TH DRYPOINT 1 \"\" \"drypoint %s\" \"User Commands\"\n", dp_version());
-    fputs(".SH NAME\ndrypoint \\- turn polygons into line drawings\n", out);
-    man_heading(out, ".SH", "synopsis");
-    man_commands(out);
-    fputs(".SH DESCRIPTION\nMODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more "
-          "through Assimp), \\- for standard input, or a generated model: shape:gear, or "
-          "shape:terrain:1000000 with a number of triangles.\n",
+/* What fits on a screen of 24 lines. */
+static void first_screen(FILE *out) {
+    char topics[600], text[800];
+    topic_words(topics, sizeof topics, ", ");
+    snprintf(text, sizeof text, "%s, or the name of an option.", topics);
+    usage_line(out, "Usage: ", &command_table[COMMAND_DRAW]);
+    fputs("       drypoint info|make|bench ...\n\n", out);
+    fprintf(out, "%s\n", command_table[COMMAND_DRAW].about);
+    wrap_from(out, 0, models_text[0]);
+    fputs("\n"
+          "  drypoint part.stl -o part.png                           a drawing\n"
+          "  drypoint part.stl -o part.svg --hidden dashed           paths, hidden ones too\n"
+          "  drypoint part.stl -o part.png --preset technical        a look\n"
+          "  drypoint part.stl --sheet front,top,iso -o part.pdf     views on a page\n"
+          "  drypoint gear.stl shaft.obj -o scene.png                two files, one scene\n"
+          "  drypoint 'parts/*.stl' -o '%s.png'                      a drawing for each\n"
+          "\n\"drypoint --help TOPIC\" tells more. Topics:\n",
           out);
-    man_heading(out, ".SH", "options");
-    man_options(out);
-    man_heading(out, ".SH", "shapes");
-    man_shapes(out);
-    man_heading(out, ".SH", "examples");
-    man_examples(out);
-    fputs(".SH EXIT STATUS\n0: done. 1: failed; one line on standard error says where and why. "
-          "2: wrong usage. 130: interrupted; an old output file is left as it was.\n",
-          out);
+    wrap_from(out, 2, text);
+}
+
+bool options_help(FILE *out, tool_command command, const char *topic) {
+    if (topic) return help_topic(out, command, topic);
+    if (command == COMMAND_DRAW)
+        first_screen(out);
+    else
+        help_command(out, command);
+    return true;
 }

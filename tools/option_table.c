@@ -19,6 +19,22 @@ const char *const group_names[GROUP_COUNT] = {"Picture", "Pages",    "Camera",
                                               "Surface", "Edge map", "How lines are found",
                                               "Model",   "Program",  NULL};
 
+const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",  "lines",
+                                               "paths",   "strokes", "surface", "edge-map",
+                                               "method",  NULL,      "program", NULL};
+
+const char *const models_text[] = {
+    "MODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more through Assimp), - for "
+    "standard input, or a generated model: shape:gear, or shape:terrain:1000000 with a number of "
+    "triangles.",
+    "A quoted pattern like 'parts/*.stl' stands for the files that it fits.",
+    "Several models are one scene: what one of them hides of another is hidden, and where they "
+    "cross "
+    "is a line. With %s in the name of each output, as in -o '%s.png', each model has a drawing of "
+    "its own, and %s is its file's name without folder and ending; %% is a percent sign there. One "
+    "that fails does not stop the others.",
+    NULL};
+
 /* clang-format off */
 const option option_table[] = {
     {"output", 'o', "FILE or NAME=FILE", OPTION_OUTPUT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
@@ -27,7 +43,8 @@ const option option_table[] = {
      "--format says otherwise, or a PLY). NAME=FILE.png, once for each "
      "NAME, writes what shading and edges are made from, beside the drawing or alone: edge-map (inner edges in RGB, "
      "profile edges in A), normals, depth, id. trace=FILE writes the visible lines as text: chains of segments, "
-     "with their edges and what ends them. segments=FILE.json writes the paths of the drawing."},
+     "with their edges and what ends them. segments=FILE.json writes the paths of the drawing. %s in a name stands for the "
+     "model's, for a drawing of each of several models."},
     {"format", 0, "png|svg|pdf|eps|dxf|json", OPTION_WORD, GROUP_PICTURE, DRAW, AT(format), 0, 0, 0,
      "How outputs are written whose name does not end so: -, devices and pipes. Default: png."},
     {"preset", 0, "technical|illustration|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
@@ -298,9 +315,11 @@ const option option_table[] = {
     {"quiet", 'q', NULL, OPTION_FLAG, GROUP_PROGRAM, EVERY, AT(quiet), 0, 0, 0,
      "No progress bar and no warnings."},
     {"help", 'h', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_HELP, 0, 0, 0,
-     "Print this text."},
-    {"version", 0, NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_VERSION, 0, 0, 0,
+     "Print a summary; followed by a topic, a command, the name of an option or \"all\", more about that."},
+    {"version", 'V', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_VERSION, 0, 0, 0,
      "Print the version."},
+    {"completions", 0, "bash|zsh|fish", OPTION_WORD, GROUP_PROGRAM, DRAW, AT(completions), 0, 0, 0,
+     "Print what completes these options in a shell, to be read by it: source <(drypoint --completions bash)."},
     {"man", 0, NULL, OPTION_QUESTION, GROUP_HIDDEN, EVERY, QUESTION_MAN, 0, 0, 0,
      "Print the man page."},
 };
@@ -309,7 +328,7 @@ _Static_assert(sizeof option_table / sizeof *option_table <= OPTIONS_MOST, "make
 
 const command_text command_table[COMMAND_COUNT] = {
     [COMMAND_DRAW] = {"",
-                      "MODEL -o OUT.png|svg|pdf|... [options]",
+                      "MODEL... -o OUT.png|svg|pdf|... [options]",
                       "Draw a model's silhouettes, ridges, valleys, intersections and borders.",
                       {"drypoint fandisk.obj -o fandisk.png", "good defaults",
                        "drypoint part.stl -o part.png --view iso --ortho 0 --width silhouette=4,ridge=2",
@@ -318,12 +337,14 @@ const command_text command_table[COMMAND_COUNT] = {
                        "drypoint part.stl --page A4 --scale 1:2 -o part.pdf", "half its size, to print",
                        "drypoint part.stl --sheet front,top,right,iso --title Bracket -o sheet.pdf",
                        "four views with a title block",
+                       "drypoint gear.stl shaft.obj -o scene.png", "two files, one scene",
+                       "drypoint 'parts/*.stl' -o '%s.svg'", "a drawing for each of many files",
                        "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
                        "a generated model, in colour",
                        "drypoint scan.stl -o scan.png --memory 100M", "a file larger than memory",
                        "drypoint - -o - < model.ply > model.png", "in a pipe", NULL}},
     [COMMAND_INFO] = {"info",
-                      "MODEL [--json]",
+                      "MODEL... [--json]",
                       "Say what is in a model: polygons, extent, open edges, what would be dropped.",
                       {"drypoint info engine.glb", "a table",
                        "drypoint info --json part.stl | jq .polygons", "for programs", NULL}},
@@ -334,7 +355,7 @@ const command_text command_table[COMMAND_COUNT] = {
                        "drypoint make terrain -o hills.stl --triangles 10000000 --seed 7",
                        "ten million triangles", NULL}},
     [COMMAND_BENCH] = {"bench",
-                       "MODEL [--frames N] [options]",
+                       "MODEL... [--frames N] [options]",
                        "Time the drawing of a model; JSON on stdout, times in milliseconds.",
                        {"drypoint bench dragon.ply --frames 20 --size 1680x1050", "median of twenty",
                         "drypoint bench shape:terrain:1000000 --threads 1", "a generated model",

@@ -2,6 +2,7 @@
  *
  * The first word may be a command; without one the program draws. Options may come anywhere, as
  * --name value, --name=value or -o value; -- ends them; - is a model or output. */
+#include "models.h"
 #include "options.h"
 #include "presets.h"
 #include "report.h"
@@ -112,13 +113,13 @@ static bool take_short(walk *w, const char *text) {
 
 static bool take_word(walk *w, const char *word) {
     tool_settings *const s = w->settings;
-    if (!s->model) {
-        s->model = word;
-        return true;
-    }
-    return wrong_usage(
-        "there is one %s at a time: \"%s\" comes after \"%s\"; options begin with --",
-        s->command == COMMAND_MAKE ? "shape" : "model", word, s->model);
+    if (s->command != COMMAND_MAKE) return models_add(s, word);
+    if (s->model)
+        return wrong_usage(
+            "there is one shape at a time: \"%s\" comes after \"%s\"; options begin with --", word,
+            s->model);
+    s->model = word;
+    return true;
 }
 
 static bool take(walk *w) {
@@ -184,12 +185,10 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
     if (!apply_presets(&w)) return false;
     while (w.at < w.argc && !settings->question)
         if (!take(&w)) return false;
-    if (settings->question && w.at < w.argc) { /* drypoint --help make */
-        const int word = word_index(command_words, w.argv[w.at]);
-        if (word) settings->command = (tool_command)word;
-    }
+    if (settings->question && w.at < w.argc) settings->topic = w.argv[w.at]; /* --help camera */
+    if (settings->completions) settings->question = QUESTION_COMPLETIONS;
     if (settings->question) return true;
-    if (!options_check(settings)) return false;
+    if (!models_settle(settings) || !options_check(settings)) return false;
     options_warn(settings);
     return true;
 }

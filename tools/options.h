@@ -18,7 +18,13 @@ typedef enum tool_command {
 } tool_command;
 
 /* A question about the command, instead of running it. */
-typedef enum question { QUESTION_NONE = 0, QUESTION_HELP, QUESTION_VERSION, QUESTION_MAN } question;
+typedef enum question {
+    QUESTION_NONE = 0,
+    QUESTION_HELP,
+    QUESTION_VERSION,
+    QUESTION_MAN,
+    QUESTION_COMPLETIONS
+} question;
 
 typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 
@@ -99,8 +105,15 @@ typedef struct tool_settings {
     tool_command command;
     question question;
     bool given[OPTIONS_MOST]; /* on the command line itself: by the option's place in its table */
-    const char *model;        /* of make: the shape's name */
-    const char *output;       /* of make */
+    const char *topic;        /* of --help; NULL: none */
+    int completions;          /* word */
+    const char *model;     /* its name, or what several are called together; of make: the shape's */
+    char **models;         /* [model_count] what to draw, inspect or time (models.h) */
+    uint32_t model_count;  /* of make: 0 */
+    char models_name[600]; /* "a.stl and 2 more" */
+    bool is_one_of_several; /* this run is about one model, and others come before or after it */
+    uint32_t number;        /* of it among them, from 0 */
+    const char *output;     /* of make */
     const char *files[FILES_MOST]; /* of drawing */
     uint32_t file_count;
     int format, ground; /* words */
@@ -247,12 +260,14 @@ extern const size_t option_count;
 /* A command's name ("" for drawing), what follows it on the command line, one line about it. */
 typedef struct command_text {
     const char *name, *arguments, *about;
-    const char *examples[20]; /* command line, then what it does, … NULL */
+    const char *examples[24]; /* command line, then what it does, … NULL */
 } command_text;
 extern const command_text command_table[COMMAND_COUNT];
 extern const char *const group_names[GROUP_COUNT];
+extern const char *const group_topics[GROUP_COUNT]; /* for --help; NULL: none */
+extern const char *const models_text[];             /* what MODEL can be; paragraphs, then NULL */
 
-/* Fills *settings. False: the command line is wrong, and a message is on stderr. */
+/* Fills *settings; models_free frees what it holds. False: the command line is wrong, and a message is on stderr. */
 bool options_parse(int argc, char **argv, tool_settings *settings);
 
 /* Stores one option's value. False: it is wrong, and a message is on stderr. */
@@ -287,7 +302,11 @@ int word_index(const char *words, const char *word);
 /* Edit distance from a to b, in letters. */
 unsigned spelling_distance(const char *a, const char *b);
 
-void options_help(FILE *out, tool_command command);
+/* Prints a first screen, or all about a command other than drawing, or about a topic. False: there
+ * is no such topic, and a message is on stderr. */
+bool options_help(FILE *out, tool_command command, const char *topic);
+/* The topics of --help with something between them. */
+void topic_words(char *text, size_t size, const char *between);
 void options_man(FILE *out);
 
 #endif

@@ -38,6 +38,34 @@ int output_stem(const char *path) {
     return (int)(dot ? (size_t)(dot - path) : strlen(path));
 }
 
+bool output_is_folder(const char *path) {
+    struct stat status;
+    const size_t length = strlen(path);
+    if (length && path[length - 1] == '/') return true;
+    return !stat(path, &status) && S_ISDIR(status.st_mode);
+}
+
+bool output_is_pattern(const char *path) {
+    for (const char *at = strchr(path, '%'); at; at = strchr(at + (at[1] ? 2 : 1), '%'))
+        if (at[1] == 's') return true;
+    return false;
+}
+
+bool output_fill(const char *pattern, const char *stem, char *path, size_t size) {
+    size_t length = 0;
+    for (const char *at = pattern; *at; at++) {
+        const char one[2] = {*at, 0}, *piece = one;
+        if (at[0] == '%' && at[1] == 's') piece = stem;
+        if (at[0] == '%' && (at[1] == 's' || at[1] == '%')) at++;
+        const size_t n = strlen(piece);
+        if (length + n >= size) return false;
+        memcpy(path + length, piece, n);
+        length += n;
+    }
+    path[length] = 0;
+    return true;
+}
+
 bool output_possible(const char *path) {
     char directory[PATH_MAX];
     struct stat status;

@@ -3,6 +3,7 @@
 #define TOOL_OUTPUT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* Is it standard output, a device or a pipe? These are written in place, and have no ending. */
 bool output_in_place(const char *path);
@@ -14,6 +15,12 @@ bool output_has_ending(const char *path, const char *ending);
 int output_stem(const char *path);
 /* Are both one regular file, or one that does not exist yet under one name? */
 bool output_same(const char *path, const char *other);
+/* Is it a folder, or named like one? */
+bool output_is_folder(const char *path);
+/* Does a model's name belong into it, where %s is? */
+bool output_is_pattern(const char *path);
+/* Puts it there; in such a path %% is a percent sign. False: it takes more than `size` bytes. */
+bool output_fill(const char *pattern, const char *stem, char *path, size_t size);
 /* Can a file be made there? A message on stderr if not; the writing itself may still fail. */
 bool output_possible(const char *path);
 

@@ -223,7 +223,7 @@ static int measure(picture *p, dp_source *source, const dp_extent *extent, bool 
     *whole = p->sized && !p->s->has_target;
     if (!*whole || p->s->has_mirror || !dp_source_rewindable(source)) return 0;
     if (!view_boxes(source, camera, 1, &p->box, &diag)) return 0;
-    return report_failure(p->s->model, &diag);
+    return report_model(p->s, &diag);
 }
 
 /* Makes a perspective picture of the box's middle, at the drawing's scale: as with a lens that is

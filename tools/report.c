@@ -50,3 +50,17 @@ int report_failure(const char *file, const dp_diag *diag) {
         fprintf(stderr, "drypoint: %s\n", message);
     return diag->result == DP_ERR_ARGUMENT ? EXIT_USAGE : EXIT_FAILED;
 }
+
+void print_json_string(FILE *out, const char *text) {
+    fputc('"', out);
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            fprintf(out, "\\%c", c);
+        else if (c < ' ')
+            fprintf(out, "\\u%04x", c);
+        else
+            fputc(c, out);
+    }
+    fputc('"', out);
+}

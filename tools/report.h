@@ -4,6 +4,8 @@
 
 #include <drypoint/base.h>
 
+#include <stdio.h>
+
 /* "drypoint: …" and a newline; false, so that `return wrong_usage(…)` reads well. */
 bool wrong_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
@@ -15,5 +17,8 @@ void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* "drypoint: …": something worth knowing, and not wrong. */
 void note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints a JSON string; names of files may contain any byte. */
+void print_json_string(FILE *out, const char *text);
 
 #endif

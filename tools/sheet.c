@@ -12,6 +12,7 @@
  * The views turn with --up: front is what lies on +z, right what lies on +x, when +y is up; for
  * another direction all three are turned by the shortest way there. With 0,0,1 front is on -y. */
 #include "sheet.h"
+#include "commands.h"
 #include "output.h"
 #include "report.h"
 #include "view_box.h"
@@ -303,11 +304,13 @@ static void size_page(const tool_settings *s, page_plan *plan) {
     plan->mm_height = tall ? large : small;
 }
 
-/* What a model is called, where it has no title: its file's name without the ending. */
-static void name_model(const char *path, char name[TEXT_BYTES]) {
+/* What a model is called, where it has no title: its file's name without the ending; of a scene, what
+ * its models are called together. */
+static void name_model(const tool_settings *s, char name[TEXT_BYTES]) {
+    const char *const path = s->model;
     const char *const colon = strchr(path, ':'), *const file = output_name(path);
     snprintf(name, TEXT_BYTES, "%s", !strncmp(path, "shape:", 6) && colon ? colon + 1 : file);
-    char *const dot = strrchr(name, '.');
+    char *const dot = s->model_count == 1 ? strrchr(name, '.') : NULL;
     if (dot && dot > name) *dot = 0;
 }
 
@@ -315,7 +318,7 @@ static void put_frame(const tool_settings *s, double scale, page_plan *plan) {
     static const char *const units[] = {"mm", "mm", "cm", "m", "in", "ft"};
     const double *const m = page_margins(s);
     char text[32], name[TEXT_BYTES];
-    name_model(s->model, name);
+    name_model(s, name);
     page_scale_text(scale, text);
     if (s->scale.paper > 0) snprintf(text, sizeof text, "%g:%g", s->scale.paper, s->scale.model);
     const title_block block = {.left = m[MARGIN_LEFT],
@@ -350,8 +353,7 @@ int sheet_make(const tool_settings *s, dp_source *source, const dp_extent *exten
     int code = page_pixels(plan);
     if (code) return code;
     if (!make_cameras(&l, extent)) return EXIT_USAGE;
-    if (view_boxes(source, l.cameras, l.count, l.boxes, &diag))
-        return report_failure(s->model, &diag);
+    if (view_boxes(source, l.cameras, l.count, l.boxes, &diag)) return report_model(s, &diag);
     fill_grid(&l);
     find_place(&l, plan);
     code = choose_scale(&l, &scale);

@@ -37,7 +37,9 @@ static unsigned long long value_of(const dp_stats *stats, const count *c) {
     return value;
 }
 
-void print_stats_table(FILE *out, const dp_stats *stats) {
+void print_stats_table(FILE *out, const tool_settings *s, const dp_stats *stats) {
+    if (s->is_one_of_several) fprintf(out, "%-30s %14s\n", "model", s->model);
+    if (s->model_count > 1) fprintf(out, "%-30s %14u\n", "models", s->model_count);
     for (const count *c = counts; c < counts + sizeof counts / sizeof *counts; c++)
         fprintf(out, "%-30s %14llu\n", c->text, value_of(stats, c));
     for (int k = 0; k < DP_STAGE_COUNT; k++)
@@ -49,8 +51,16 @@ void print_stats_table(FILE *out, const dp_stats *stats) {
         fprintf(out, "%-30s %14.2f ms\n", "of it, making curvature", stats->curvature_ms);
 }
 
-void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target) {
-    fprintf(out, "{\"width\": %u, \"height\": %u, \"samples\": %u", target->width, target->height,
+void print_stats_json(FILE *out, const tool_settings *s, const dp_stats *stats,
+                      const dp_target *target) {
+    fputc('{', out);
+    if (s->is_one_of_several) {
+        fputs("\"model\": ", out);
+        print_json_string(out, s->model);
+        fputs(", ", out);
+    }
+    if (s->model_count > 1) fprintf(out, "\"models\": %u, ", s->model_count);
+    fprintf(out, "\"width\": %u, \"height\": %u, \"samples\": %u", target->width, target->height,
             target->samples);
     for (const count *c = counts; c < counts + sizeof counts / sizeof *counts; c++)
         fprintf(out, ", \"%s\": %llu", c->key, value_of(stats, c));
@@ -62,11 +72,14 @@ void print_stats_json(FILE *out, const dp_stats *stats, const dp_target *target)
             stats->frame_ms, stats->adjacency_ms, stats->curvature_ms);
 }
 
-void warn_lost(const dp_stats *stats) {
-    if (stats->edges_lost)
-        warn("%llu edges or more could not be followed within --memory, and lines may be missing; "
+void warn_lost(const tool_settings *s, const dp_stats *stats) {
+    char text[160];
+    if (!stats->edges_lost) return;
+    snprintf(text, sizeof text,
+             "%llu edges or more could not be followed within --memory, and lines may be missing; "
              "give more",
              (unsigned long long)stats->edges_lost);
+    warn_of_model(s, text);
 }
 
 /* Does it matter that polygons are dropped? Those without area leave no hole: most programs export
@@ -76,7 +89,7 @@ static bool is_worth_telling(const dp_stats *s) {
            (s->dropped_area + s->dropped_corners) * 10 > s->polygons;
 }
 
-void warn_dropped(const dp_stats *stats) {
+void warn_dropped(const tool_settings *s, const dp_stats *stats) {
     static const struct {
         const char *text;
         size_t at;
@@ -84,16 +97,19 @@ void warn_dropped(const dp_stats *stats) {
                   {"with a coordinate that is not finite", AT(dropped_finite)},
                   {"without area", AT(dropped_area)},
                   {"with fewer than three corners", AT(dropped_corners)}};
-    char text[240] = "";
-    size_t length = 0;
+    char text[400] = "";
     if (!is_worth_telling(stats)) return;
+    size_t length = (size_t)snprintf(
+        text, sizeof text, "%llu of %llu polygons dropped: ", (unsigned long long)stats->dropped,
+        (unsigned long long)stats->polygons);
+    const size_t begin = length;
     for (size_t k = 0; k < sizeof causes / sizeof *causes; k++) {
         uint64_t n;
         memcpy(&n, (const char *)stats + causes[k].at, sizeof n);
         if (n)
-            length += (size_t)snprintf(text + length, sizeof text - length, "%s%llu %s",
-                                       length ? ", " : "", (unsigned long long)n, causes[k].text);
+            length +=
+                (size_t)snprintf(text + length, sizeof text - length, "%s%llu %s",
+                                 length > begin ? ", " : "", (unsigned long long)n, causes[k].text);
     }
-    warn("%llu of %llu polygons dropped: %s", (unsigned long long)stats->dropped,
-         (unsigned long long)stats->polygons, text);
+    warn_of_model(s, text);
 }

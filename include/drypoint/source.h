@@ -150,6 +150,27 @@ typedef struct dp_memory_file {
 DP_API dp_result dp_source_open_memory(const dp_memory_file *file, const dp_file_options *options,
                                        dp_source **out, dp_diag *diag);
 
+/* Makes one source of several, a scene: the polygons of sources[0], then those of sources[1], and so
+ * on. Batches keep their origins, normals, texture coordinates and colours, where they have some; the
+ * first one's origin is the picture's. The scene can be rewound if all its sources can, and is
+ * streamed where they are.
+ *
+ *     dp_source *const parts[] = {bolt, plate};
+ *     const char *const names[] = {"bolt", "plate"};
+ *     dp_source_join(parts, names, 2, NULL, &scene, &diag);
+ *
+ * names[k] (copied; NULL: none, also for `names`) is what sources[k] is called in messages, in
+ * remarks, and before the names of its groups: "bolt/thread", or "bolt" for a group without one.
+ * Groups get numbers of the scene, none of which two sources share: k for group 0 of source k, and
+ * the next free one for each other group when it is first read; names and colours are known from then
+ * on. All groups beyond 65536 share the last number.
+ *
+ * On success the scene owns its sources, and the caller destroys only *out; on failure they remain
+ * the caller's. DP_ERR_ARGUMENT where there is no source, or one is NULL or there twice;
+ * DP_ERR_LIMIT for more than 65536, DP_ERR_MEMORY. */
+DP_API dp_result dp_source_join(dp_source *const *sources, const char *const *names, size_t count,
+                                const dp_allocator *allocator, dp_source **out, dp_diag *diag);
+
 /* The next batch (polygon_count 0 at the end); back to the first; whether that is possible. */
 DP_API dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag);
 DP_API dp_result dp_source_rewind(dp_source *source, dp_diag *diag);

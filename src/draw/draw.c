@@ -327,6 +327,28 @@ static dp_result place_vertices(dp_context *c, dp_diag *diag) {
     return result;
 }
 
+static bool compute_normals(dp_context *c, dp_source *source, dp_attribute *out) {
+    return dp_normals_make(&c->normals, &c->frame.polygons, c->frame.styles[0].shade.crease_angle,
+                           source->constant ? &source->key : NULL, c->threads, &c->memory, out);
+}
+
+/* Normals for shading: made ones, also of those batches that have none. */
+static bool make_normals(dp_context *c, dp_source *source) {
+    dp_polygons *const p = &c->frame.polygons;
+    dp_attribute_store *const gathered = &c->polygons.normals;
+    const size_t corners = dp_first_corner(p, p->count);
+    dp_attribute made;
+    if (dp_shade_needs_normals(&c->shade)) return compute_normals(c, source, &p->normals);
+    if (!dp_shade_uses_model_normals(&c->shade) || p->normals.values != gathered->values ||
+        !dp_attribute_lacks(gathered, corners))
+        return true;
+    if (!compute_normals(c, source, &made) ||
+        !dp_attribute_fill(gathered, &made, 3, corners, &c->memory))
+        return false;
+    p->normals = dp_attribute_of_store(gathered, 3);
+    return true;
+}
+
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
@@ -336,11 +358,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.pencil.curvature.ms;
-    if (dp_shade_needs_normals(&c->shade) &&
-        !dp_normals_make(&c->normals, &f->polygons, f->styles[0].shade.crease_angle,
-                         source->constant ? &source->key : NULL, c->threads, &c->memory,
-                         &f->polygons.normals))
-        return out_of_memory(diag);
+    if (!make_normals(c, source)) return out_of_memory(diag);
     if (c->shade.active && f->polygons.normals.values) {
         if (!dp_normals_pack(&c->normals, &f->polygons, c->threads, &c->memory))
             return out_of_memory(diag);

@@ -25,8 +25,8 @@ bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from
                              size_t corners, const dp_allocator *memory) {
     if (!from->values || !from->count) return true;
     const size_t count = store->count + from->count;
-    if (count >= UINT32_MAX || !dp_reserve(memory, &store->values, &store->values_cap,
-                                           dp_times(count, width), sizeof *store->values))
+    if (count >= DP_ATTRIBUTE_NONE || !dp_reserve(memory, &store->values, &store->values_cap,
+                                                  dp_times(count, width), sizeof *store->values))
         return false;
     if (!store->used) {
         store->used = true;
@@ -37,6 +37,23 @@ bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from
         memcpy(store->values + (store->count + i) * width, dp_attribute_value(from, (uint32_t)i),
                width * sizeof(float));
     store->count = count;
+    return true;
+}
+
+bool dp_attribute_lacks(const dp_attribute_store *store, size_t count) {
+    size_t c = 0;
+    if (!store->used) return false;
+    while (c < count && store->indices[c] != UINT32_MAX) c++;
+    return c < count;
+}
+
+bool dp_attribute_fill(dp_attribute_store *store, const dp_attribute *from, size_t width,
+                       size_t corners, const dp_allocator *memory) {
+    const size_t base = store->count;
+    if (!dp_attribute_add_values(store, from, width, corners, memory)) return false;
+    for (size_t c = 0; c < corners; c++)
+        if (store->indices[c] == UINT32_MAX)
+            store->indices[c] = (uint32_t)base + (from->indices ? from->indices[c] : (uint32_t)c);
     return true;
 }
 

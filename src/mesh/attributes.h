@@ -5,8 +5,11 @@
 #include "base/memory.h"
 #include <drypoint/source.h>
 
+/* The index of a corner without a value, where its batch had some; UINT32_MAX where it had none. */
+#define DP_ATTRIBUTE_NONE (UINT32_MAX - 1)
+
 /* One attribute of all batches so far. Zero is empty. Invariant: if `used`, every corner added has
- * an index; UINT32_MAX where its batch had no value for it. */
+ * an index. */
 typedef struct dp_attribute_store {
     float *values;
     uint32_t *indices;              /* per corner */
@@ -27,6 +30,14 @@ bool dp_attribute_add_values(dp_attribute_store *store, const dp_attribute *from
 bool dp_attribute_reserve_corners(dp_attribute_store *store, size_t corners,
                                   const dp_allocator *memory);
 
+/* Is one of corners[0, count) of a batch without values? */
+bool dp_attribute_lacks(const dp_attribute_store *store, size_t count);
+
+/* Gives the corners of batches without values those of `from`, which has some for all
+ * corners. False when memory is out. */
+bool dp_attribute_fill(dp_attribute_store *store, const dp_attribute *from, size_t width,
+                       size_t corners, const dp_allocator *memory);
+
 /* The attribute of all corners added; borrowed. */
 dp_attribute dp_attribute_of_store(const dp_attribute_store *store, size_t width);
 
@@ -46,8 +57,9 @@ static inline void dp_attribute_add_corner(dp_attribute_store *store, const dp_a
                                            size_t corner, uint32_t vertex, size_t to) {
     if (!store->used) return;
     const uint32_t number = dp_attribute_number(from, corner, vertex);
-    store->indices[to] =
-        number == UINT32_MAX ? UINT32_MAX : (uint32_t)(store->count - from->count) + number;
+    store->indices[to] = !from->values          ? UINT32_MAX
+                         : number == UINT32_MAX ? DP_ATTRIBUTE_NONE
+                                                : (uint32_t)(store->count - from->count) + number;
 }
 
 #endif

@@ -65,6 +65,11 @@ bool dp_shade_needs_normals(const dp_shade_store *s) {
                          (normals == DP_NORMALS_MODEL && !frame->polygons.normals.values));
 }
 
+bool dp_shade_uses_model_normals(const dp_shade_store *s) {
+    return s->active && s->frame->styles[0].shade.normals == DP_NORMALS_MODEL &&
+           s->frame->polygons.normals.values;
+}
+
 static bool make_texture(uint8_t **values, size_t *cap, void (*make)(uint8_t *),
                          const dp_allocator *memory) {
     if (*values) return true;

@@ -144,8 +144,9 @@ uint64_t dp_shade_store_bytes(const dp_shade_store *store);
 /* Begins a frame, before the tiles. False when memory is out. */
 bool dp_shade_begin(dp_shade_store *store, const dp_frame *frame);
 
-/* Must this frame's normals be computed? */
+/* Must this frame's normals be computed? Are the model's wanted, which some batches may lack? */
 bool dp_shade_needs_normals(const dp_shade_store *store);
+bool dp_shade_uses_model_normals(const dp_shade_store *store);
 
 /* After polygons are gathered: allocates the G-buffer, runs the pencil's vertex stage. False when
  * memory is out. */

@@ -304,8 +304,11 @@ bench_json() {
     ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null || fail "no JSON"
 }
 helps() {
+    run 0 --help all
+    cp out all
     for command in '' info make bench; do
         run 0 $command --help
+        [ -n "$command" ] || cp all out
         says out "Usage: drypoint $command"
         says out 'Examples:'
         silent err
@@ -313,7 +316,7 @@ helps() {
     done
     run 0 --help make
     says out 'Usage: drypoint make'
-    run 0 -h
+    run 0 -h all
     for name in size samples threads eye target up fov ortho view azimuth elevation zoom lines width \
         color paper surface ridge-angle valley-angle method between ink passes stats quiet; do
         says out "--$name"
@@ -374,7 +377,7 @@ missing_words() {
     wrong make cube -- 'add -o OUT.ply'
     wrong shape:cube -o -- 'needs a value'
     wrong shape:cube --width --samples 4 -o out.png -- 'needs a value'
-    wrong shape:cube other.obj -o out.png -- 'one model at a time'
+    wrong make cube sphere -o out.ply -- 'one shape at a time'
     wrong info shape:cube --width 3 -- 'does not belong to'
     wrong bench shape:cube -o out.png -- 'does not belong to'
 }
@@ -1293,9 +1296,11 @@ paper_presets() {
     svg_size large.svg | grep -q 420mm || fail "options do not change presets: $(svg_size large.svg)"
 }
 
-. "$here/look.sh" # line weights, colours, presets, options without effect
+. "$here/look.sh"    # line weights, colours, presets, options without effect
+. "$here/several.sh" # scenes, a drawing for each of several models
+. "$here/helps.sh"   # --help and its topics, completions
 
-tests="$look_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
