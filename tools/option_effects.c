@@ -99,12 +99,14 @@ typedef struct rule {
 static const rule drawing_rules[] = {
     {STROKES "|stroke-u|stroke-k|stroke-scale|seed", finds_lines,
      "an edge map is of pixels and has no strokes; --edges both draws lines with them as well"},
-    {"lines|width|color|ridge-angle|valley-angle|hidden|levels|hidden-smooth|hidden-width|"
+    {"lines|width|color|ridge-angle|valley-angle|detail|hidden|levels|hidden-smooth|hidden-width|"
      "hidden-color|ink|method|between|edge-table",
      finds_lines, "--edges map and none draw no such lines; --edges both adds them"},
-    {STROKES "|stroke-u|stroke-k|stroke-scale|seed|width|color|ridge-angle|valley-angle|hidden|"
-             "levels|hidden-smooth|hidden-width|hidden-color|ink|method|between|edge-table",
+    {STROKES
+     "|stroke-u|stroke-k|stroke-scale|seed|width|color|ridge-angle|valley-angle|detail|hidden|"
+     "levels|hidden-smooth|hidden-width|hidden-color|ink|method|between|edge-table",
      has_lines, "no lines are drawn; leave out --lines none"},
+    {"detail", has_pens, "with --ink quads the added polygons are the lines; leave it out"},
     {"ridge-angle", has_ridges, "no ridges are drawn; add them to --lines"},
     {"valley-angle", has_valleys, "no valleys are drawn; add them to --lines"},
     {"levels|hidden-smooth|hidden-width|hidden-color", has_hidden,

@@ -124,6 +124,12 @@ const option option_table[] = {
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
      "Edges whose dihedral angle is above this are valleys. Default: 210."},
 
+    {"detail", 0, "exact|auto|F", OPTION_DETAIL, GROUP_LINES, PICTURE, AT(detail), AT(has_detail), 0.01, 100,
+     "How much is drawn of scans, sculptures and coarse models. exact draws every line that the polygons make; auto "
+     "what a person would draw at this size: it leaves out creases and outlines that come of noise or of the mesh, and "
+     "lets weak ones thin out; F is times as fine: 2 draws more, 0.5 less. Machine parts stay as they are. Default: "
+     "auto."},
+
     {"hidden", 0, "dashed|dotted|thin|solid|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(hidden), 0, 0, 0,
      "Draw lines that something hides, too, below the visible ones: dashed, dotted, whole but thin, or as wide as "
      "these. Default: none; on sheets dashed, but for the pictorial view."},

@@ -79,6 +79,19 @@ static bool store_number(const option *o, const char *value, double *to) {
     return true;
 }
 
+static bool store_number(const option *o, const char *value, double *to);
+
+static bool store_detail(const option *o, const char *value, double *to) {
+    if (!strcmp(value, "exact") || !strcmp(value, "auto")) {
+        *to = !strcmp(value, "auto");
+        return true;
+    }
+    if (*value && !strchr("+-.0123456789", *value))
+        return wrong_usage("--%s: \"%s\" is neither exact nor auto nor a number like 0.5", o->name,
+                           value);
+    return store_number(o, value, to);
+}
+
 static bool store_count(const option *o, const char *value, uint64_t *to) {
     if (!read_count(value, end_of(value), to))
         return wrong_usage("--%s: \"%s\" is not a whole number; give one like 4", o->name, value);
@@ -444,6 +457,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_margin(o, value, to);
     case OPTION_SCALE:
         return store_scale(o, value, to);
+    case OPTION_DETAIL:
+        return store_detail(o, value, to);
     case OPTION_SHEET:
         return store_sheet(o, value, to);
     case OPTION_COLOR:

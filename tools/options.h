@@ -150,6 +150,8 @@ typedef struct tool_settings {
     uint32_t levels;
     bool hidden_smooth;
     double ridge_angle, valley_angle;
+    double detail; /* 0: exact */
+    bool has_detail;
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
 
@@ -216,6 +218,7 @@ typedef enum option_kind {
     OPTION_PAGE,          /* tool_page */
     OPTION_MARGIN,        /* double[4], mm */
     OPTION_SCALE,         /* tool_scale */
+    OPTION_DETAIL,        /* double; words are numbers */
     OPTION_SHEET,         /* tool_sheet */
     OPTION_COLORS,        /* dp_style.line[].color */
     OPTION_HIDDEN_WIDTHS, /* tool_settings.hidden_width */

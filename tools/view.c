@@ -175,6 +175,7 @@ dp_style make_style(const tool_settings *s) {
     if (s->hidden && s->hidden != HIDDEN_NONE) style.hidden.look = (dp_hidden_look)s->hidden;
     style.hidden.levels = s->levels;
     style.hidden.smooth = s->hidden_smooth;
+    style.detail = s->has_detail ? (float)s->detail : 1;
     style.passes = s->passes;
     style.cull_back_faces = s->cull_back_faces;
     style.edge_table_off = s->edge_table == SWITCH_OFF;

@@ -109,10 +109,11 @@ DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera
 typedef enum dp_line_end {
     DP_END_VERTEX = 0, /* a vertex of its edge */
     DP_END_CROSSING,   /* of an intersection: one of the two polygons ends there */
-    DP_END_HIDDEN, /* a nearer polygon hides it from there on: up to an eighth of a pixel off, or
+    DP_END_HIDDEN,  /* a nearer polygon hides it from there on: up to an eighth of a pixel off, or
                           as exactly as float32 tells with dp_style.exact_ends; of a hidden line: there
                           it becomes visible, or its level changes */
-    DP_END_PICTURE /* the picture's edge, or the near or the far plane */
+    DP_END_PICTURE, /* the picture's edge, or the near or the far plane */
+    DP_END_DETAIL   /* the rest of the line is left out (dp_style.detail) */
 } dp_line_end;
 
 /* A piece of a feature line, as found by the last dp_draw with DP_INK_STROKES, or with

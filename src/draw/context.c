@@ -106,6 +106,7 @@ void dp_context_destroy(dp_context *c) {
     dp_lines_free(&c->drawing, &memory);
     dp_lines_free(&c->once, &memory);
     dp_pool_free(&c->once_scratch, &memory);
+    dp_detail_store_free(&c->detail, &memory);
     dp_shade_store_free(&c->shade, &memory);
     dp_mirror_store_free(&c->mirror, &memory);
     dp_recording_free(c->recording, &memory);
@@ -127,7 +128,7 @@ uint64_t dp_context_bytes(const dp_context *c) {
     return sizeof *c + dp_threads_bytes(c->threads) + workers_bytes(c) + dp_frame_bytes(&c->frame) +
            dp_polygon_store_bytes(&c->polygons) + dp_normal_store_bytes(&c->normals) +
            dp_adjacency_bytes(&c->adjacency) + dp_lines_bytes(&c->drawing) +
-           dp_lines_bytes(&c->once) + c->once_scratch.bytes + dp_shade_store_bytes(&c->shade) +
-           dp_mirror_store_bytes(&c->mirror) + dp_recording_bytes(c->recording) +
-           dp_stream_bytes(c->stream);
+           dp_lines_bytes(&c->once) + c->once_scratch.bytes + dp_detail_store_bytes(&c->detail) +
+           dp_shade_store_bytes(&c->shade) + dp_mirror_store_bytes(&c->mirror) +
+           dp_recording_bytes(c->recording) + dp_stream_bytes(c->stream);
 }

@@ -11,6 +11,7 @@
 #include "sink/raster.h"
 #include "base/pool.h"
 #include "stream/stream.h"
+#include "strokes/detail.h"
 
 #include <stdatomic.h>
 
@@ -41,6 +42,7 @@ struct dp_context {
     dp_lines drawing; /* the lines of the last picture */
     dp_lines once;    /* without what lies on others, where strokes have gaps */
     dp_pool once_scratch;
+    dp_detail_store detail;  /* scratch for cleaning lines */
     bool inks_once;          /* `once` is inked */
     bool drawn;              /* there is one */
     dp_normal_store normals; /* made for models without */

@@ -413,7 +413,9 @@ static dp_result for_last_tiles(void *user, dp_task *task, void *arg, dp_diag *d
 static bool make_lines(dp_context *c) {
     const dp_frame *const f = &c->frame;
     dp_lines *const lines = &c->drawing;
-    if (!dp_make_segments(f, c->found, lines) || !dp_finish_hidden(f, lines)) return false;
+    if (!dp_make_segments(f, c->found, lines) || !dp_clean_lines(f, lines, &c->detail) ||
+        !dp_finish_hidden(f, lines))
+        return false;
     c->inks_once = dp_strokes_have_gaps(f);
     dp_lines *const inked = c->inks_once ? &c->once : lines;
     if (c->inks_once && !dp_lines_once(f, lines, inked, &c->once_scratch)) return false;

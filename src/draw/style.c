@@ -262,6 +262,9 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "edges, method, between or ink is not one of its values");
     if ((result = check_hidden(&full, diag))) return result;
+    if (full.detail != 0 && !(full.detail >= 0.01f && full.detail <= 100))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "detail is %s; it must be 0, or 0.01 to 100",
+                       NUMBER(full.detail));
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");

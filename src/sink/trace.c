@@ -40,7 +40,7 @@ static dp_result layer(void *user, dp_line line, dp_diag *diag) {
 /* Place and kind of an end; a vertex goes without saying where a stroke runs on. */
 static dp_result put_end(const dp_tracing *t, const dp_segment *s, int end, bool runs_on,
                          dp_diag *diag) {
-    static const char *const kinds[] = {" vertex", " crossing", " hidden", " picture"};
+    static const char *const kinds[] = {" vertex", " crossing", " hidden", " picture", " detail"};
     const bool known = s->end[end] == DP_END_HIDDEN && s->hider[end] != UINT64_MAX;
     char by[40] = "";
     if (known) snprintf(by, sizeof by, " by %llu", (unsigned long long)s->hider[end]);

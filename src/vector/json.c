@@ -92,7 +92,7 @@ static void put_column(dp_out *out, const struct column *column, const dp_path_p
 /* ------- paths ------- */
 
 static void put_end(dp_out *out, dp_line_end end, uint64_t hider) {
-    static const char *const kinds[] = {"vertex", "crossing", "hidden", "picture"};
+    static const char *const kinds[] = {"vertex", "crossing", "hidden", "picture", "detail"};
     dp_put_char(out, '{');
     put_key(out, "kind");
     dp_put_json(out, (unsigned)end < sizeof kinds / sizeof *kinds ? kinds[end] : NULL);

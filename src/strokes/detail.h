@@ -1,0 +1,29 @@
+/* What of a drawing a person would draw (dp_style.detail). */
+#ifndef DP_STROKES_DETAIL_H
+#define DP_STROKES_DETAIL_H
+
+#include "strokes/lines.h"
+
+/* Its scratch (detail.c). Zero is empty. */
+typedef struct dp_detail_store {
+    dp_stroke *strokes;          /* by segment, of one class and colour, to be chained */
+    struct dp_line_trait *trait; /* by segment */
+    struct dp_line_sample *samples;
+    uint32_t *rings, *cells, *next; /* by end: another end at that place; samples, by cell */
+    float *turns;                   /* by link of one chain */
+    dp_chain_store chains;
+    dp_piece *pieces; /* the result */
+    dp_segment *segments;
+    dp_stroke *kept;
+    size_t strokes_cap, trait_cap, samples_cap, rings_cap, cells_cap, next_cap, turns_cap,
+        pieces_cap, segments_cap, kept_cap;
+} dp_detail_store;
+
+void dp_detail_store_free(dp_detail_store *store, const dp_allocator *memory);
+uint64_t dp_detail_store_bytes(const dp_detail_store *store);
+
+/* Leaves out what is not worth a line, and thins what hardly is, where the first style's `detail` asks
+ * for it. False when memory is out. */
+bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *store);
+
+#endif

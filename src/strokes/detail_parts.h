@@ -1,0 +1,54 @@
+/* Cleaning a drawing, inside: what its parts share (detail.c, hard_edges.c, support.c). */
+#ifndef DP_STROKES_DETAIL_PARTS_H
+#define DP_STROKES_DETAIL_PARTS_H
+
+#include "base/hostile.h"
+#include "strokes/detail.h"
+
+enum { DP_DETAIL_BLOCK = DP_TUNED(64, 3) };
+
+/* Of a segment. */
+typedef struct dp_line_trait {
+    float length;        /* px */
+    float turn;          /* degrees between the normals of its polygons; 0: it has one */
+    float regular;       /* 0 to 1 */
+    float hard;          /* evidence of a hard edge, in the mean; 0 to 1 */
+    float weight;        /* by its whole chain, 0 to 1 */
+    uint32_t first, end; /* samples */
+    uint32_t chain;
+    bool drawn; /* as part of a hard edge */
+} dp_line_trait;
+
+typedef struct dp_line_sample {
+    float x, y, along[2]; /* px; unit */
+    float length;         /* px that it stands for */
+    float at;             /* where on its segment, 0 to 1 */
+    float gap;            /* of an outline: px of `unit`; INFINITY: before the paper */
+    float outline, hard;  /* evidence */
+    float support;
+    uint32_t segment;
+} dp_line_sample;
+
+/* One drawing while it is cleaned. Lengths are in its unit: px of a picture whose smaller side is 900
+ * px. */
+typedef struct dp_detail {
+    const dp_frame *frame;
+    dp_lines *lines;
+    dp_detail_store *own;
+    uint32_t count, sample_count; /* of segments, of samples */
+    float unit;                   /* px */
+    uint32_t columns, rows;       /* of cells */
+} dp_detail;
+
+static inline const dp_link *dp_links_of(const dp_detail *c, const dp_chain *chain) {
+    return c->own->chains.links + chain->first;
+}
+
+/* Decides which chains are drawn as hard edges, or as outlines as a whole: traits' hard, weight and
+ * drawn (hard_edges.c). False when memory is out. */
+bool dp_judge_chains(dp_detail *detail);
+
+/* Finds what support the samples of outlines have (support.c). False when memory is out. */
+bool dp_find_support(dp_detail *detail);
+
+#endif

@@ -1,0 +1,43 @@
+/* What the surface beside a line tells of it: how far the line stands before what lies beyond, and
+ * how clearly the surface is folded there. */
+#ifndef DP_STROKES_EVIDENCE_H
+#define DP_STROKES_EVIDENCE_H
+
+#include "strokes/stroke.h"
+
+/* A point of a visible stroke, on the screen. */
+typedef struct dp_stroke_point {
+    dp_point at;
+    float along[2], beside[2]; /* unit, px: the stroke's direction, and to the left of it */
+    float climb;               /* change of depth d per px along */
+    float step;                /* of depth d, for one pixel size */
+} dp_stroke_point;
+
+/* The point at t, 0 to 1 from a to b, of a stroke that is not a point. */
+dp_stroke_point dp_stroke_point_at(const dp_frame *frame, const dp_stroke *stroke, float t);
+
+/* How far an outline stands before what is seen beyond it, `reach` px from the point: pixel sizes,
+ * INFINITY before the paper. What the surface beyond falls away of itself, at more than 4 to 1, does not
+ * count: so steep a surface recedes by much within a pixel, and a crumb of it stands far before the
+ * rest. */
+float dp_outline_gap(const dp_frame *frame, const dp_stroke_point *point, float reach);
+
+/* A fold, and what lies beside it. */
+typedef struct dp_fold_sides {
+    uint32_t polygon[2]; /* UINT32_MAX: not seen */
+    float turn;          /* degrees between the normals of the two */
+} dp_fold_sides;
+
+/* How clearly a fold is one, 0 to 1: how sharp it is, and how far it stands out from the surface
+ * around it. Where both sides bend on by as much as the fold, just beyond its polygons, it is one of
+ * many by which a round or a rough surface is approximated. px per `unit`. */
+float dp_fold_clarity(const dp_frame *frame, const dp_stroke *stroke, const dp_stroke_point *point,
+                      const dp_fold_sides *sides, float unit);
+
+/* The smooth step from 0 at `low` to 1 at `high`. */
+static inline float dp_smooth_step(float low, float high, float value) {
+    const float t = dp_minf(dp_maxf((value - low) / (high - low), 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+#endif
