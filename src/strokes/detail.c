@@ -23,14 +23,10 @@
  * drawing; borders and intersections, hidden lines and the order of segments are not touched. */
 #include "strokes/detail_parts.h"
 
-#include "base/elementary.h"
-#include "core/outline.h"
 #include "core/spine.h"
 #include "strokes/evidence.h"
 
 #include <string.h>
-
-static const float DEGREES = 57.29577951f;
 
 /* Lengths, px at a smaller side of 900. */
 static const float PICTURE = 900, STEP = 4 /* between samples */,
@@ -39,12 +35,18 @@ static const float PICTURE = 900, STEP = 4 /* between samples */,
 
 enum { NONE = UINT32_MAX };
 
+/* A segment, and what goes with it. */
+typedef struct dp_whole_segment {
+    dp_piece piece;
+    dp_segment segment;
+    dp_stroke stroke;
+} whole;
+
 static const dp_array arrays[] = {
-    DP_ARRAY(dp_detail_store, strokes, strokes_cap),   DP_ARRAY(dp_detail_store, trait, trait_cap),
-    DP_ARRAY(dp_detail_store, samples, samples_cap),   DP_ARRAY(dp_detail_store, rings, rings_cap),
-    DP_ARRAY(dp_detail_store, cells, cells_cap),       DP_ARRAY(dp_detail_store, next, next_cap),
-    DP_ARRAY(dp_detail_store, turns, turns_cap),       DP_ARRAY(dp_detail_store, pieces, pieces_cap),
-    DP_ARRAY(dp_detail_store, segments, segments_cap), DP_ARRAY(dp_detail_store, kept, kept_cap)};
+    DP_ARRAY(dp_detail_store, strokes, strokes_cap), DP_ARRAY(dp_detail_store, trait, trait_cap),
+    DP_ARRAY(dp_detail_store, samples, samples_cap), DP_ARRAY(dp_detail_store, rings, rings_cap),
+    DP_ARRAY(dp_detail_store, cells, cells_cap),     DP_ARRAY(dp_detail_store, voters, voters_cap),
+    DP_ARRAY(dp_detail_store, turns, turns_cap),     DP_ARRAY(dp_detail_store, aside, aside_cap)};
 
 void dp_detail_store_free(dp_detail_store *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
@@ -66,42 +68,30 @@ static bool is_judged(const dp_stroke *s) {
 
 /* ------- traits ------- */
 
-static float turn_between(const dp_frame *frame, const dp_piece *piece) {
-    if (piece->b == NONE || piece->edge == DP_CROSSING) return 0;
-    const double cosine =
-        dp_dot(dp_polygon_normal(frame, piece->a), dp_polygon_normal(frame, piece->b));
-    return (float)dp_acos(dp_min(dp_max(cosine, -1), 1)) * DEGREES;
-}
-
-static void find_turns(void *arg, uint32_t index, uint32_t worker) {
-    const dp_detail *const c = arg;
-    const uint32_t first = index * DP_DETAIL_BLOCK, end = first + DP_DETAIL_BLOCK < c->count ? first + DP_DETAIL_BLOCK : c->count;
-    (void)worker;
-    for (uint32_t i = first; i < end; i++) {
-        const dp_stroke *const s = &c->lines->strokes[i];
-        c->own->trait[i] = (dp_line_trait){.length = dp_hypotf(s->b.x - s->a.x, s->b.y - s->a.y),
-                                           .turn = turn_between(c->frame, &c->lines->pieces[i]),
-                                           .regular = 1};
-    }
-}
-
 static bool make_chains(dp_detail *c) {
     static const dp_chain_rule rule = {.sharpest = 0.5f}; /* up to 60 degrees */
     for (uint32_t i = 0; i < c->count; i++) {
-        c->own->strokes[i] = c->lines->strokes[i];
-        c->own->strokes[i].line = 0, c->own->strokes[i].color = 0;
+        dp_stroke *const s = &c->own->strokes[i];
+        *s = c->lines->strokes[i];
+        s->line = 0, s->color = 0;
+        c->own->trait[i] =
+            (dp_line_trait){.length = dp_hypotf(s->b.x - s->a.x, s->b.y - s->a.y), .regular = 1};
     }
     return dp_make_chains(c->own->strokes, c->count, &rule, c->frame->memory, &c->own->chains);
 }
 
 /* Degrees by which a chain turns to the left from one link to the next. */
 static float bend_of(const dp_detail *c, const dp_link *from, const dp_link *to) {
-    const dp_stroke *const s = &c->lines->strokes[from->segment],
-                    *const t = &c->lines->strokes[to->segment];
+    const dp_stroke *const s = &c->lines->strokes[from->segment], *const t =
+                                                                      &c->lines
+                                                                           ->strokes[to->segment];
     const float back = from->reversed == to->reversed ? 1 : -1;
     const float sx = s->b.x - s->a.x, sy = s->b.y - s->a.y, tx = back * (t->b.x - t->a.x),
                 ty = back * (t->b.y - t->a.y);
-    return (float)dp_atan2((double)(sx * ty - sy * tx), (double)(sx * tx + sy * ty)) * DEGREES;
+    const float along = sx * tx + sy * ty, across = sx * ty - sy * tx,
+                length = sqrtf(along * along + across * across);
+    if (!(length > 0)) return 0;
+    return dp_degrees_of_cosine(along / length) * (across < 0 ? -1 : 1);
 }
 
 /* Degrees by which the chain kinks where it turns by turns[i], of `count`: not where it turns as much
@@ -128,7 +118,8 @@ static void find_regularity(const dp_detail *c, const dp_chain *chain) {
     for (uint32_t i = 0; i + 1 < chain->count; i++) {
         const uint32_t s = links[i].segment, t = links[i + 1].segment;
         const float kink = dp_smooth_step(10, 40, kink_at(turns, i, chain->count - 1)),
-                    change = dp_smooth_step(8, 30, fabsf(c->own->trait[s].turn - c->own->trait[t].turn));
+                    change = dp_smooth_step(
+                        8, 30, fabsf(c->lines->strokes[s].turn - c->lines->strokes[t].turn));
         doubt(c, s, dp_maxf(kink, change));
         doubt(c, t, dp_maxf(kink, change));
     }
@@ -144,14 +135,14 @@ static void find_regularity(const dp_detail *c, const dp_chain *chain) {
 static bool put_sample(dp_detail *c, uint32_t segment, float at, float length) {
     dp_detail_store *const own = c->own;
     const dp_stroke *const s = &c->lines->strokes[segment];
-    const float whole = own->trait[segment].length;
+    const float l = own->trait[segment].length;
     if (!dp_reserve(c->frame->memory, &own->samples, &own->samples_cap, c->sample_count + 1u,
                     sizeof *own->samples))
         return false;
     own->samples[c->sample_count++] = (dp_line_sample){
         .x = s->a.x + (s->b.x - s->a.x) * at,
         .y = s->a.y + (s->b.y - s->a.y) * at,
-        .along = {whole > 0 ? (s->b.x - s->a.x) / whole : 0, whole > 0 ? (s->b.y - s->a.y) / whole : 0},
+        .along = {l > 0 ? (s->b.x - s->a.x) / l : 0, l > 0 ? (s->b.y - s->a.y) / l : 0},
         .length = length,
         .at = at,
         .segment = segment};
@@ -165,7 +156,8 @@ static bool sample_long(dp_detail *c, uint32_t segment) {
     const uint32_t n = parts < 65536 ? (uint32_t)parts : 65536;
     t->first = c->sample_count;
     for (uint32_t i = 0; i < n; i++)
-        if (!put_sample(c, segment, ((float)i + 0.5f) / (float)n, t->length / (float)n)) return false;
+        if (!put_sample(c, segment, ((float)i + 0.5f) / (float)n, t->length / (float)n))
+            return false;
     t->end = c->sample_count;
     return true;
 }
@@ -182,7 +174,7 @@ static uint32_t sample_short(dp_detail *c, const dp_chain *chain, uint32_t i) {
     const dp_link *const links = dp_links_of(c, chain);
     float length = 0, half = 0;
     uint32_t end = i, middle = i;
-    while (end < chain->count && length < STEP * c->unit / 2 &&
+    while (end < chain->count && length < 0.75f * STEP * c->unit &&
            c->own->trait[links[end].segment].length <= STEP * c->unit &&
            is_alike(c, links[i].segment, links[end].segment))
         length += c->own->trait[links[end++].segment].length;
@@ -224,16 +216,15 @@ static void look(const dp_detail *c, dp_line_sample *s) {
     if (!(trait->length > 0)) return;
     const dp_stroke_point point = dp_stroke_point_at(c->frame, stroke, s->at);
     const bool outline = stroke->line == DP_LINE_SILHOUETTE;
-    const dp_fold_sides sides = {{!outline || piece->seen & 1 ? piece->a : NONE,
-                                  !outline || piece->seen & 2 ? piece->b : NONE},
-                                 trait->turn};
+    const uint32_t polygons[2] = {!outline || piece->seen & 1 ? piece->a : NONE,
+                                  !outline || piece->seen & 2 ? piece->b : NONE};
     if (outline) {
         s->gap = dp_outline_gap(c->frame, &point, dp_maxf(BEYOND * c->unit, 2)) / c->unit;
         s->outline = outline_evidence(s->gap);
     }
     /* an edge as sharp as of a box is one, if it is short, too */
-    const float regular = dp_maxf(trait->regular, 0.6f * dp_smooth_step(60, 85, trait->turn));
-    s->hard = dp_fold_clarity(c->frame, stroke, &point, &sides, c->unit) * regular;
+    const float regular = dp_maxf(trait->regular, 0.6f * dp_smooth_step(60, 85, stroke->turn));
+    s->hard = dp_fold_clarity(c->frame, stroke, &point, polygons, c->unit) * regular;
 }
 
 static void look_block(void *arg, uint32_t index, uint32_t worker) {
@@ -247,84 +238,114 @@ static void look_block(void *arg, uint32_t index, uint32_t worker) {
 /* ------- what is drawn ------- */
 
 /* The share of its width that a sample's line has, in sixteenths: equal neighbours stay one. */
-static float share_of(const dp_detail *c, const dp_line_sample *s, uint32_t segment) {
+static float share_of(const dp_line_sample *s, const dp_stroke *stroke, const dp_line_trait *t) {
     static const float LEAST = 0.1f;
-    const dp_stroke *const stroke = &c->lines->strokes[segment];
-    const dp_line_trait *const t = &c->own->trait[segment];
     if (!is_judged(stroke)) return 1;
     if (t->drawn && (is_crease(stroke) || s->hard > 0.15f)) return 1;
     if (is_crease(stroke)) return 0;
-    const float share = dp_maxf(dp_smooth_step(8, 48, s->support),
+    const float share = dp_maxf(dp_smooth_step(8, DP_FULL_SUPPORT, s->support),
                                 t->weight * dp_smooth_step(0, 3, s->gap));
     return share < LEAST ? 0 : ceilf(16 * share) / 16;
 }
 
-static void cut_end(const dp_detail *c, uint32_t from, uint32_t to, int end, float at) {
-    const dp_segment *const s = &c->lines->segments[from];
-    const dp_stroke *const k = &c->lines->strokes[from];
-    dp_segment *const out = &c->own->segments[to];
+static void cut_end(const dp_detail *c, const whole *from, whole *to, int end, float at) {
+    const dp_stroke *const k = &from->stroke;
     const dp_point p = {k->a.x + (k->b.x - k->a.x) * at, k->a.y + (k->b.y - k->a.y) * at,
                         k->a.d + (k->b.d - k->a.d) * at};
-    /* world space is affine in what depth is, times that: in perspective, 1 / distance */
+    /* positions are affine in the share of the screen, weighted by 1 / distance */
     const double a = c->frame->view.perspective ? (double)k->a.d : 1,
                  b = c->frame->view.perspective ? (double)k->b.d : 1, t = (double)at,
                  share = t * b / ((1 - t) * a + t * b);
-    float *const screen = end ? out->b : out->a;
-    double *const world = end ? out->world_b : out->world_a;
-    *(end ? &c->own->kept[to].b : &c->own->kept[to].a) = p;
+    float *const screen = end ? to->segment.b : to->segment.a;
+    double *const world = end ? to->segment.world_b : to->segment.world_a;
+    *(end ? &to->stroke.b : &to->stroke.a) = p;
     screen[0] = p.x, screen[1] = p.y, screen[2] = (float)dp_distance(&c->frame->view, (double)p.d);
-    for (int i = 0; i < 3; i++) world[i] = s->world_a[i] + share * (s->world_b[i] - s->world_a[i]);
-    out->end[end] = DP_END_DETAIL;
-    out->hider[end] = UINT64_MAX;
+    for (int i = 0; i < 3; i++)
+        world[i] = from->segment.world_a[i] +
+                   share * (from->segment.world_b[i] - from->segment.world_a[i]);
+    to->segment.end[end] = DP_END_DETAIL;
+    to->segment.hider[end] = UINT64_MAX;
 }
 
-static bool keep_part(dp_detail *c, size_t *count, uint32_t i, float from, float to, float share) {
+static whole part_of(const dp_detail *c, const whole *from, float start, float end, float share) {
+    whole part = *from;
+    const float probes = (float)(from->piece.k1 - from->piece.k0);
+    if (start > 0) {
+        part.piece.k0 = from->piece.k0 + (uint32_t)(start * probes);
+        cut_end(c, from, &part, 0, start);
+    }
+    if (end < 1) {
+        part.piece.k1 = from->piece.k0 + (uint32_t)(end * probes);
+        cut_end(c, from, &part, 1, end);
+    }
+    if (!c->lines->stylizes)
+        part.stroke.half_width *= share; /* a hand's strokes taper themselves */
+    return part;
+}
+
+static void put_whole(dp_lines *d, size_t at, const whole *w) {
+    d->pieces[at] = w->piece, d->segments[at] = w->segment, d->strokes[at] = w->stroke;
+}
+
+/* Keeps the first part that is drawn in the drawing, at *kept, and further ones aside. */
+static bool cut_segment(dp_detail *c, uint32_t i, size_t *kept, size_t *aside) {
     dp_detail_store *const own = c->own;
-    const dp_allocator *const memory = c->frame->memory;
-    const uint32_t at = (uint32_t)*count;
-    if (*count >= UINT32_MAX / 2 ||
-        !dp_reserve(memory, &own->pieces, &own->pieces_cap, *count + 1, sizeof *own->pieces) ||
-        !dp_reserve(memory, &own->segments, &own->segments_cap, *count + 1, sizeof *own->segments) ||
-        !dp_reserve(memory, &own->kept, &own->kept_cap, *count + 1, sizeof *own->kept))
-        return false;
-    const dp_piece *const piece = &c->lines->pieces[i];
-    const float probes = (float)(piece->k1 - piece->k0);
-    own->pieces[at] = *piece, own->segments[at] = c->lines->segments[i];
-    own->kept[at] = c->lines->strokes[i];
-    if (from > 0) own->pieces[at].k0 = piece->k0 + (uint32_t)(from * probes), cut_end(c, i, at, 0, from);
-    if (to < 1) own->pieces[at].k1 = piece->k0 + (uint32_t)(to * probes), cut_end(c, i, at, 1, to);
-    if (!c->lines->stylizes) own->kept[at].half_width *= share; /* strokes of the hand taper on their own */
-    ++*count;
-    return true;
-}
-
-static bool keep_segment(dp_detail *c, size_t *count, uint32_t i) {
-    const dp_line_trait *const t = &c->own->trait[i];
-    const dp_line_sample *const samples = c->own->samples + t->first;
+    const dp_line_trait *const t = &own->trait[i];
+    const dp_line_sample *const samples = own->samples + t->first;
     const uint32_t n = t->end - t->first;
-    for (uint32_t from = 0, to; from < n; from = to) {
-        const float share = share_of(c, &samples[from], i);
-        for (to = from + 1; to < n && share_of(c, &samples[to], i) == share; to++) {
+    const whole from = {c->lines->pieces[i], c->lines->segments[i], c->lines->strokes[i]};
+    bool first = true;
+    for (uint32_t start = 0, end; start < n; start = end) {
+        const float share = share_of(&samples[start], &from.stroke, t);
+        for (end = start + 1; end < n && share_of(&samples[end], &from.stroke, t) == share; end++) {
         }
-        if (share > 0 &&
-            !keep_part(c, count, i, (float)from / (float)n, (float)to / (float)n, share))
-            return false;
+        if (!(share > 0)) continue;
+        const whole part = part_of(c, &from, (float)start / (float)n, (float)end / (float)n, share);
+        if (first) {
+            put_whole(c->lines, (*kept)++, &part);
+        } else {
+            if (!dp_reserve(c->frame->memory, &own->aside, &own->aside_cap, *aside + 1,
+                            sizeof *own->aside))
+                return false;
+            own->aside[(*aside)++] = part;
+        }
+        first = false;
     }
     return true;
 }
 
-static bool take_result(dp_detail *c, size_t count) {
+/* The same where it is all one sample, as nearly all segments of a scan are. */
+static void keep_segment(const dp_detail *c, uint32_t i, size_t *kept) {
+    dp_lines *const d = c->lines;
+    const dp_line_trait *const t = &c->own->trait[i];
+    const float share = share_of(&c->own->samples[t->first], &d->strokes[i], t);
+    if (!(share > 0)) return;
+    const size_t at = (*kept)++;
+    if (at < i)
+        d->pieces[at] = d->pieces[i], d->segments[at] = d->segments[i],
+        d->strokes[at] = d->strokes[i];
+    if (!d->stylizes) d->strokes[at].half_width *= share;
+}
+
+static bool keep_what_is_drawn(dp_detail *c) {
     dp_lines *const d = c->lines;
     const dp_allocator *const memory = c->frame->memory;
-    if (!dp_reserve(memory, &d->pieces, &d->pieces_cap, count, sizeof *d->pieces) ||
-        !dp_reserve(memory, &d->segments, &d->segments_cap, count, sizeof *d->segments) ||
-        !dp_reserve(memory, &d->strokes, &d->strokes_cap, count, sizeof *d->strokes))
+    size_t kept = 0, aside = 0;
+    for (uint32_t i = 0; i < c->count; i++) {
+        const dp_line_trait *const t = &c->own->trait[i];
+        if (t->end - t->first == 1)
+            keep_segment(c, i, &kept);
+        else if (!cut_segment(c, i, &kept, &aside))
+            return false;
+    }
+    const size_t all = kept + aside;
+    if (all >= UINT32_MAX ||
+        !dp_reserve(memory, &d->pieces, &d->pieces_cap, all, sizeof *d->pieces) ||
+        !dp_reserve(memory, &d->segments, &d->segments_cap, all, sizeof *d->segments) ||
+        !dp_reserve(memory, &d->strokes, &d->strokes_cap, all, sizeof *d->strokes))
         return false;
-    d->count = count;
-    if (!count) return true;
-    memcpy(d->pieces, c->own->pieces, count * sizeof *d->pieces);
-    memcpy(d->segments, c->own->segments, count * sizeof *d->segments);
-    memcpy(d->strokes, c->own->kept, count * sizeof *d->strokes);
+    for (size_t i = 0; i < aside; i++) put_whole(d, kept + i, &c->own->aside[i]);
+    d->count = all;
     return true;
 }
 
@@ -339,7 +360,8 @@ static bool reserve(const dp_detail *c) {
 }
 
 static void in_blocks(dp_detail *c, uint32_t count, dp_task *task) {
-    dp_parallel(c->frame->threads, count / DP_DETAIL_BLOCK + (count % DP_DETAIL_BLOCK != 0), task, c);
+    dp_parallel(c->frame->threads, count / DP_DETAIL_BLOCK + (count % DP_DETAIL_BLOCK != 0), task,
+                c);
 }
 
 /* px of this picture for one of the lengths above. */
@@ -350,15 +372,13 @@ static float unit_of(const dp_frame *frame, float detail) {
 
 bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *store) {
     const float detail = frame->styles[0].detail;
-    size_t kept = 0;
     if (!(detail > 0) || !lines->count) return true;
     dp_detail c = {.frame = frame,
-                  .lines = lines,
-                  .own = store,
-                  .count = (uint32_t)lines->count,
-                  .unit = unit_of(frame, detail)};
+                   .lines = lines,
+                   .own = store,
+                   .count = (uint32_t)lines->count,
+                   .unit = unit_of(frame, detail)};
     if (!reserve(&c)) return false;
-    in_blocks(&c, c.count, find_turns);
     if (!make_chains(&c)) return false;
     for (uint32_t i = 0; i < store->chains.chain_count; i++) {
         find_regularity(&c, &store->chains.chains[i]);
@@ -366,7 +386,5 @@ bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *sto
     }
     in_blocks(&c, c.sample_count, look_block);
     if (!dp_judge_chains(&c) || !dp_find_support(&c)) return false;
-    for (uint32_t i = 0; i < c.count; i++)
-        if (!keep_segment(&c, &kept, i)) return false;
-    return take_result(&c, kept);
+    return keep_what_is_drawn(&c);
 }

@@ -9,14 +9,13 @@ typedef struct dp_detail_store {
     dp_stroke *strokes;          /* by segment, of one class and colour, to be chained */
     struct dp_line_trait *trait; /* by segment */
     struct dp_line_sample *samples;
-    uint32_t *rings, *cells, *next; /* by end: another end at that place; samples, by cell */
-    float *turns;                   /* by link of one chain */
+    uint32_t *rings, *cells; /* by end: another end at that place; by cell */
+    struct dp_voter *voters; /* support.c */
+    float *turns;            /* by link of one chain */
     dp_chain_store chains;
-    dp_piece *pieces; /* the result */
-    dp_segment *segments;
-    dp_stroke *kept;
-    size_t strokes_cap, trait_cap, samples_cap, rings_cap, cells_cap, next_cap, turns_cap,
-        pieces_cap, segments_cap, kept_cap;
+    struct dp_whole_segment *aside; /* parts of segments, but for the first */
+    size_t strokes_cap, trait_cap, samples_cap, rings_cap, cells_cap, voters_cap, turns_cap,
+        aside_cap;
 } dp_detail_store;
 
 void dp_detail_store_free(dp_detail_store *store, const dp_allocator *memory);

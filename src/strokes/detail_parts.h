@@ -7,10 +7,11 @@
 
 enum { DP_DETAIL_BLOCK = DP_TUNED(64, 3) };
 
+#define DP_FULL_SUPPORT 48.0f /* with which an outline is drawn as wide as it may be */
+
 /* Of a segment. */
 typedef struct dp_line_trait {
     float length;        /* px */
-    float turn;          /* degrees between the normals of its polygons; 0: it has one */
     float regular;       /* 0 to 1 */
     float hard;          /* evidence of a hard edge, in the mean; 0 to 1 */
     float weight;        /* by its whole chain, 0 to 1 */
@@ -28,6 +29,12 @@ typedef struct dp_line_sample {
     float support;
     uint32_t segment;
 } dp_line_sample;
+
+/* What a sample gives to others (support.c). */
+typedef struct dp_voter {
+    float x, y, along[2]; /* as its own */
+    float evidence;       /* px */
+} dp_voter;
 
 /* One drawing while it is cleaned. Lengths are in its unit: px of a picture whose smaller side is 900
  * px. */

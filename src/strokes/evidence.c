@@ -10,15 +10,13 @@
  * has its middle, and the offset of that from the line is what slopes are taken over. */
 #include "strokes/evidence.h"
 
-#include "base/elementary.h"
 #include "core/piece.h"
-
-static const float DEGREES = 57.29577951f;
 
 /* Depth of the surface in the pixel at (x, y), the mean of its samples; DP_DEPTH_EMPTY where any is
  * paper; NaN outside the picture. */
 static float depth_at(const dp_frame *f, float x, float y) {
-    if (!(x >= 0 && y >= 0 && x < (float)f->target.width && y < (float)f->target.height)) return NAN;
+    if (!(x >= 0 && y >= 0 && x < (float)f->target.width && y < (float)f->target.height))
+        return NAN;
     const uint32_t px = (uint32_t)x, py = (uint32_t)y, samples = f->target.samples,
                    tile = py / DP_TILE * f->tiles_x + px / DP_TILE;
     if (f->tile_pieces[tile].empty) return DP_DEPTH_EMPTY;
@@ -45,7 +43,7 @@ dp_stroke_point dp_stroke_point_at(const dp_frame *frame, const dp_stroke *s, fl
 
 /* The surface at some distance beside a line. */
 typedef struct beside {
-    float away;  /* px from the line, as the pixel's middle lies; positive to the left */
+    float away;   /* px from the line, as the pixel's middle lies; positive to the left */
     float nearer; /* than the line: pixel sizes; -INFINITY: paper; NaN: outside the picture */
 } beside;
 
@@ -65,21 +63,22 @@ static float slope_between(const beside *from, const beside *to) {
 
 float dp_outline_gap(const dp_frame *f, const dp_stroke_point *p, float reach) {
     static const float FREE = 4; /* to 1: what a surface may fall away without loss */
-    float gap = 0;
-    for (int side = -1; side <= 1; side += 2) {
-        const beside close = look_beside(f, p, (float)side * reach / 2),
-                     there = look_beside(f, p, (float)side * reach);
-        if (!(close.nearer > -INFINITY) || !(there.nearer > -INFINITY)) return INFINITY;
-        const float falls = dp_maxf(-slope_between(&close, &there) - FREE, 0);
-        gap = dp_maxf(gap, -there.nearer - fabsf(there.away) * falls);
-    }
-    return gap;
+    const beside left = look_beside(f, p, reach);
+    if (!(left.nearer > -INFINITY)) return INFINITY;
+    const beside right = look_beside(f, p, -reach);
+    if (!(right.nearer > -INFINITY)) return INFINITY;
+    const beside *const there = left.nearer < right.nearer ? &left : &right;
+    const beside close = look_beside(f, p, there == &left ? reach / 2 : -reach / 2);
+    if (!(close.nearer > -INFINITY)) return INFINITY;
+    const float falls = dp_maxf(-slope_between(&close, there) - FREE, 0);
+    return dp_maxf(-there->nearer - fabsf(there->away) * falls, 0);
 }
 
 /* px from the stroke to the furthest corner of a polygon. Corners behind the eye do not count. */
 static float reach_of(const dp_frame *f, uint32_t polygon, const dp_stroke_point *p) {
     const dp_polygons *const polygons = &f->polygons;
-    const uint32_t first = dp_first_corner(polygons, polygon), n = dp_corner_count(polygons, polygon);
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
     float most = 0;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t v = dp_corner_vertex(polygons, first + i);
@@ -92,12 +91,15 @@ static float reach_of(const dp_frame *f, uint32_t polygon, const dp_stroke_point
     return most;
 }
 
-static float degrees_of(float slope) { return (float)dp_atan((double)slope) * DEGREES; }
+static float degrees_of(float slope) {
+    return 90 - dp_degrees_of_cosine(slope / sqrtf(1 + slope * slope));
+}
 
 /* Degrees by which the surface bends just beyond a polygon whose slope away from the line is known;
  * 0 where nothing is known of it: the surface ends there, or another one is seen. `away`: signed. */
 static float bend_beyond(const dp_frame *f, const dp_stroke_point *p, float slope, float away) {
-    static const float OTHER = 2; /* to 1: what is off the polygon's plane by more is another surface */
+    static const float OTHER =
+        2; /* to 1: what is off the polygon's plane by more is another surface */
     const float sign = away < 0 ? -1 : 1;
     const beside from = look_beside(f, p, 1.2f * away), to = look_beside(f, p, 2 * away);
     if (!(fabsf(from.nearer - slope * from.away * sign) <= OTHER * fabsf(from.away)) ||
@@ -113,17 +115,17 @@ static bool first_is_left(const dp_frame *f, const dp_stroke_point *p, const flo
 }
 
 float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_point *p,
-                      const dp_fold_sides *sides, float unit) {
+                      const uint32_t polygon[2], float unit) {
     const bool outline = s->line == DP_LINE_SILHOUETTE;
-    const float sharp = outline ? dp_smooth_step(50, 80, sides->turn) : dp_smooth_step(20, 60, sides->turn);
+    const float sharp = outline ? dp_smooth_step(50, 80, s->turn) : dp_smooth_step(20, 60, s->turn);
     float slope[2], bend = INFINITY, widest = 0;
     if (!(sharp > 0)) return 0;
     for (int k = 0; k < 2; k++)
         slope[k] = (s->plane[k][1] * p->beside[0] + s->plane[k][2] * p->beside[1]) / p->step;
     const bool left = first_is_left(f, p, slope);
     for (int k = 0; k < 2; k++) {
-        if (sides->polygon[k] == UINT32_MAX) continue;
-        const float sign = (k == 0) == left ? 1 : -1, reach = reach_of(f, sides->polygon[k], p);
+        if (polygon[k] == UINT32_MAX) continue;
+        const float sign = (k == 0) == left ? 1 : -1, reach = reach_of(f, polygon[k], p);
         const float away = dp_minf(dp_maxf(reach, 5 * unit), 40 * unit);
         bend = dp_minf(bend, bend_beyond(f, p, slope[k] * sign, away * sign));
         widest = dp_maxf(widest, reach);
@@ -131,7 +133,7 @@ float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_poi
     if (bend == INFINITY) return 0;
     /* sharp folds, and those of wide polygons, are meant, whatever is beside them */
     const float meant = outline ? 0
-                                : 1 - (1 - dp_smooth_step(50, 80, sides->turn)) *
+                                : 1 - (1 - dp_smooth_step(50, 80, s->turn)) *
                                           (1 - dp_smooth_step(40 * unit, 100 * unit, widest));
-    return sharp * (1 - dp_smooth_step(0.1f, 0.4f, bend / sides->turn) * (1 - meant));
+    return sharp * (1 - dp_smooth_step(0.1f, 0.4f, bend / s->turn) * (1 - meant));
 }

@@ -22,17 +22,20 @@ dp_stroke_point dp_stroke_point_at(const dp_frame *frame, const dp_stroke *strok
  * rest. */
 float dp_outline_gap(const dp_frame *frame, const dp_stroke_point *point, float reach);
 
-/* A fold, and what lies beside it. */
-typedef struct dp_fold_sides {
-    uint32_t polygon[2]; /* UINT32_MAX: not seen */
-    float turn;          /* degrees between the normals of the two */
-} dp_fold_sides;
-
 /* How clearly a fold is one, 0 to 1: how sharp it is, and how far it stands out from the surface
  * around it. Where both sides bend on by as much as the fold, just beyond its polygons, it is one of
- * many by which a round or a rough surface is approximated. px per `unit`. */
+ * many by which a round or a rough surface is approximated. px per `unit`. `polygon`: those
+ * that meet there; UINT32_MAX: none, or it is not seen. */
 float dp_fold_clarity(const dp_frame *frame, const dp_stroke *stroke, const dp_stroke_point *point,
-                      const dp_fold_sides *sides, float unit);
+                      const uint32_t polygon[2], float unit);
+
+/* Degrees of the angle whose cosine is given, to a hundredth (Abramowitz and Stegun 1964, 4.4.45). */
+static inline float dp_degrees_of_cosine(float cosine) {
+    const float c = dp_minf(fabsf(cosine), 1);
+    const float angle =
+        sqrtf(1 - c) * (1.5707288f + c * (-0.2121144f + c * (0.0742610f + c * -0.0187293f)));
+    return (cosine < 0 ? 3.14159265f - angle : angle) * 57.29577951f;
+}
 
 /* The smooth step from 0 at `low` to 1 at `high`. */
 static inline float dp_smooth_step(float low, float high, float value) {

@@ -14,6 +14,7 @@
 #include "strokes/segment_batch.h"
 
 #include "base/hostile.h"
+#include "strokes/evidence.h"
 #include "strokes/kernels.h"
 #include "features/crossing.h"
 #include "core/outline.h"
@@ -230,6 +231,14 @@ void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segm
     stroke->half_width = line->width / 2;
 }
 
+/* Degrees between the normals of its two polygons. */
+static float turn_at(const dp_segment_batch *made, uint32_t i, const dp_piece *piece) {
+    double cosine = 0;
+    if (piece->b == UINT32_MAX || piece->edge == DP_CROSSING) return 0;
+    for (int k = 0; k < 3; k++) cosine += made->normal[0][k][i] * made->normal[1][k][i];
+    return dp_degrees_of_cosine((float)cosine);
+}
+
 static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_segment_batch *made,
                          uint32_t i, dp_segment *segment, dp_stroke *stroke) {
     segment->line = (dp_line)piece->line;
@@ -245,6 +254,7 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
     stroke->line = piece->line;
     dp_take_look(frame, piece, segment, stroke);
     for (int k = 0; k < 2; k++) take_plane(made, i, k, piece, stroke->plane[k]);
+    stroke->turn = turn_at(made, i, piece);
 }
 
 static void make_block(void *arg, uint32_t index, uint32_t worker) {

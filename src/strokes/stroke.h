@@ -9,6 +9,7 @@ typedef struct dp_stroke {
     dp_point a, b;     /* ends of the spine; screen space */
     float half_width;  /* px */
     float plane[2][3]; /* d0, dx, dy of the polygons that meet at the spine; NaN: none */
+    float turn;        /* degrees between the normals of these; 0: there is only one */
     dp_color color;
     uint8_t line;  /* dp_line */
     uint8_t level; /* as in dp_segment; 0: visible */
