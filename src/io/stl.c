@@ -349,9 +349,11 @@ dp_result dp_read_stl(dp_stream *stream, dp_source **out, dp_diag *diag) {
                                            .group_name = stl_group_name,
                                            .remark = stl_remark};
     if (!result) result = dp_source_from_callbacks(&callbacks, &stream->allocator, out, diag);
-    if (result)
+    if (result) {
         release(self);
-    else
-        offer_records(self, *out);
-    return result;
+        return result;
+    }
+    (*out)->stands_on_z = true;
+    offer_records(self, *out);
+    return DP_OK;
 }
