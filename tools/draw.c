@@ -202,8 +202,10 @@ static void print_stats(const tool_settings *s, const drawing *d) {
         if (s->stats == STATS_JSON)
             print_stats_json(files_standard(s) ? stderr : stdout, &d->stats[k], &view);
     }
-    if (d->paths) paths_tell(s, &d->plan, d->views);
-    sides_tell(s, d->source);
+    if (d->paths)
+        paths_tell(s, &d->plan, d->views, sides_assumed(s, d->source));
+    else
+        sides_tell(s, d->source);
 }
 
 static int run(const tool_settings *s, drawing *d) {

@@ -4,7 +4,7 @@
 #include "report.h"
 
 #include <math.h>
-#include <string.h>
+#include <unistd.h>
 
 static const double degree = 0.017453292519943295;
 
@@ -47,11 +47,14 @@ void sides_angles(const model_sides *f, double azimuth, double elevation, double
     }
 }
 
-void sides_tell(const tool_settings *s, const dp_source *source) {
+const char *sides_assumed(const tool_settings *s, const dp_source *source) {
     double up[3];
-    if (s->quiet || s->has_up || dp_source_up(source, up)) return;
-    if (up[2] > 0)
-        note("up is +z, as usual in STL files; --up y says otherwise");
-    else
-        note("up is +y, as the file does not say; --up z says otherwise");
+    if (s->has_up || dp_source_up(source, up)) return NULL;
+    return up[2] > 0 ? "up is +z, as usual in STL (--up y turns it)"
+                     : "up is +y, as the file does not say (--up z turns it)";
+}
+
+void sides_tell(const tool_settings *s, const dp_source *source) {
+    const char *const assumed = sides_assumed(s, source);
+    if (assumed && !s->quiet && isatty(STDERR_FILENO)) note("%s", assumed);
 }

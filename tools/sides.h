@@ -17,7 +17,9 @@ void sides_view(const model_sides *sides, int view, double d[3], double up[3]);
 void sides_angles(const model_sides *sides, double azimuth, double elevation, double d[3],
                   double up[3]);
 
-/* Says what was taken for up, where nobody has said it. */
+/* What was taken for up, where nobody has said it; NULL: somebody has. */
+const char *sides_assumed(const tool_settings *s, const dp_source *source);
+/* Says so on a terminal: a drawing of pixels is silent otherwise. */
 void sides_tell(const tool_settings *s, const dp_source *source);
 
 #endif

@@ -82,7 +82,8 @@ typedef struct dp_source_callbacks {
      * on colours only, which not every drawing uses. Optional. */
     const char *(*remark)(void *user);
     const char *(*color_remark)(void *user);
-    double up[3]; /* what is up, where the application knows it; 0: it does not say */
+    double up[3];    /* what is up; 0: not known. Any length */
+    bool up_assumed; /* `up` is only what is usual */
 } dp_source_callbacks;
 
 /* Makes a source of one batch, whose memory the caller owns and must not change while the source is

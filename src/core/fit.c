@@ -45,9 +45,7 @@ static bool resolve(const dp_fit *fit, numbers *n) {
 }
 
 /* Zoom narrows the field of view and does not move the eye, so the perspective stays. */
-static double zoomed_fov(const numbers *n) {
-    return 2 * dp_atan(n->tan_y / n->zoom) * 180 / PI;
-}
+static double zoomed_fov(const numbers *n) { return 2 * dp_atan(n->tan_y / n->zoom) * 180 / PI; }
 
 static dp_vec3 or_default(const double v[3], dp_vec3 other) {
     const dp_vec3 given = dp_v3(v[0], v[1], v[2]);
@@ -214,8 +212,9 @@ static double least_z(const dp_reach *reach, int side) {
 
 /* Largest of the model's width, height and depth. */
 static double size_of(const dp_reach *r) {
-    return dp_max(r->front - r->back, dp_max(r->most[DP_REACH_RIGHT][0] + r->most[DP_REACH_LEFT][0],
-                                             r->most[DP_REACH_ABOVE][0] + r->most[DP_REACH_BELOW][0]));
+    return dp_max(r->front - r->back,
+                  dp_max(r->most[DP_REACH_RIGHT][0] + r->most[DP_REACH_LEFT][0],
+                         r->most[DP_REACH_ABOVE][0] + r->most[DP_REACH_BELOW][0]));
 }
 
 /* Sets view: the reach's axes, and an eye given in them. */

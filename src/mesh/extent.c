@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { RUN = DP_TUNED(64, 2) /* polygons */ };
+enum { RUN = DP_TUNED(64, 2), SAMPLES = DP_TUNED(2048, 3) /* polygons */ };
 
 static const float *corner(const dp_batch *batch, size_t c) {
     const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
@@ -45,13 +45,24 @@ static bool is_drawn(const dp_batch *batch, size_t first, size_t last) {
     return dp_length(sum) > 1e-12 * size;
 }
 
+static void move(const float p[3], const double shift[3], double at[3]) {
+    for (int k = 0; k < 3; k++) at[k] = (double)p[k] + shift[k];
+}
+
+/* Most polygons change nothing, which is quicker to see than whether they are drawn. */
 void dp_reach_add_polygon(dp_reach *reach, const dp_batch *batch, size_t first, size_t last,
                           const double shift[3]) {
-    if (!is_drawn(batch, first, last)) return;
-    for (size_t c = first; c < last; c++) {
+    double at[3];
+    bool inside = true;
+    for (size_t c = first; c < last && inside; c++) {
         const float *const p = corner(batch, c);
-        const double at[3] = {(double)p[0] + shift[0], (double)p[1] + shift[1],
-                              (double)p[2] + shift[2]};
+        if (!p) return;
+        move(p, shift, at);
+        inside = dp_reach_has(reach, at);
+    }
+    if (inside || !is_drawn(batch, first, last)) return;
+    for (size_t c = first; c < last; c++) {
+        move(corner(batch, c), shift, at);
         dp_reach_add(reach, at);
     }
 }
@@ -99,8 +110,19 @@ static bool may_grow(const dp_reach *reach, const box *b, const double shift[3])
 
 static size_t first_corner(const dp_batch *b, size_t i) { return b->firsts ? b->firsts[i] : 3 * i; }
 
-static void measure_batch(const dp_batch *batch, const double shift[3], box *whole,
-                          dp_reach *reach, dp_extent *extent) {
+/* Polygons from all over a large batch first: then few of the others reach farther. */
+static void sample(dp_reach *reach, const dp_batch *batch, const double shift[3]) {
+    const size_t step = batch->polygon_count / SAMPLES;
+    if (!reach || step < DP_TUNED(16, 2)) return;
+    for (size_t i = 0; i < batch->polygon_count; i += step)
+        dp_reach_add_polygon(reach, batch, first_corner(batch, i), first_corner(batch, i + 1),
+                             shift);
+    dp_reach_set_limits(reach);
+}
+
+static void measure_batch(const dp_batch *batch, const double shift[3], box *whole, dp_reach *reach,
+                          dp_extent *extent) {
+    sample(reach, batch, shift);
     for (size_t first = 0; first < batch->polygon_count; first += RUN) {
         const size_t left = batch->polygon_count - first, last = first + (left < RUN ? left : RUN);
         box b = empty_box;

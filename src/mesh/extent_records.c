@@ -16,8 +16,9 @@
 
 enum {
     BLOCK = DP_TUNED(4096, 3),
-    RUN = DP_TUNED(64, 2),   /* triangles */
-    PART = DP_TUNED(1024, 5) /* blocks between two reports of progress */
+    RUN = DP_TUNED(64, 2),     /* triangles */
+    SAMPLES = DP_TUNED(64, 3), /* runs */
+    PART = DP_TUNED(1024, 5)   /* blocks between two reports of progress */
 };
 
 typedef struct box {
@@ -92,13 +93,8 @@ static bool look_at_finite(box *b, const uint8_t *records, uint32_t count, size_
     return true;
 }
 
-/* Adds a run's triangles to the reach, if its box says that they may change it. */
-static void reach_for(seen *s, const box *b, const uint8_t *records, uint32_t count,
-                      size_t stride) {
+static void reach_for_all(dp_reach *reach, const uint8_t *records, uint32_t count, size_t stride) {
     static const double no_shift[3] = {0};
-    double min[3], max[3];
-    for (int k = 0; k < 3; k++) min[k] = (double)b->min[k], max[k] = (double)b->max[k];
-    if (!s->reaches || min[0] > max[0] || !dp_reach_may_grow(&s->reach, min, max)) return;
     for (uint32_t i = 0; i < count; i++) {
         float p[9];
         memcpy(p, records + i * stride, sizeof p);
@@ -107,8 +103,17 @@ static void reach_for(seen *s, const box *b, const uint8_t *records, uint32_t co
                                    .vertex_count = 3,
                                    .corner_count = 3,
                                    .polygon_count = 1};
-        dp_reach_add_polygon(&s->reach, &triangle, 0, 3, no_shift);
+        dp_reach_add_polygon(reach, &triangle, 0, 3, no_shift);
     }
+}
+
+/* Adds a run's triangles to the reach, if its box says that they may change it. */
+static void reach_for(seen *s, const box *b, const uint8_t *records, uint32_t count,
+                      size_t stride) {
+    double min[3], max[3];
+    for (int k = 0; k < 3; k++) min[k] = (double)b->min[k], max[k] = (double)b->max[k];
+    if (!s->reaches || min[0] > max[0] || !dp_reach_may_grow(&s->reach, min, max)) return;
+    reach_for_all(&s->reach, records, count, stride);
 }
 
 static void look_at_run(seen *s, const uint8_t *records, uint32_t count, size_t stride) {
@@ -155,6 +160,20 @@ static dp_result look_at_all(dp_source *source, dp_threads *threads, seen *worke
     return DP_OK;
 }
 
+/* Runs from all over a large file first: then few of the others reach farther. */
+static dp_result sample(const dp_source *source, dp_reach *reach, uint8_t *buffer, dp_diag *diag) {
+    const dp_records *const r = &source->records;
+    const uint64_t step = r->count / SAMPLES;
+    if (!reach || step < DP_TUNED(16, 2) * RUN) return DP_OK;
+    for (uint64_t i = 0; i + RUN <= r->count; i += step) {
+        const dp_result result = r->read(source->callbacks.user, i, RUN, buffer, diag);
+        if (result) return result;
+        reach_for_all(reach, buffer + r->corners, RUN, r->size);
+    }
+    dp_reach_set_limits(reach);
+    return DP_OK;
+}
+
 static void add_up(const seen *workers, uint32_t count, dp_extent *extent, dp_reach *reach) {
     for (int k = 0; k < 3; k++) {
         float lo = INFINITY, hi = -INFINITY;
@@ -186,11 +205,12 @@ dp_result dp_records_measure(dp_source *source, dp_extent *extent, dp_reach *rea
         seen_by ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
     for (uint32_t i = 0; seen_by && i < workers; i++) {
         seen_by[i] = (seen){.box = empty_box, .reaches = reach != NULL};
-        if (reach) seen_by[i].reach = *reach;
         seen_by[i].buffer = dp_alloc_array(memory, BLOCK, r->size);
         if (!seen_by[i].buffer)
             result = dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
     }
+    if (!result) result = sample(source, reach, seen_by[0].buffer, diag);
+    for (uint32_t i = 0; seen_by && reach && i < workers; i++) seen_by[i].reach = *reach;
     if (!result) result = look_at_all(source, threads, seen_by, diag);
     if (!result) add_up(seen_by, workers, extent, reach);
     for (uint32_t i = 0; seen_by && i < workers; i++) dp_free(memory, seen_by[i].buffer);

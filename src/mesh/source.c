@@ -205,13 +205,12 @@ const char *dp_source_color_remark(const dp_source *source) {
 }
 
 bool dp_source_up(const dp_source *source, double up[3]) {
-    static const double none[3] = {0};
-    const double *const said = source ? source->callbacks.up : none;
-    const double length = sqrt(said[0] * said[0] + said[1] * said[1] + said[2] * said[2]);
+    static const dp_source_callbacks unknown = {0};
+    const dp_source_callbacks *const c = source ? &source->callbacks : &unknown;
+    const double length = sqrt(c->up[0] * c->up[0] + c->up[1] * c->up[1] + c->up[2] * c->up[2]);
     const bool known = length > 0 && isfinite(length);
-    for (int k = 0; k < 3; k++) up[k] = known ? said[k] / length : 0;
-    if (!known) up[source && source->stands_on_z ? 2 : 1] = 1;
-    return known;
+    for (int k = 0; k < 3; k++) up[k] = known ? c->up[k] / length : k == 1;
+    return known && !c->up_assumed;
 }
 
 void dp_source_destroy(dp_source *source) {

@@ -22,7 +22,6 @@ struct dp_source {
     dp_source_callbacks callbacks;
     dp_allocator allocator;
     dp_records records; /* read NULL: only batch by batch */
-    bool stands_on_z;   /* unless the callbacks say what is up */
     bool constant;      /* its batches never change (an application's arrays may) */
     uint64_t key;       /* fingerprint of a constant source (mesh/normals.c); 0: not computed yet */
     bool holds;         /* dp_source_next is to return this batch, read ahead by dp_source_begin */
