@@ -144,9 +144,7 @@ static void anything_is_seen_whole(void **state) {
     for (uint32_t seed = 1; seed <= 8; seed++)
         for (size_t f = 0; f < sizeof fovs / sizeof *fovs; f++)
             for (size_t a = 0; a < sizeof aspects / sizeof *aspects; a++) {
-                dp_fit fit = {.fov_y = fovs[f],
-                              .aspect = aspects[a],
-                              .orthographic = fovs[f] <= 0};
+                dp_fit fit = {.fov_y = fovs[f], .aspect = aspects[a], .orthographic = fovs[f] <= 0};
                 const size_t d = (seed + f + a) % (sizeof directions / sizeof *directions);
                 memcpy(fit.direction, directions[d], sizeof fit.direction);
                 make_soup(seed, positions);
@@ -169,8 +167,8 @@ static void wide_angles_are_not_cut(void **state) {
         const dp_batch batch = soup_batch(positions);
         dp_source *const source = source_of(&batch);
         dp_camera camera;
-        assert_int_equal(
-            dp_camera_fit_source(&camera, &(dp_fit){.fov_y = 170}, source, NULL, NULL), DP_OK);
+        assert_int_equal(dp_camera_fit_source(&camera, &(dp_fit){.fov_y = 170}, source, NULL, NULL),
+                         DP_OK);
         const used u = used_by(source, &camera);
         for (int k = 0; k < 3; k++) assert_true(u.min[k] >= -1 && u.max[k] <= 1);
         assert_true(fabs(u.min[0] + u.max[0]) < 0.01 && fabs(u.min[1] + u.max[1]) < 0.01);
@@ -205,8 +203,7 @@ static void order_changes_nothing(void **state) {
     }
     fclose(out);
     assert_int_equal(dp_source_open(path, NULL, &file, NULL), DP_OK);
-    dp_batch batch = {
-        .vertex_count = 3 * MANY, .corner_count = 3 * MANY, .polygon_count = MANY};
+    dp_batch batch = {.vertex_count = 3 * MANY, .corner_count = 3 * MANY, .polygon_count = MANY};
     batch.positions = positions[0];
     dp_source *const forth = source_of(&batch);
     batch.positions = backwards[0];
@@ -313,8 +310,7 @@ static void what_cannot_be_fitted_is_refused(void **state) {
     dp_camera camera;
     dp_diag diag;
     (void)state;
-    assert_int_equal(dp_camera_fit_source(&camera, NULL, source, &extent, &diag),
-                     DP_ERR_ARGUMENT);
+    assert_int_equal(dp_camera_fit_source(&camera, NULL, source, &extent, &diag), DP_ERR_ARGUMENT);
     assert_int_equal(extent.not_finite, 1);
     assert_true(strlen(diag.message) > 0);
     assert_int_equal(dp_camera_fit_source(&camera, &(dp_fit){.fov_y = 180}, source, NULL, NULL),
@@ -343,7 +339,8 @@ static void steady_is_of_the_box(void **state) {
 /* ---- what is up ---- */
 
 static void sides_turn_with_what_is_up(void **state) {
-    static const double sides[][3][3] = { /* up, right, front */
+    static const double sides[][3][3] = {
+        /* up, right, front */
         {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}},
         {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},
         {{0, 0, -3}, {1, 0, 0}, {0, 1, 0}},  {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
@@ -381,7 +378,8 @@ static void assert_up(const dp_source *source, const double up[3], bool said) {
 }
 
 static void sources_say_what_is_up(void **state) {
-    static const char stl[] = "solid a\nendsolid a\n", obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const char stl[] = "solid a\nendsolid a\n",
+                      obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
     dp_source_callbacks callbacks = {.next = no_more};
     const dp_memory_file files[] = {{.data = stl, .size = sizeof stl - 1, .name = "a.stl"},
@@ -410,8 +408,9 @@ static void sources_say_what_is_up(void **state) {
 
 /* A source that stands on z is seen as one on y that is turned. */
 static void the_usual_view_turns_with_what_is_up(void **state) {
-    static const char stl[] = "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
-                              "vertex 0 -1 2\nendloop\nendfacet\nendsolid a\n";
+    static const char stl[] =
+        "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+        "vertex 0 -1 2\nendloop\nendfacet\nendsolid a\n";
     static const float turned[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 1}};
     const dp_memory_file file = {.data = stl, .size = sizeof stl - 1, .name = "a.stl"};
     const dp_batch batch = {
