@@ -34,10 +34,10 @@ DP_API dp_result dp_camera_perspective(dp_camera *camera, double fov_y, double a
 DP_API dp_result dp_camera_orthographic(dp_camera *camera, double height, double aspect,
                                         double near_z, double far_z);
 
-/* How a camera sees a whole box. Zero is the default. */
+/* How a camera sees a whole box, or all that is drawn of a source. Zero is the default. */
 typedef struct dp_fit {
     float min[3], max[3]; /* the box, world space, as from dp_source_extent */
-    double direction[3];  /* from the box's centre to the eye; {0} means (1, 0.6, 1) */
+    double direction[3];  /* towards the eye; {0} means (1, 0.6, 1) */
     double up[3];         /* {0} means +y, or -z / +z when looking down or up along y */
     double fov_y;         /* degrees; 0 means 35 */
     bool orthographic;

@@ -385,8 +385,7 @@ static bool has_same_sides(const finding *a, const finding *b) {
            a->owner.polygon == b->owner.polygon && a->owner.edge == b->owner.edge;
 }
 
-/* The polygon furthest behind the edge on a side where something lies: of what lies beyond a crack,
- * the nearest one. */
+/* The polygon furthest behind an edge on a side; where all lies beyond a crack, the nearest one. */
 static uint32_t furthest_on(const dp_beheld *b, bool right) {
     return b->furthest[right] != UINT32_MAX ? b->furthest[right] : b->nearest[right].polygon;
 }
@@ -443,9 +442,8 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
         here.behind = here.sides[right], here.sides[right] = furthest_on(b, right);
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
-    const bool outline = left != right;
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
-        !is_own_edge(w, e, here.owner) || (outline && are_hidden_backs(w, b, right)))
+        !is_own_edge(w, e, here.owner) || (left != right && are_hidden_backs(w, b, right)))
         here = NOTHING;
     if (is_plain_pair(b)) here = judge_pair(w, e);
     /* as the table would have it, so that tiles agree */

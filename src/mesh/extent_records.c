@@ -93,11 +93,21 @@ static bool look_at_finite(box *b, const uint8_t *records, uint32_t count, size_
     return true;
 }
 
+/* Is a triangle inside what is known? Quicker than to ask the same of a batch. */
+static bool is_inside(const dp_reach *reach, const float p[9]) {
+    for (int c = 0; c < 9; c += 3) {
+        const double at[3] = {(double)p[c], (double)p[c + 1], (double)p[c + 2]};
+        if (!dp_reach_has(reach, at)) return false;
+    }
+    return true;
+}
+
 static void reach_for_all(dp_reach *reach, const uint8_t *records, uint32_t count, size_t stride) {
     static const double no_shift[3] = {0};
     for (uint32_t i = 0; i < count; i++) {
         float p[9];
         memcpy(p, records + i * stride, sizeof p);
+        if (is_inside(reach, p)) continue;
         const dp_batch triangle = {.positions = p,
                                    .position_stride = 3 * sizeof *p,
                                    .vertex_count = 3,
