@@ -194,6 +194,8 @@ what_is_up() {
     done
     run 0 info b.stl
     says out '0 0 1 (as is usual: the file does not say)'
+    run 0 info "$here/../unit/files/thumbnail.3mf" # read in a process of its own
+    grep -q '^up  *0 0 1$' out || fail "3MF: $(tail -1 out)"
     run 0 info --json shape:bracket
     says out '"up": [0, 1, 0], "up_said": true'
     wrong b.ply --up w -o out.png -- '--up: "w" is no direction; give x, y, z, -x, -y, -z, or three numbers'
