@@ -57,7 +57,7 @@ typedef struct dp_fit {
 DP_API dp_result dp_camera_fit(dp_camera *camera, const dp_fit *fit);
 
 /* Sets the camera so that what is drawn of a source fills the picture, in one reading of it from its
- * start to its end. On the axis that is filled, both margins are 4 % of half the picture; on the
+ * start to its end; in two where the picture's angle is wider than 80 degrees. On the axis that is filled, both margins are 4 % of half the picture; on the
  * other one, the model is in the middle. Near and far enclose it. Corners count that polygons with an
  * area use; those with a coordinate that is not finite, or an index out of range, do not. The eye
  * comes no nearer than a thousandth of the model's size, also where only an eye inside would fill

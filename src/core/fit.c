@@ -9,7 +9,9 @@
  * On the other axis there is room. The picture is in its middle there when some smaller t closes on
  * both sides: a(t) + b(t) = 2 t e.z. Both are convex, known for a row of slopes (mesh/reach.h), and
  * taken as linear between two of them: never too small, and too large by a few hundred-thousandths
- * of the model's size at most. A box has eight corners only and takes the plane's own slope. */
+ * of the model's size at most. Where the eye comes so near that this is seen, in wide views, the
+ * source is read once more for slopes between those two. A box has eight corners only and takes the
+ * plane's own slope. */
 #include "core/camera.h"
 
 #include "base/diag.h"
@@ -186,21 +188,27 @@ static dp_result find_axes(const dp_fit *fit, const dp_source *source, double ax
     return wrong;
 }
 
+/* By how much the model, between this side and the next, is wider than what an eye at that z sees of it
+ * between planes of slope j. */
+static double overlap(const dp_reach *reach, int side, int j, double eye_z) {
+    return reach->most[side][j] + reach->most[side + 1][j] - 2 * reach->slope[side / 2][j] * eye_z;
+}
+
+/* The first slope, but for number 0, at which an eye at that z sees the model. */
+static int closing(const dp_reach *reach, int side, double eye_z) {
+    int j = 1;
+    while (j < DP_REACH_SLOPES - 1 && overlap(reach, side, j, eye_z) > 0) j++;
+    return j;
+}
+
 /* Where the middle of what an eye at that z sees lies, across, between this side and the next. */
 static double middle(const dp_reach *reach, int side, double eye_z) {
-    const double *const slope = reach->slope[side / 2];
     const double *const a = reach->most[side], *const b = reach->most[side + 1];
-    double before = a[0] + b[0];
-    if (!(before > 0)) return (a[0] - b[0]) / 2;
-    for (int j = 1; j < DP_REACH_SLOPES; j++) {
-        const double room = a[j] + b[j] - 2 * slope[j] * eye_z;
-        if (room <= 0) {
-            const double share = before / (before - room);
-            return (a[j - 1] - b[j - 1] + share * (a[j] - b[j] - (a[j - 1] - b[j - 1]))) / 2;
-        }
-        before = room;
-    }
-    return (a[DP_REACH_SLOPES - 1] - b[DP_REACH_SLOPES - 1]) / 2;
+    const int j = closing(reach, side, eye_z);
+    const double before = overlap(reach, side, j - 1, eye_z),
+                 after = dp_min(overlap(reach, side, j, eye_z), 0);
+    const double share = before > 0 ? before / (before - after) : 0;
+    return (a[j - 1] - b[j - 1] + share * (a[j] - b[j] - (a[j - 1] - b[j - 1]))) / 2;
 }
 
 /* The least z of an eye that sees the model between this side and the next. */
@@ -228,16 +236,21 @@ static void put_eye(dp_camera *camera, const dp_reach *reach, const double eye[3
     camera->view[15] = 1;
 }
 
-static dp_result see_in_perspective(dp_camera *camera, const dp_reach *r, const numbers *n) {
-    const double depth = r->front - r->back, clearance = CLEARANCE * size_of(r);
-    double eye[3];
-    eye[2] = dp_max(dp_max(least_z(r, DP_REACH_RIGHT), least_z(r, DP_REACH_ABOVE)),
-                    r->front + clearance);
-    eye[0] = middle(r, DP_REACH_RIGHT, eye[2]), eye[1] = middle(r, DP_REACH_ABOVE, eye[2]);
+static double clearance(const dp_reach *r) { return CLEARANCE * size_of(r); }
+
+static double eye_z_of(const dp_reach *r) {
+    return dp_max(dp_max(least_z(r, DP_REACH_RIGHT), least_z(r, DP_REACH_ABOVE)),
+                  r->front + clearance(r));
+}
+
+/* `fine` tells the middle, `r` all else. */
+static dp_result see_in_perspective(dp_camera *camera, const dp_reach *r, const dp_reach *fine,
+                                    const numbers *n) {
+    const double z = eye_z_of(r), near_z = z - r->front, far_z = z - r->back;
+    const double eye[3] = {middle(fine, DP_REACH_RIGHT, z), middle(fine, DP_REACH_ABOVE, z), z};
     put_eye(camera, r, eye);
-    const double near_z = eye[2] - r->front, far_z = near_z + depth;
     return dp_camera_perspective(camera, zoomed_fov(n), n->aspect, 0.99 * near_z,
-                                 1.01 * far_z + clearance);
+                                 1.01 * far_z + clearance(r));
 }
 
 static dp_result see_orthographic(dp_camera *camera, const dp_reach *r, const numbers *n,
@@ -282,12 +295,35 @@ static dp_result fit_extent(dp_camera *camera, const dp_fit *fit, const dp_exten
     return dp_camera_fit(camera, &boxed);
 }
 
+/* Is the view so wide, more than 80 degrees, that what lies between two slopes may be seen? */
+static bool is_wide(const dp_reach *r) {
+    static const double wide = 0.84;
+    return r->slope[0][DP_REACH_SLOPES - 1] > wide || r->slope[1][DP_REACH_SLOPES - 1] > wide;
+}
+
+/* Reads the source once more, for slopes between those between which the middle lies. */
+static dp_result refine(const dp_fit *fit, dp_source *source, const dp_reach *r, dp_reach *fine,
+                        dp_diag *diag) {
+    dp_extent unused;
+    double from[2], to[2];
+    for (int k = 0; k < 2; k++) {
+        const int j = closing(r, 2 * k, eye_z_of(r));
+        from[k] = r->slope[k][j - 1], to[k] = r->slope[k][j];
+    }
+    dp_reach_begin(fine, r->axis, from, to);
+    const dp_result result = dp_source_measure(source, &unused, fine, diag);
+    return result ? result : add_box(fit, fine);
+}
+
 static dp_result fit_reach(dp_camera *camera, const dp_fit *fit, const numbers *n,
-                           dp_reach *reach) {
-    const dp_result wrong = add_box(fit, reach);
+                           dp_source *source, dp_reach *reach, dp_diag *diag) {
+    dp_reach fine;
+    dp_result wrong = add_box(fit, reach);
     if (wrong) return wrong;
-    return fit->orthographic ? see_orthographic(camera, reach, n, fit->height)
-                             : see_in_perspective(camera, reach, n);
+    if (fit->orthographic) return see_orthographic(camera, reach, n, fit->height);
+    const bool again = is_wide(reach) && dp_source_rewindable(source);
+    if (again) wrong = refine(fit, source, reach, &fine, diag);
+    return wrong ? wrong : see_in_perspective(camera, reach, again ? &fine : reach, n);
 }
 
 dp_result dp_camera_fit_source(dp_camera *camera, const dp_fit *fit, dp_source *source,
@@ -302,14 +338,15 @@ dp_result dp_camera_fit_source(dp_camera *camera, const dp_fit *fit, dp_source *
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "dp_camera_fit_source: NULL argument, or a fit that is out of range");
     const double share = fit->orthographic ? 0 : 1 - MARGIN;
+    const double steepest[2] = {n.tan_x * share, n.tan_y * share};
     dp_reach reach;
-    dp_reach_begin(&reach, axis, n.tan_x * share, n.tan_y * share);
+    dp_reach_begin(&reach, axis, (const double[2]){0}, steepest);
     dp_result result = dp_source_measure(source, extent, &reach, diag);
-    if (result) return result;
-    if (fit->steady || !(size_of(&reach) > 0))
+    if (!result && (fit->steady || !(size_of(&reach) > 0)))
         result = fit_extent(camera, fit, extent, &reach);
-    else
-        result = fit_reach(camera, fit, &n, &reach);
-    return result ? dp_fail(diag, result, "the model's size cannot be fitted into a picture")
-                  : DP_OK;
+    else if (!result)
+        result = fit_reach(camera, fit, &n, source, &reach, diag);
+    return result == DP_ERR_ARGUMENT
+               ? dp_fail(diag, result, "the model's size cannot be fitted into a picture")
+               : result;
 }

@@ -25,17 +25,17 @@ enum {
 };
 
 /* Slopes of planes that are equal angles apart. */
-static void fill_slopes(double steepest, double slope[DP_REACH_SLOPES]) {
-    const double angle = dp_atan(steepest);
-    for (int j = 0; j < DP_REACH_SLOPES; j++) slope[j] = dp_tan(angle * j / (DP_REACH_SLOPES - 1));
-    slope[DP_REACH_SLOPES - 1] = steepest;
+static void fill_slopes(double from, double to, double slope[DP_REACH_SLOPES]) {
+    const double angle = dp_atan(from), step = (dp_atan(to) - angle) / (DP_REACH_SLOPES - 1);
+    for (int j = 0; j < DP_REACH_SLOPES; j++) slope[j] = dp_tan(angle + step * j);
+    slope[0] = from, slope[DP_REACH_SLOPES - 1] = to;
 }
 
-void dp_reach_begin(dp_reach *reach, const double axis[3][3], double slope_x, double slope_y) {
+void dp_reach_begin(dp_reach *reach, const double axis[3][3], const double from[2],
+                    const double to[2]) {
     *reach = (dp_reach){.back = INFINITY, .front = -INFINITY};
     memcpy(reach->axis, axis, sizeof reach->axis);
-    fill_slopes(slope_x, reach->slope[0]);
-    fill_slopes(slope_y, reach->slope[1]);
+    for (int k = 0; k < 2; k++) fill_slopes(from[k], to[k], reach->slope[k]);
     for (int side = 0; side < DP_REACH_SIDES; side++) {
         for (int j = 0; j < DP_REACH_SLOPES; j++) reach->most[side][j] = -INFINITY;
         for (int g = 0; g < GROUPS; g++) reach->least[side][g] = -INFINITY;

@@ -22,7 +22,7 @@ typedef struct dp_reach {
     double axis[3][3];                /* x, y and z in world space: unit vectors, perpendicular */
     double origin[3];                 /* world space */
     bool placed;                      /* the origin is known */
-    double slope[2][DP_REACH_SLOPES]; /* of planes beside and above: ascending, from 0 */
+    double slope[2][DP_REACH_SLOPES]; /* of planes beside and above: ascending */
     double most[DP_REACH_SIDES]
                [DP_REACH_SLOPES]; /* largest ± x + s z, or ± y + s z; -INFINITY: of nothing */
     double least[DP_REACH_SIDES][DP_REACH_SLOPES / DP_REACH_GROUP]; /* of each group of most */
@@ -34,9 +34,9 @@ typedef struct dp_reach {
     unsigned late; /* points that passed the limits since */
 } dp_reach;
 
-/* The reach of nothing, for planes up to these slopes, the tangents of half the view's angles; 0 for
- * an orthographic view. */
-void dp_reach_begin(dp_reach *reach, const double axis[3][3], double slope_x, double slope_y);
+/* The reach of nothing, for planes of slopes between these, beside and above. */
+void dp_reach_begin(dp_reach *reach, const double axis[3][3], const double from[2],
+                    const double to[2]);
 
 /* Can a point of this box change anything? `min` and `max` count from the origin. */
 bool dp_reach_may_grow(const dp_reach *reach, const double min[3], const double max[3]);
