@@ -263,9 +263,10 @@ static int measure(picture *p, dp_source *source, const measured *model, bool *w
     if (code) return code;
     p->box = view_box_of(camera, &model->extent);
     *whole = p->sized && !p->s->has_target;
-    if (!*whole || p->s->has_mirror || !dp_source_rewindable(source)) return 0;
-    if (!view_boxes(source, camera, 1, &p->box, &diag)) return 0;
-    return report_failure(p->s->model, &diag);
+    if (!*whole || !dp_source_rewindable(source)) return 0;
+    if (view_boxes(source, camera, 1, &p->box, &diag)) return report_failure(p->s->model, &diag);
+    if (p->s->has_mirror) view_box_add(&p->box, camera, &model->beside);
+    return 0;
 }
 
 /* Makes a perspective picture of the box's middle, at the drawing's scale: as with a lens that is
