@@ -65,15 +65,15 @@ static int measure(const tool_settings *s, bench *b) {
     const dp_context_desc desc = {.threads = s->threads,
                                   .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
     dp_style style = make_style(s);
-    dp_extent extent;
+    measured model;
     page_plan plan;
     dp_diag diag = {0};
     dp_camera *const camera = &plan.views[0].camera;
-    int code = measure_model(s, b->source, &extent);
-    if (!code) look_mirror(s, &extent, &style);
-    if (!code) code = page_make(s, b->source, &extent, &plan);
+    int code = measure_model(s, b->source, &model);
+    if (!code) look_mirror(s, &model, &style);
+    if (!code) code = page_make(s, b->source, &model, &plan);
     if (!code && !page_widths(s, &plan, &style)) code = EXIT_USAGE;
-    if (!code) look_deepen(&style, &extent, camera);
+    if (!code) look_deepen(&style, &model.extent, camera);
     if (!code) code = make_stroke(s, &plan, &style, &b->texture);
     if (!code) code = look_make(s, b->source, &b->look, &style);
     if (code) return code;

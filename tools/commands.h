@@ -20,14 +20,29 @@ int open_model(const tool_settings *s, dp_source **out);
 int report_model(const tool_settings *s, const dp_diag *diag);
 /* Warns of something about this run's model, which is named if others come before or after. */
 void warn_of_model(const tool_settings *s, const char *text);
-/* The model's extent. 0, or the exit code after a message, also when there is nothing to see. */
-int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent);
+/* What is known of a model when it has been read. */
+typedef struct measured {
+    dp_extent extent; /* of the model, and of a mirror beside it */
+    dp_extent beside; /* of that mirror; min and max all 0: there is none */
+    dp_camera fitted; /* to what is drawn, for a picture of this */
+    double aspect;    /* width / height; 0: it is not fitted yet */
+} measured;
+
+/* Reads the model once. 0, or the exit code after a message, also when there is nothing to see. */
+int measure_model(const tool_settings *s, dp_source *source, measured *model);
 /* Warns if the model lies so far from 0 that its float32 coordinates no longer tell its shape. */
 void warn_coarse(const tool_settings *s, const dp_extent *extent);
 
-/* The camera of the settings, for a model of that extent and a picture of that width / height. 0,
- * or the exit code after a message. */
-int make_camera(const tool_settings *s, const dp_extent *extent, double aspect, dp_camera *camera);
+/* The camera of the settings, for a picture of that width / height. Reads the model again unless it
+ * was measured for that. 0, or the exit code after a message. */
+int make_camera(const tool_settings *s, dp_source *source, const measured *model, double aspect,
+                dp_camera *camera);
+/* The width / height of which a camera is asked first, and whether it is one that is fitted. */
+double first_aspect(const tool_settings *s);
+bool is_camera_fitted(const tool_settings *s);
+/* Fits a camera to what is drawn of the model; *extent, unless NULL, becomes its extent. */
+dp_result fit_camera(const tool_settings *s, dp_source *source, const dp_extent *beside,
+                     double aspect, dp_camera *camera, dp_extent *extent, dp_diag *diag);
 /* All but the lines' widths, which the page says (page.h). */
 dp_style make_style(const tool_settings *s);
 /* Fills style->stroke; the caller destroys *texture. 0, or the exit code after a message. */

@@ -12,6 +12,7 @@
 #include "planes.h"
 #include "progress.h"
 #include "report.h"
+#include "sides.h"
 
 #include <drypoint/io.h>
 
@@ -58,20 +59,19 @@ static void warn_options(const tool_settings *s, const drawing *d) {
 }
 
 /* Everything but the drawing itself; fills in what all views share. */
-static int prepare(const tool_settings *s, drawing *d, const dp_extent *extent) {
+static int prepare(const tool_settings *s, drawing *d, measured *model) {
     const dp_context_desc desc = {
         .threads = s->threads, .progress = progress_report, .memory = (size_t)s->memory};
-    dp_extent seen = *extent;
     dp_diag diag = {0};
     d->pixels = files_have_pixels(s), d->paths = files_have_paths(s);
     d->style = make_style(s);
     d->style.exact_ends = d->paths;
-    look_mirror(s, &seen, &d->style);
-    int code = page_make(s, d->source, &seen, &d->plan);
+    look_mirror(s, model, &d->style);
+    int code = page_make(s, d->source, model, &d->plan);
     if (code) return code;
     if (!page_widths(s, &d->plan, &d->style)) return EXIT_USAGE;
     for (int k = 0; k < d->plan.view_count; k++)
-        look_deepen(&d->style, &seen, &d->plan.views[k].camera);
+        look_deepen(&d->style, &model->extent, &d->plan.views[k].camera);
     code = make_stroke(s, &d->plan, &d->style, &d->texture);
     if (code) return code;
     code = look_make(s, d->source, &d->look, &d->style);
@@ -192,15 +192,18 @@ static void print_stats(const tool_settings *s, const drawing *d) {
         if (s->stats == STATS_JSON)
             print_stats_json(files_standard(s) ? stderr : stdout, s, &d->stats[k], &view);
     }
-    if (d->paths) paths_tell(s, &d->plan, d->views);
+    if (d->paths)
+        paths_tell(s, &d->plan, d->views, sides_assumed(s, d->source));
+    else
+        sides_tell(s, d->source);
 }
 
 static int run(const tool_settings *s, drawing *d) {
-    dp_extent extent;
+    measured model;
     int code = open_model(s, &d->source);
-    if (!code) code = measure_model(s, d->source, &extent);
-    if (!code) warn_coarse(s, &extent);
-    if (!code) code = prepare(s, d, &extent);
+    if (!code) code = measure_model(s, d->source, &model);
+    if (!code) warn_coarse(s, &model.extent);
+    if (!code) code = prepare(s, d, &model);
     if (!code) code = draw_views(s, d);
     if (!code) code = write_planes(s, d);
     if (!code) code = write_trace(s, d);

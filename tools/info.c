@@ -48,7 +48,10 @@ static void print_place(const char *before, const char *between, const char *aft
     fputs(after, stdout);
 }
 
-static void print_table(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
+static void print_table(const tool_settings *s, const dp_source *source, const dp_extent *e,
+                        const line lines[LINES]) {
+    double up[3];
+    const bool said = dp_source_up(source, up);
     printf("%-32s %s\n", "model", s->model);
     for (int k = 0; k < LINES; k++)
         printf("%-32s %llu\n", lines[k].text, (unsigned long long)lines[k].value);
@@ -58,23 +61,30 @@ static void print_table(const tool_settings *s, const dp_extent *e, const line l
     print_place("", " ", "\n", e->exact_max, e->spacing);
     printf("%-32s %.9g x %.9g x %.9g\n", "size", e->exact_max[0] - e->exact_min[0],
            e->exact_max[1] - e->exact_min[1], e->exact_max[2] - e->exact_min[2]);
+    printf("%-32s %.9g %.9g %.9g%s\n", "up", up[0], up[1], up[2],
+           said ? "" : " (as is usual: the file does not say)");
 }
 
-static void print_json(const tool_settings *s, const dp_extent *e, const line lines[LINES]) {
+static void print_json(const tool_settings *s, const dp_source *source, const dp_extent *e,
+                       const line lines[LINES]) {
+    double up[3];
+    const bool said = dp_source_up(source, up);
     printf("{\"model\": ");
     print_json_string(stdout, s->model);
     for (int k = 0; k < LINES; k++)
         printf(", \"%s\": %llu", lines[k].key, (unsigned long long)lines[k].value);
     print_place(", \"min\": [", ", ", "]", e->exact_min, e->spacing);
-    print_place(", \"max\": [", ", ", "]}\n", e->exact_max, e->spacing);
+    print_place(", \"max\": [", ", ", "]", e->exact_max, e->spacing);
+    printf(", \"up\": [%.9g, %.9g, %.9g], \"up_said\": %s}\n", up[0], up[1], up[2],
+           said ? "true" : "false");
 }
 
 static int inspect(const tool_settings *s, dp_source *source) {
-    dp_extent extent, measured;
+    dp_extent extent, whole;
     edge_counts edges;
     dp_diag diag = {0};
     progress_begin("counting edges", s->quiet);
-    dp_result result = dp_source_extent(source, &measured, &diag);
+    dp_result result = dp_source_extent(source, &whole, &diag);
     if (!result) result = count_edges(source, &extent, &edges, &diag);
     progress_end();
     if (result) {
@@ -88,14 +98,14 @@ static int inspect(const tool_settings *s, dp_source *source) {
     const char *const remark = dp_source_remark(source);
     if (remark && !s->quiet) warn_of_model(s, remark);
     line lines[LINES];
-    warn_coarse(s, &measured);
-    extent.spacing = measured.spacing;
+    warn_coarse(s, &whole);
+    extent.spacing = whole.spacing;
     fill_lines(&extent, &edges, lines);
     if (s->number && !s->json) fputc('\n', stdout);
     if (s->json)
-        print_json(s, &extent, lines);
+        print_json(s, source, &extent, lines);
     else
-        print_table(s, &extent, lines);
+        print_table(s, source, &extent, lines);
     return 0;
 }
 

@@ -144,11 +144,12 @@ static dp_result read_all(kept *k, dp_source *source, double most, dp_diag *diag
 dp_result keep_source(dp_source **source, double most, dp_diag *diag) {
     kept *const k = calloc(1, sizeof *k);
     if (!k) return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");
-    const dp_source_callbacks callbacks = {.user = k,
-                                           .next = kept_next,
-                                           .rewind = kept_rewind,
-                                           .destroy = kept_destroy,
-                                           .remark = kept_remark};
+    dp_source_callbacks callbacks = {.user = k,
+                                     .next = kept_next,
+                                     .rewind = kept_rewind,
+                                     .destroy = kept_destroy,
+                                     .remark = kept_remark};
+    callbacks.up_assumed = !dp_source_up(*source, callbacks.up);
     dp_source *made = NULL;
     dp_result result = read_all(k, *source, most, diag);
     const char *const remark = dp_source_remark(*source);

@@ -191,8 +191,9 @@ static void widen(dp_extent *e, int axis, double at) {
     e->max[axis] = fmaxf(e->max[axis], (double)near < at ? nextafterf(near, INFINITY) : near);
 }
 
-void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
-    const dp_extent model = *extent;
+void look_mirror(const tool_settings *s, measured *seen, dp_style *style) {
+    const dp_extent model = seen->extent;
+    dp_extent *const beside = &seen->beside;
     dp_mirror *const m = &style->mirror;
     double n[3], p[3], length = 0, largest = 0, least = INFINITY;
     if (!s->has_mirror) return;
@@ -217,11 +218,16 @@ void look_mirror(const tool_settings *s, dp_extent *extent, dp_style *style) {
                                                      : 0);
     if (s->mirror_tint) m->tint_share *= (float)(s->mirror_tint & 0xFF) / 255;
     const double off = n[0] * m->center[0] + n[1] * m->center[1] + n[2] * m->center[2] - offset;
+    for (int k = 0; k < 3; k++) {
+        beside->exact_min[k] = INFINITY, beside->exact_max[k] = -INFINITY;
+        beside->min[k] = INFINITY, beside->max[k] = -INFINITY;
+    }
     for (int i = 0; i < 8; i++) /* corners of a box around the mirror */
         for (int k = 0; k < 3; k++) {
             const double half = 0.5 * (double)m->size * sqrt(fmax(1 - n[k] * n[k], 0));
             const double at = m->center[k] - off * n[k] + (i >> k & 1 ? half : -half);
-            widen(extent, k, as_position(&model, k, at));
+            widen(&seen->extent, k, as_position(&model, k, at));
+            widen(beside, k, as_position(&model, k, at));
         }
 }
 

@@ -160,15 +160,29 @@ static void unseen_extent(const tool_settings *s, dp_extent *extent) {
     }
 }
 
-int measure_model(const tool_settings *s, dp_source *source, dp_extent *extent) {
+/* Finds the extent, and fits the camera in the same reading unless that depends on the extent. */
+static dp_result read_once(const tool_settings *s, dp_source *source, measured *model,
+                           dp_diag *diag) {
+    dp_result result = DP_ERR_ARGUMENT;
+    const double aspect = first_aspect(s);
+    if (is_camera_fitted(s) && !s->has_mirror)
+        result =
+            fit_camera(s, source, &model->beside, aspect, &model->fitted, &model->extent, diag);
+    if (!result) model->aspect = aspect;
+    return result == DP_ERR_ARGUMENT ? dp_source_extent(source, &model->extent, diag) : result;
+}
+
+int measure_model(const tool_settings *s, dp_source *source, measured *model) {
     const char *const name = model_spoken(s->model);
+    const dp_extent *const extent = &model->extent;
     dp_diag diag = {0};
+    *model = (measured){0};
     if (!dp_source_rewindable(source)) { /* drawn with an assumed extent around the target */
-        unseen_extent(s, extent);
+        unseen_extent(s, &model->extent);
         return 0;
     }
     progress_begin("reading", s->quiet);
-    const dp_result result = dp_source_extent(source, extent, &diag);
+    const dp_result result = read_once(s, source, model, &diag);
     progress_end();
     if (result) {
         report_model(s, &diag);

@@ -90,16 +90,17 @@ const option option_table[] = {
      "the model's centre."},
     {"target", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(target), AT(has_target), 0, 0,
      "The point the eye looks at; alone, the eye moves back until the model is seen whole."},
-    {"up", 0, "X,Y,Z", OPTION_POINT, GROUP_CAMERA, PICTURE, AT(up), AT(has_up), 0, 0,
-     "What is up in the picture. Default: 0,1,0."},
+    {"up", 0, "x|y|z|-x|-y|-z|X,Y,Z", OPTION_UP, GROUP_CAMERA, PICTURE, AT(up), AT(has_up), 0, 0,
+     "What is up in the picture; --view, --azimuth, --elevation and --sheet turn with it. Default: what the file "
+     "says (glTF, COLLADA, FBX), z for STL and 3MF, else y."},
     {"fov", 0, "DEG", OPTION_INSIDE, GROUP_CAMERA, PICTURE, AT(fov), AT(has_fov), 0, 180,
      "Vertical field of view. Default: 35; with --eye alone, what shows the model whole."},
     {"ortho", 0, "HEIGHT", OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(ortho), AT(has_ortho), 0, 1e30,
      "Orthographic projection; HEIGHT is what is seen, in the model's units, 0 is fitted."},
     {"view", 0, "front|back|left|right|top|bottom|iso",
      OPTION_WORD, GROUP_CAMERA, PICTURE, AT(view), 0, 0, 0,
-     "Look from this side (front is +z, right +x, top +y). Default: a three-quarter view from "
-     "direction 1,0.6,1."},
+     "Look from this side. With y up, front is +z and right +x; with z up, front is -y and right +x. Default: a "
+     "three-quarter view from the right, the front and above (1,0.6,1 with y up)."},
     {"azimuth", 0, "DEG",
      OPTION_NUMBER, GROUP_CAMERA, PICTURE, AT(azimuth), AT(has_azimuth), -1e6, 1e6,
      "Walk round the model: 0 is the front, 90 the right side. Default: 45, or the view's."},

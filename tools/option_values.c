@@ -129,6 +129,25 @@ static bool store_point(const option *o, const char *value, double to[3]) {
     return true;
 }
 
+/* x, -z, +y, or three numbers. */
+static bool store_up(const option *o, const char *value, double to[3]) {
+    const char *const letter = value + (*value == '-' || *value == '+');
+    memset(to, 0, 3 * sizeof *to);
+    if (*letter >= 'x' && *letter <= 'z' && !letter[1]) {
+        to[*letter - 'x'] = *value == '-' ? -1 : 1;
+        return true;
+    }
+    if (!strchr(value, ','))
+        return wrong_usage(
+            "--%s: \"%s\" is no direction; give x, y, z, -x, -y, -z, or three numbers "
+            "like 0,0,1",
+            o->name, value);
+    if (!store_point(o, value, to)) return false;
+    const double square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
+    return (square > 0 && isfinite(square)) ||
+           wrong_usage("--%s: %s has no direction; give one like 0,0,1", o->name, value);
+}
+
 static bool store_angles(const option *o, const char *value, double to[2]) {
     const char *const comma = value + strcspn(value, ",");
     if (!*comma || !read_number(value, comma, &to[0]) ||
@@ -431,6 +450,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_bytes(o, value, to);
     case OPTION_POINT:
         return store_point(o, value, to);
+    case OPTION_UP:
+        return store_up(o, value, to);
     case OPTION_ANGLES:
         return store_angles(o, value, to);
     case OPTION_PLANE:

@@ -206,6 +206,7 @@ typedef enum option_kind {
     OPTION_NUMBER,        /* double, limits included */
     OPTION_INSIDE,        /* double, limits excluded */
     OPTION_POINT,         /* double[3] */
+    OPTION_UP,            /* double[3]: a direction, or the word for one */
     OPTION_ANGLES,        /* double[2] */
     OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
     OPTION_OUTPUT,        /* tool_settings.files, .outputs, or of make .output */

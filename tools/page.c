@@ -212,18 +212,17 @@ static void fill_size(picture *p) {
 }
 
 /* Looks at the model from where it will be seen. */
-static int measure(picture *p, dp_source *source, const dp_extent *extent, bool *whole) {
-    tool_settings own = *p->s;
+static int measure(picture *p, dp_source *source, const measured *model, bool *whole) {
     dp_camera *const camera = &p->view->camera;
     dp_diag diag;
-    own.has_ortho |= own.scale.paper > 0;
-    const int code = make_camera(&own, extent, 1, camera);
+    const int code = make_camera(p->s, source, model, first_aspect(p->s), camera);
     if (code) return code;
-    p->box = view_box_of(camera, extent);
+    p->box = view_box_of(camera, &model->extent);
     *whole = p->sized && !p->s->has_target;
-    if (!*whole || p->s->has_mirror || !dp_source_rewindable(source)) return 0;
-    if (!view_boxes(source, camera, 1, &p->box, &diag)) return 0;
-    return report_model(p->s, &diag);
+    if (!*whole || !dp_source_rewindable(source)) return 0;
+    if (view_boxes(source, camera, 1, &p->box, &diag)) return report_model(p->s, &diag);
+    if (p->s->has_mirror) view_box_add(&p->box, camera, &model->beside);
+    return 0;
 }
 
 /* Makes a perspective picture of the box's middle, at the drawing's scale: as with a lens that is
@@ -248,13 +247,13 @@ static dp_result aim(const picture *p, const dp_extent *extent, const double cen
                : page_aim(&p->view->camera, extent, centre, height, aspect);
 }
 
-static int look(picture *p, const dp_extent *extent, bool whole) {
+static int look(picture *p, dp_source *source, const measured *model, bool whole) {
     static const double eye_axis[2] = {0, 0};
     const double aspect = (double)p->view->width / p->view->height;
-    if (!p->sized) return make_camera(p->s, extent, aspect, &p->view->camera);
+    if (!p->sized) return make_camera(p->s, source, model, aspect, &p->view->camera);
     const double centre[2] = {0.5 * (p->box.min[0] + p->box.max[0]),
                               0.5 * (p->box.min[1] + p->box.max[1])};
-    if (!aim(p, extent, whole ? centre : eye_axis)) return 0;
+    if (!aim(p, &model->extent, whole ? centre : eye_axis)) return 0;
     wrong_usage(
         "at this scale the model is too small or too large to be seen; give another --scale, "
         "or --unit");
@@ -276,14 +275,14 @@ static void fit_page(picture *p) {
     p->mm_per_unit = isfinite(mm) && mm > 0 ? mm : 1;
 }
 
-static int make_picture(const tool_settings *s, dp_source *source, const dp_extent *extent,
+static int make_picture(const tool_settings *s, dp_source *source, const measured *model,
                         page_plan *plan) {
     const bool on_page = s->page.width > 0, scaled = s->scale.paper > 0;
     picture p = {.s = s, .plan = plan, .view = &plan->views[0], .sized = scaled || is_fitted(s)};
     bool whole = false;
     if (scaled) p.mm_per_unit = page_scale(s, s->scale.paper / s->scale.model);
     plan->view_count = 1;
-    int code = on_page || scaled ? measure(&p, source, extent, &whole) : 0;
+    int code = on_page || scaled ? measure(&p, source, model, &whole) : 0;
     if (code) return code;
     if (on_page)
         code = lie_on_page(&p);
@@ -293,15 +292,15 @@ static int make_picture(const tool_settings *s, dp_source *source, const dp_exte
         fill_size(&p);
     if (!code && scaled && whole && on_page) code = check_fits(&p);
     if (!scaled && p.sized) fit_page(&p);
-    return code ? code : look(&p, extent, whole);
+    return code ? code : look(&p, source, model, whole);
 }
 
-int page_make(const tool_settings *s, dp_source *source, const dp_extent *extent, page_plan *plan) {
+int page_make(const tool_settings *s, dp_source *source, const measured *model, page_plan *plan) {
     memset(plan, 0, sizeof *plan);
     plan->paged = s->page.width > 0 || s->sheet.count || s->scale.paper > 0;
     const uint32_t dpi = s->dpi ? s->dpi : plan->paged ? 150 : 96;
     plan->mm_per_px = 25.4 / dpi;
     plan->dpi = s->dpi || plan->paged ? dpi : 0;
-    return s->sheet.count ? sheet_make(s, source, extent, plan)
-                          : make_picture(s, source, extent, plan);
+    return s->sheet.count ? sheet_make(s, source, &model->extent, plan)
+                          : make_picture(s, source, model, plan);
 }

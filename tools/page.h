@@ -2,7 +2,7 @@
 #ifndef TOOL_PAGE_H
 #define TOOL_PAGE_H
 
-#include "options.h"
+#include "commands.h"
 
 enum { RULES_MOST = 256, TEXTS_MOST = 16, TEXT_BYTES = 128 };
 
@@ -29,8 +29,8 @@ typedef struct page_plan {
     size_t text_count;
 } page_plan;
 
-/* Plans the page for a model of that extent. 0, or the exit code after a message. */
-int page_make(const tool_settings *s, dp_source *source, const dp_extent *extent, page_plan *plan);
+/* Plans the page for a model. 0, or the exit code after a message. */
+int page_make(const tool_settings *s, dp_source *source, const measured *model, page_plan *plan);
 
 /* px: the settings' lines on the plan's page. False: one is too wide; a message is on stderr. */
 bool page_widths(const tool_settings *s, const page_plan *plan, dp_style *style);

@@ -126,7 +126,8 @@ static void add_cleaning(sentence *to, const tool_settings *s, const page_plan *
     if (i->joined) add(to, "; %.0f gaps closed", (double)i->joined, "");
 }
 
-void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths *paths) {
+void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths *paths,
+                const char *assumed) {
     int more;
     const char *const file = first_file(s, &more);
     const dp_drawing_info i = total(plan, paths);
@@ -144,7 +145,7 @@ void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths 
         if (i.travel_before > 0)
             add(&to, ", %.0f %% less", 100 * (1 - i.travel / i.travel_before), "");
     }
-    note("%s%s", file, to.text);
+    note("%s%s%s%s", file, to.text, assumed ? "; " : "", assumed ? assumed : "");
     if (!i.paths) note("%s: nothing of the model is seen, and no line is in it", file);
     if (files_have(s, DP_FORMAT_DXF)) {
         const double mm = plan->mm_per_px;

@@ -15,8 +15,9 @@ int paths_make(const tool_settings *s, const page_plan *plan, dp_context *contex
                dp_drawing **out);
 /* Writes all files that are no PNG. 0, or the exit code after a message. */
 int paths_write(const tool_settings *s, const page_plan *plan, const view_paths *paths);
-/* Says how many paths there are, and what was left out. */
-void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths *paths);
+/* Says how many paths there are, what was left out, and what was assumed; NULL: nothing. */
+void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths *paths,
+                const char *assumed);
 /* Warns of what the settings ask for and paths do not have. */
 void paths_warn(const tool_settings *s, const dp_style *style);
 

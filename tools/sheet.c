@@ -9,12 +9,12 @@
  * so front and top share x, front and right share y, to the last bit. The pictorial view (iso) fills
  * the free corner. Gaps are equal, also between columns and rows; what is left goes to the edges.
  *
- * The views turn with --up: front is what lies on +z, right what lies on +x, when +y is up; for
- * another direction all three are turned by the shortest way there. With 0,0,1 front is on -y. */
+ * The views turn with what is up (sides.h). */
 #include "sheet.h"
 #include "commands.h"
 #include "output.h"
 #include "report.h"
+#include "sides.h"
 #include "view_box.h"
 
 #include <math.h>
@@ -46,59 +46,10 @@ typedef struct layout {
 
 /* ---- cameras ---- */
 
-typedef struct frame {
-    double up[3], front[3], right[3];
-} frame;
-
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* Turns v by the shortest rotation that takes +y to `up`: with w = y × up and c = y · up,
- * v + w × v + w × (w × v) / (1 + c). */
-static void turn(const double up[3], const double v[3], double out[3]) {
-    const double w[3] = {up[2], 0, -up[0]}, c = up[1];
-    if (c < -1 + 1e-12) { /* half a turn about x */
-        out[0] = v[0], out[1] = -v[1], out[2] = -v[2];
-        return;
-    }
-    const double once[3] = {-w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1]};
-    const double twice[3] = {-w[2] * once[1], w[2] * once[0] - w[0] * once[2], w[0] * once[1]};
-    for (int k = 0; k < 3; k++) out[k] = v[k] + once[k] + twice[k] / (1 + c);
-}
-
-static bool make_frame(const tool_settings *s, frame *f) {
-    static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
-    const double *const up = s->has_up ? s->up : y;
-    const double length = sqrt(dot(up, up));
-    if (!(length > 0) || !isfinite(length))
-        return wrong_usage("--up: it has no direction; give one like 0,0,1");
-    for (int k = 0; k < 3; k++) f->up[k] = up[k] / length;
-    turn(f->up, z, f->front);
-    turn(f->up, x, f->right);
-    return true;
-}
-
-/* From the model to the eye, and what is up in the picture. */
-static void view_axes(const frame *f, int view, double d[3], double up[3]) {
-    const bool flat = view == VIEW_TOP || view == VIEW_BOTTOM;
-    for (int k = 0; k < 3; k++) {
-        const double by_view[] = {[VIEW_FRONT] = f->front[k],
-                                  [VIEW_BACK] = -f->front[k],
-                                  [VIEW_LEFT] = -f->right[k],
-                                  [VIEW_RIGHT] = f->right[k],
-                                  [VIEW_TOP] = f->up[k],
-                                  [VIEW_BOTTOM] = -f->up[k],
-                                  [VIEW_ISO] = f->front[k] + f->right[k] + f->up[k]};
-        d[k] = by_view[view];
-        up[k] = !flat ? f->up[k] : view == VIEW_TOP ? -f->front[k] : f->front[k];
-    }
-}
-
-static bool make_cameras(layout *l, const dp_extent *extent) {
-    frame f;
+static bool make_cameras(layout *l, const dp_source *source, const dp_extent *extent) {
+    model_sides sides;
     double centre[3], radius = 0;
-    if (!make_frame(l->s, &f)) return false;
+    sides_of(l->s, source, &sides);
     for (int k = 0; k < 3; k++) {
         const double half = 0.5 * (extent->exact_max[k] - extent->exact_min[k]);
         centre[k] = extent->exact_min[k] + half;
@@ -107,8 +58,8 @@ static bool make_cameras(layout *l, const dp_extent *extent) {
     radius = radius > 0 ? sqrt(radius) : 1;
     for (int i = 0; i < l->count; i++) {
         double d[3], up[3], eye[3];
-        view_axes(&f, l->views[i], d, up);
-        const double length = sqrt(dot(d, d));
+        sides_view(&sides, l->views[i], d, up);
+        const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         for (int k = 0; k < 3; k++) eye[k] = centre[k] + 2 * radius * d[k] / length;
         if (dp_camera_look_at(&l->cameras[i], eye, centre, up))
             return wrong_usage("the model's size is beyond all numbers");
@@ -352,7 +303,7 @@ int sheet_make(const tool_settings *s, dp_source *source, const dp_extent *exten
     size_page(s, plan);
     int code = page_pixels(plan);
     if (code) return code;
-    if (!make_cameras(&l, extent)) return EXIT_USAGE;
+    if (!make_cameras(&l, source, extent)) return EXIT_USAGE;
     if (view_boxes(source, l.cameras, l.count, l.boxes, &diag)) return report_model(s, &diag);
     fill_grid(&l);
     find_place(&l, plan);

@@ -29,6 +29,7 @@ typedef struct head {
     dp_diag diag; /* result DP_OK: a batch follows, then groups and their names */
     dp_batch batch;
     uint32_t group_count, text_size;
+    double up[3]; /* 0: not said */
     char remark[REMARK], color_remark[REMARK];
 } head;
 
@@ -121,6 +122,7 @@ bool transfer_send(int to, dp_source *source, dp_diag *diag) {
     head h = {.diag = *diag};
     if (!h.diag.result) h.diag.result = dp_source_next(source, &h.batch, &h.diag);
     if (h.diag.result) return send_bytes(to, &h, sizeof h);
+    if (!dp_source_up(source, h.up)) memset(h.up, 0, sizeof h.up);
     copy_remark(h.remark, dp_source_remark(source));
     copy_remark(h.color_remark, dp_source_color_remark(source));
     count_groups(&h, source);
@@ -275,7 +277,8 @@ static dp_result make_source(received *r, dp_source **out, dp_diag *diag) {
                                            .group_name = received_name,
                                            .group_color = received_color,
                                            .remark = received_remark,
-                                           .color_remark = received_color_remark};
+                                           .color_remark = received_color_remark,
+                                           .up = {r->h.up[0], r->h.up[1], r->h.up[2]}};
     dp_result result = r->h.diag.result;
     if (result)
         *diag = r->h.diag, r->h.batch = (dp_batch){0};

@@ -1,12 +1,13 @@
 /* From settings to camera, style and target.
  *
  *     given              camera
- *     nothing, or a view the model's box, fitted
+ *     nothing, or a view fitted to what is drawn
  *     --target           as fitted, but around that point
  *     --eye              towards the box's centre, showing it whole unless --fov is given
  *     --eye, --target    as given */
 #include "commands.h"
 #include "report.h"
+#include "sides.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,15 +33,8 @@ static box box_of(const dp_extent *extent, double aspect) {
 
 /* ---- direction from the model to the eye ---- */
 
-static void from_angles(double azimuth, double elevation, double d[3]) {
-    d[0] = sin(azimuth * degree) * cos(elevation * degree);
-    d[1] = sin(elevation * degree);
-    d[2] = cos(azimuth * degree) * cos(elevation * degree);
-    for (int k = 0; k < 3; k++)
-        if (fabs(d[k]) < 1e-15) d[k] = 0;
-}
-
-static void view_direction(const tool_settings *s, double d[3]) {
+static void view_direction(const tool_settings *s, const model_sides *sides, double d[3],
+                           double up[3]) {
     static const double angles[][2] = {[0] = {45, 22.989}, /* 1, 0.6, 1 */
                                        [VIEW_FRONT] = {0, 0},
                                        [VIEW_BACK] = {180, 0},
@@ -49,12 +43,11 @@ static void view_direction(const tool_settings *s, double d[3]) {
                                        [VIEW_TOP] = {0, 90},
                                        [VIEW_BOTTOM] = {0, -90},
                                        [VIEW_ISO] = {45, 35.264389682754654}};
-    if (!s->view && !s->has_azimuth && !s->has_elevation) {
-        memcpy(d, (const double[3]){1, 0.6, 1}, 3 * sizeof *d);
-        return;
-    }
-    from_angles(s->has_azimuth ? s->azimuth : angles[s->view][0],
-                s->has_elevation ? s->elevation : angles[s->view][1], d);
+    if (s->has_azimuth || s->has_elevation)
+        sides_angles(sides, s->has_azimuth ? s->azimuth : angles[s->view][0],
+                     s->has_elevation ? s->elevation : angles[s->view][1], d, up);
+    else
+        sides_view(sides, s->view, d, up);
 }
 
 /* ---- fields of view, in degrees, vertical ---- */
@@ -79,6 +72,9 @@ static double zoomed(double fov, double zoom) {
 
 /* ---- cameras ---- */
 
+/* A scale is of lengths in the picture, which perspective does not keep. */
+static bool is_orthographic(const tool_settings *s) { return s->has_ortho || s->scale.paper > 0; }
+
 static double distance_between(const double a[3], const double b[3]) {
     return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
                 (a[2] - b[2]) * (a[2] - b[2]));
@@ -89,17 +85,19 @@ static dp_result project(const tool_settings *s, const dp_extent *extent, const 
     const double zoom = s->zoom > 0 ? s->zoom : 1;
     double near_z, far_z;
     dp_camera_near_far(camera, extent->min, extent->max, &near_z, &far_z);
-    if (s->has_ortho)
+    if (is_orthographic(s))
         return dp_camera_orthographic(camera, height / zoom, b->aspect, near_z, far_z);
     return dp_camera_perspective(camera, zoomed(fov, zoom), b->aspect, near_z, far_z);
 }
 
 /* Places a camera for which an eye or a target is given. */
-static dp_result place(const tool_settings *s, const dp_extent *extent, double aspect,
-                       dp_camera *camera) {
-    static const double y_up[3] = {0, 1, 0};
+static dp_result place(const tool_settings *s, const dp_source *source, const dp_extent *extent,
+                       double aspect, dp_camera *camera) {
     const box b = box_of(extent, aspect);
-    double target[3], eye[3];
+    model_sides sides;
+    double target[3], eye[3], up[3];
+    sides_of(s, source, &sides);
+    memcpy(up, sides.up, sizeof up);
     memcpy(target, s->has_target ? s->target : b.centre, sizeof target);
     const double radius = b.radius + distance_between(target, b.centre);
     double fov = s->has_fov ? s->fov : default_fov;
@@ -109,43 +107,63 @@ static dp_result place(const tool_settings *s, const dp_extent *extent, double a
             fov = fov_for(radius, distance_between(eye, target), b.aspect);
     } else {
         double d[3];
-        view_direction(s, d);
+        view_direction(s, &sides, d, up);
         const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         const double distance = radius / sin(smaller_half(fov, b.aspect));
         for (int k = 0; k < 3; k++) eye[k] = target[k] + d[k] / length * distance;
     }
-    const dp_result wrong = dp_camera_look_at(camera, eye, target, s->has_up ? s->up : y_up);
+    const dp_result wrong = dp_camera_look_at(camera, eye, target, up);
     if (wrong) return wrong;
     const double fitted = 2 * radius / (b.aspect < 1 ? b.aspect : 1);
     return project(s, extent, &b, fov, s->ortho > 0 ? s->ortho : fitted, camera);
 }
 
-static dp_result fit(const tool_settings *s, const dp_extent *extent, double aspect,
-                     dp_camera *camera) {
+bool is_camera_fitted(const tool_settings *s) {
+    return !s->sheet.count && !s->has_eye && !s->has_target;
+}
+
+/* Pages ask for the eye before they know the picture's shape. */
+double first_aspect(const tool_settings *s) {
+    const dp_target target = make_target(s);
+    return s->page.width > 0 || s->scale.paper > 0 ? 1 : (double)target.width / target.height;
+}
+
+dp_result fit_camera(const tool_settings *s, dp_source *source, const dp_extent *beside,
+                     double aspect, dp_camera *camera, dp_extent *extent, dp_diag *diag) {
     dp_fit wanted = {.fov_y = s->fov,
-                     .orthographic = s->has_ortho,
+                     .orthographic = is_orthographic(s),
                      .height = s->ortho,
                      .aspect = aspect,
                      .zoom = s->zoom};
-    memcpy(wanted.exact_min, extent->exact_min, sizeof wanted.exact_min);
-    memcpy(wanted.exact_max, extent->exact_max, sizeof wanted.exact_max);
-    memcpy(wanted.up, s->up, sizeof wanted.up);
-    view_direction(s, wanted.direction);
-    return dp_camera_fit(camera, &wanted);
+    model_sides sides;
+    sides_of(s, source, &sides);
+    view_direction(s, &sides, wanted.direction, wanted.up);
+    memcpy(wanted.exact_min, beside->exact_min, sizeof wanted.exact_min);
+    memcpy(wanted.exact_max, beside->exact_max, sizeof wanted.exact_max);
+    return dp_camera_fit_source(camera, &wanted, source, extent, diag);
 }
 
-int make_camera(const tool_settings *s, const dp_extent *extent, double aspect, dp_camera *camera) {
+int make_camera(const tool_settings *s, dp_source *source, const measured *model, double aspect,
+                dp_camera *camera) {
+    dp_diag diag = {0};
+    dp_result wrong;
     memset(camera, 0, sizeof *camera);
-    const bool placed = s->has_eye || s->has_target;
-    const dp_result wrong =
-        placed ? place(s, extent, aspect, camera) : fit(s, extent, aspect, camera);
-    if (!wrong) return 0;
-    if (placed)
+    if (model->aspect == aspect) {
+        *camera = model->fitted;
+        return 0;
+    }
+    if (!is_camera_fitted(s)) {
+        wrong = place(s, source, &model->extent, aspect, camera);
+        if (!wrong) return 0;
         wrong_usage("the eye is where it looks at, or the model's size is beyond all numbers; move "
                     "--eye or --target");
-    else
-        wrong_usage("the model's box cannot be fitted; say where to look from with --eye and "
-                    "--target");
+        return EXIT_USAGE;
+    }
+    wrong = fit_camera(s, source, &model->beside, aspect, camera, NULL, &diag);
+    if (!wrong) return 0;
+    if (wrong != DP_ERR_ARGUMENT) return report_failure(s->model, &diag);
+    wrong_usage("the model's box cannot be fitted; say where to look from with --eye and "
+                "--target");
     return EXIT_USAGE;
 }
 

@@ -50,13 +50,17 @@ dp_result view_boxes(dp_source *source, const dp_camera *cameras, int count, vie
     return result ? result : dp_source_rewind(source, diag);
 }
 
-view_box view_box_of(const dp_camera *camera, const dp_extent *extent) {
-    view_box box = nothing;
+void view_box_add(view_box *box, const dp_camera *camera, const dp_extent *extent) {
     for (int i = 0; i < 8; i++) {
         double p[3];
         for (int k = 0; k < 3; k++) p[k] = i >> k & 1 ? extent->exact_max[k] : extent->exact_min[k];
-        take(&box, camera, p);
+        take(box, camera, p);
     }
+}
+
+view_box view_box_of(const dp_camera *camera, const dp_extent *extent) {
+    view_box box = nothing;
+    view_box_add(&box, camera, extent);
     return box;
 }
 

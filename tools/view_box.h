@@ -16,6 +16,8 @@ dp_result view_boxes(dp_source *source, const dp_camera *cameras, int count, vie
                      dp_diag *diag);
 /* Of a box. */
 view_box view_box_of(const dp_camera *camera, const dp_extent *extent);
+/* Adds a box. */
+void view_box_add(view_box *box, const dp_camera *camera, const dp_extent *extent);
 
 double view_box_width(const view_box *box);
 double view_box_height(const view_box *box);

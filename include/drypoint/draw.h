@@ -4,16 +4,11 @@
  *     dp_source *source = NULL;
  *     uint8_t *rgba = malloc(1600 * 1200 * 4);
  *     dp_camera camera;
- *     dp_extent extent;
  *     dp_diag diag;
  *     if (dp_version_check(&diag)) return fputs(diag.message, stderr), 1;
  *     dp_context_create(NULL, &context, &diag);
  *     dp_source_open("fandisk.obj", NULL, &source, &diag);
- *     dp_source_extent(source, &extent, &diag);
- *     dp_fit fit = {0};
- *     memcpy(fit.exact_min, extent.exact_min, sizeof fit.exact_min);
- *     memcpy(fit.exact_max, extent.exact_max, sizeof fit.exact_max);
- *     dp_camera_fit(&camera, &fit);
+ *     dp_camera_fit_source(&camera, NULL, source, NULL, &diag);
  *     const dp_target target = {.width = 1600, .height = 1200, .rgba = rgba};
  *     dp_draw(context, source, &camera, NULL, &target, &diag);
  *

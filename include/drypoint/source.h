@@ -82,6 +82,8 @@ typedef struct dp_source_callbacks {
      * on colours only, which not every drawing uses. Optional. */
     const char *(*remark)(void *user);
     const char *(*color_remark)(void *user);
+    double up[3];    /* what is up; 0: not known. Any length */
+    bool up_assumed; /* `up` is only what is usual */
 } dp_source_callbacks;
 
 /* Makes a source of one batch, whose memory the caller owns and must not change while the source is
@@ -185,6 +187,11 @@ DP_API uint32_t dp_source_group_color(const dp_source *source, uint32_t group);
 DP_API const char *dp_source_remark(const dp_source *source);
 /* The same of its colours alone: an absent file of materials, say. */
 DP_API const char *dp_source_color_remark(const dp_source *source);
+
+/* What is up, as a unit vector in world space. True: the file, its format or the application says so
+ * (glTF, COLLADA, FBX, 3MF; generated shapes stand on y). False: it is what is usual, +z for STL and
+ * +y for all else. */
+DP_API bool dp_source_up(const dp_source *source, double up[3]);
 
 /* NULL allowed. */
 DP_API void dp_source_destroy(dp_source *source);

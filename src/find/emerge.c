@@ -385,10 +385,15 @@ static bool has_same_sides(const finding *a, const finding *b) {
            a->owner.polygon == b->owner.polygon && a->owner.edge == b->owner.edge;
 }
 
+/* The polygon furthest behind an edge on a side; where all lies beyond a crack, the nearest one. */
+static uint32_t furthest_on(const dp_beheld *b, bool right) {
+    return b->furthest[right] != UINT32_MAX ? b->furthest[right] : b->nearest[right].polygon;
+}
+
 /* A back face counts as nearer than a front face only where back faces are seen (fan.c). */
 static bool trusts_winding(const dp_finder *w, const emerging *e, const dp_beheld *b, bool right) {
     const dp_tile_polygon *const near = &w->tile.polygons[b->nearest[right].polygon],
-                                 *const far = &w->tile.polygons[b->furthest[right]];
+                                 *const far = &w->tile.polygons[furthest_on(b, right)];
     return dp_may_be_folded(near) && far->flags & DP_POLYGON_FRONT &&
            !(w->tile.sees_backs && dp_shows_back_beside(w, &e->spine, right));
 }
@@ -396,7 +401,7 @@ static bool trusts_winding(const dp_finder *w, const emerging *e, const dp_behel
 /* Do all polygons on that side face away, where no back face is seen? */
 static bool are_hidden_backs(const dp_finder *w, const dp_beheld *b, bool right) {
     const uint32_t near = w->tile.polygons[b->nearest[right].polygon].flags,
-                   far = w->tile.polygons[b->furthest[right]].flags;
+                   far = w->tile.polygons[furthest_on(b, right)].flags;
     return !w->tile.sees_backs && !w->finds_hidden && !((near | far) & DP_POLYGON_FRONT);
 }
 
@@ -434,12 +439,11 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
         here.behind =
             here.behind == e->unpaired.polygon ? e->unpaired.partner - 1 : e->unpaired.polygon;
     if (left != right && trusts_winding(w, e, b, right))
-        here.behind = here.sides[right], here.sides[right] = b->furthest[right];
+        here.behind = here.sides[right], here.sides[right] = furthest_on(b, right);
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
-    const bool outline = left != right;
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
-        !is_own_edge(w, e, here.owner) || (outline && are_hidden_backs(w, b, right)))
+        !is_own_edge(w, e, here.owner) || (left != right && are_hidden_backs(w, b, right)))
         here = NOTHING;
     if (is_plain_pair(b)) here = judge_pair(w, e);
     /* as the table would have it, so that tiles agree */

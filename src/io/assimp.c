@@ -234,6 +234,29 @@ static bool is_from(const struct aiScene *scene, const char *reader) {
     return false;
 }
 
+static bool find_integer(const struct aiScene *scene, const char *key, int32_t *value) {
+    const struct aiMetadata *const data = scene->mMetaData;
+    for (unsigned i = 0; data && i < data->mNumProperties; i++) {
+        if (strcmp(data->mKeys[i].data, key) != 0 || data->mValues[i].mType != AI_INT32) continue;
+        memcpy(value, data->mValues[i].mData, sizeof *value);
+        return true;
+    }
+    return false;
+}
+
+/* What the file, or its format, says is up. COLLADA comes turned to +y by its own up_axis; FBX as it
+ * is, with its axis beside it. */
+static void find_up(const struct aiScene *scene, double up[3]) {
+    static const char *const on_y[] = {"glTF2 Importer", "glTF Importer", "Collada Importer"};
+    int32_t axis = -1, sign = 1;
+    find_integer(scene, "UpAxisSign", &sign);
+    find_integer(scene, "UpAxis", &axis);
+    for (size_t k = 0; k < sizeof on_y / sizeof *on_y; k++)
+        if (is_from(scene, on_y[k])) axis = 1, sign = 1;
+    if (is_from(scene, "3mf Importer")) axis = 2, sign = 1;
+    if (axis >= 0 && axis < 3) up[axis] = sign < 0 ? -1 : 1;
+}
+
 /* Before 5.4, the reader of 3MF frees the textures that it hands out (pictures in the archive, among
  * them thumbnails), and they would be freed again with the scene. */
 static void forget_freed_textures(struct aiScene *scene) {
@@ -242,13 +265,17 @@ static void forget_freed_textures(struct aiScene *scene) {
 }
 
 /* Without post-processing: its step that leaves out what is not needed would touch these textures.
- * FBX without animations and the helper nodes that its pivots would become. `files` NULL: the
+ * FBX without animations and the helper nodes that its pivots would become, and in its own axes,
+ * which later versions would turn. `files` NULL: the
  * system's. */
 static struct aiScene *import(const char *path, struct aiFileIO *files) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     if (!properties) return NULL;
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
+#ifdef AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION, 1);
+#endif
     struct aiScene *const scene =
         (struct aiScene *)aiImportFileExWithProperties(path, 0, files, properties);
     aiReleasePropertyStore(properties);
@@ -292,6 +319,7 @@ static dp_result build(const struct aiScene *scene, const dp_file_options *optio
     dp_builder builder;
     dp_builder_init(&builder, &memory);
     dp_result result = DP_OK;
+    find_up(scene, builder.up);
     if (scene->mRootNode) result = add_node(&builder, scene, scene->mRootNode, &identity, 0, diag);
     if (!result && stopped(options, 1))
         result = dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");

@@ -291,7 +291,8 @@ dp_result dp_builder_finish(dp_builder *builder, dp_source **out, dp_diag *diag)
                                            .destroy = mesh_destroy,
                                            .group_name = mesh_group_name,
                                            .group_color = mesh_group_color,
-                                           .color_remark = mesh_color_remark};
+                                           .color_remark = mesh_color_remark,
+                                           .up = {builder->up[0], builder->up[1], builder->up[2]}};
     const dp_result result = dp_source_from_callbacks(&callbacks, &builder->allocator, out, diag);
     if (result)
         dp_free(&builder->allocator, self);

@@ -20,6 +20,7 @@ typedef struct dp_builder {
     size_t vertex_count, vertex_capacity;
     dp_wide wide;      /* of vertices that came in double precision */
     double origin[3];  /* of the positions; chosen by dp_builder_finish */
+    double up[3];      /* what the file says is up; 0: nothing */
     double spacing;    /* world units: how far apart neighbouring values of the file lie, where they
                          were too coarse for float32 positions to tell; 0: no farther than those */
     uint32_t *indices; /* [corner_count] */

@@ -347,7 +347,9 @@ dp_result dp_read_stl(dp_stream *stream, dp_source **out, dp_diag *diag) {
                                                dp_stream_rewindable(stream) ? stl_rewind : NULL,
                                            .destroy = stl_destroy,
                                            .group_name = stl_group_name,
-                                           .remark = stl_remark};
+                                           .remark = stl_remark,
+                                           .up = {0, 0, 1}, /* as slicers and CAD have it */
+                                           .up_assumed = true};
     if (!result) result = dp_source_from_callbacks(&callbacks, &stream->allocator, out, diag);
     if (result)
         release(self);

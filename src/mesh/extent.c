@@ -1,157 +1,208 @@
-/* The extent of a source with records: every corner is read once, in parallel.
+/* The extent of a source, and how far what is drawn of it reaches in a view.
  *
- * Records are cut into blocks, one task each; each worker keeps the box of what it has read, so the
- * sum does not depend on which worker read what. A triangle with a coordinate that is not finite is
- * counted and left out. */
-#include "mesh/source.h"
-
+ * Corners are read in runs of polygons. A run has a box, and only where that leaves what is known of
+ * the reach are its polygons looked at one by one: a few in a hundred, as neighbours in a file are
+ * mostly neighbours in space. */
 #include "base/diag.h"
 #include "base/hostile.h"
-#include "base/threads.h"
+#include "base/vec.h"
+#include "mesh/source.h"
 #include "mesh/wide.h"
 
 #include <math.h>
-#include <string.h>
 
-enum {
-    BLOCK = DP_TUNED(4096, 3),
-    PART = DP_TUNED(1024, 5) /* blocks between two reports of progress */
-};
+enum { RUN = DP_TUNED(64, 2), SAMPLES = DP_TUNED(2048, 3) /* polygons */ };
 
-/* One worker's sum. Larger than two cache lines, so that workers share none. */
-typedef struct seen {
-    float min[3];
-    float max[3];
-    uint64_t not_finite;
-    uint8_t *buffer;
-    dp_diag diag;
-    dp_result result;
-} seen;
+static const float *corner(const dp_batch *batch, size_t c) {
+    const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
+    if (v >= batch->vertex_count) return NULL;
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         v * batch->position_stride);
+}
 
-typedef struct job {
-    const dp_source *source;
-    seen *workers;
-    uint64_t first; /* block */
-} job;
+/* ---- polygons one by one ---- */
 
-static void look_at(seen *s, const uint8_t *record) {
-    float p[9];
-    memcpy(p, record, sizeof p);
-    float sum = 0;
-    for (int i = 0; i < 9; i++) sum += p[i] - p[i]; /* 0, or NaN when any is not finite */
-    if (sum != 0) {
-        s->not_finite++;
-        return;
+static bool is_finite(const float p[3]) {
+    return p[0] - p[0] + (p[1] - p[1]) + (p[2] - p[2]) == 0; /* else NaN */
+}
+
+/* Is that polygon drawn? As for dp_polygon_has_no_area, with corners that are there. */
+static bool is_drawn(const dp_batch *batch, size_t first, size_t last) {
+    if (last < first + 3) return false;
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        if (!p || !is_finite(p)) return false;
     }
-    for (int i = 0; i < 9; i++) {
-        s->min[i % 3] = p[i] < s->min[i % 3] ? p[i] : s->min[i % 3];
-        s->max[i % 3] = p[i] > s->max[i % 3] ? p[i] : s->max[i % 3];
+    const dp_vec3 o = dp_v3f(corner(batch, first));
+    dp_vec3 sum = {0, 0, 0}, a = dp_sub(dp_v3f(corner(batch, first + 1)), o);
+    double size = dp_dot(a, a);
+    for (size_t c = first + 2; c < last; c++) {
+        const dp_vec3 b = dp_sub(dp_v3f(corner(batch, c)), o);
+        sum = dp_add(sum, dp_cross(a, b));
+        size = dp_max(size, dp_dot(b, b));
+        a = b;
+    }
+    return dp_length(sum) > 1e-12 * size;
+}
+
+static void move(const float p[3], const double shift[3], double at[3]) {
+    for (int k = 0; k < 3; k++) at[k] = (double)p[k] + shift[k];
+}
+
+/* Most polygons change nothing, which is quicker to see than whether they are drawn. */
+void dp_reach_add_polygon(dp_reach *reach, const dp_batch *batch, size_t first, size_t last,
+                          const double shift[3]) {
+    double at[3];
+    bool inside = true;
+    for (size_t c = first; c < last && inside; c++) {
+        const float *const p = corner(batch, c);
+        if (!p) return;
+        move(p, shift, at);
+        inside = dp_reach_has(reach, at);
+    }
+    if (inside || !is_drawn(batch, first, last)) return;
+    for (size_t c = first; c < last; c++) {
+        move(corner(batch, c), shift, at);
+        dp_reach_add(reach, at);
     }
 }
 
-typedef float f4 __attribute__((vector_size(16)));
-typedef int32_t i4 __attribute__((vector_size(16)));
+/* ---- runs ---- */
 
-static f4 choose(i4 mask, f4 a, f4 b) { return (f4)((mask & (i4)a) | (~mask & (i4)b)); }
+/* A run's box, in its batch's positions. */
+typedef struct box {
+    float min[3], max[3];
+} box;
 
-/* Looks at a whole block of finite triangles; false if any is not finite, and s is unchanged. */
-static bool look_at_finite(seen *s, const uint8_t *records, uint32_t count, size_t stride) {
-    enum { WORD = sizeof(float), STARTS = 3 };
-    static const size_t from[STARTS] = {
-        0, 4, 5}; /* four words from each: together the nine of a record */
-    f4 lo[STARTS], hi[STARTS], sum = {0};
-    for (int k = 0; k < STARTS; k++) {
-        lo[k] = (f4){INFINITY, INFINITY, INFINITY, INFINITY};
-        hi[k] = -lo[k];
+static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void extend(const dp_batch *batch, size_t first, size_t last, box *b, dp_extent *extent) {
+    extent->corners += last - first;
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        extent->bad_index += !p;
+        extent->not_finite += p && !is_finite(p);
+        if (!p || !is_finite(p)) return;
     }
-    for (uint32_t i = 0; i < count; i++)
-        for (int k = 0; k < STARTS; k++) {
-            f4 v;
-            memcpy(&v, records + i * stride + WORD * from[k], sizeof v);
-            lo[k] = choose(v < lo[k], v, lo[k]);
-            hi[k] = choose(v > hi[k], v, hi[k]);
-            sum += v - v;
+    for (size_t c = first; c < last; c++) {
+        const float *const p = corner(batch, c);
+        for (int k = 0; k < 3; k++) {
+            b->min[k] = dp_minf(p[k], b->min[k]);
+            b->max[k] = dp_maxf(p[k], b->max[k]);
         }
-    for (int l = 0; l < 4; l++)
-        if (sum[l] != 0) return false;
-    for (size_t k = 0; k < STARTS; k++)
-        for (size_t l = 0; l < 4; l++) {
-            const size_t axis = (from[k] + l) % 3;
-            s->min[axis] = fminf(s->min[axis], lo[k][l]);
-            s->max[axis] = fmaxf(s->max[axis], hi[k][l]);
-        }
-    return true;
-}
-
-static void look_at_block(void *arg, uint32_t index, uint32_t worker) {
-    const job *const j = arg;
-    const dp_records *const r = &j->source->records;
-    seen *const s = &j->workers[worker];
-    const uint64_t first = (j->first + index) * BLOCK, left = r->count - first;
-    const uint32_t count = left < BLOCK ? (uint32_t)left : BLOCK;
-    if (s->result) return;
-    s->result = r->read(j->source->callbacks.user, first, count, s->buffer, &s->diag);
-    if (s->result) return;
-    const uint8_t *const records = s->buffer + r->corners;
-    if (look_at_finite(s, records, count, r->size)) return;
-    for (uint32_t i = 0; i < count; i++) look_at(s, records + i * r->size);
-}
-
-static dp_result look_at_all(dp_source *source, dp_threads *threads, seen *workers, dp_diag *diag) {
-    const dp_records *const r = &source->records;
-    const uint64_t blocks = r->count / BLOCK + (r->count % BLOCK != 0);
-    for (uint64_t first = 0; first < blocks; first += PART) {
-        job j = {source, workers, first};
-        dp_parallel(threads, (uint32_t)(blocks - first < PART ? blocks - first : PART),
-                    look_at_block, &j);
-        for (uint32_t i = 0; i < dp_threads_count(threads); i++)
-            if (workers[i].result) {
-                *diag = workers[i].diag;
-                return workers[i].result;
-            }
-        if (r->progress && r->progress(r->progress_user, (double)first / (double)blocks))
-            return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
     }
-    return DP_OK;
 }
 
-static void add_up(const seen *workers, uint32_t count, dp_extent *extent) {
+static void join(box *b, const box *other) {
     for (int k = 0; k < 3; k++) {
-        float lo = INFINITY, hi = -INFINITY;
-        for (uint32_t i = 0; i < count; i++)
-            lo = fminf(lo, workers[i].min[k]), hi = fmaxf(hi, workers[i].max[k]);
-        extent->exact_min[k] = (double)lo, extent->exact_max[k] = (double)hi;
-        const double farthest = fmax(fabs((double)lo), fabs((double)hi));
-        if (lo <= hi) extent->spacing = fmax(extent->spacing, dp_float_spacing(farthest));
+        b->min[k] = dp_minf(other->min[k], b->min[k]);
+        b->max[k] = dp_maxf(other->max[k], b->max[k]);
     }
-    dp_extent_round(extent);
-    for (uint32_t i = 0; i < count; i++) extent->not_finite += workers[i].not_finite;
 }
 
-dp_result dp_records_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
-    const dp_allocator *const memory = &source->allocator;
-    const dp_records *const r = &source->records;
-    dp_diag unused;
-    if (!diag) diag = &unused;
-    *extent = (dp_extent){.polygons = r->count, .corners = 3 * r->count, .vertices = 3 * r->count};
-    /* small files are read faster than threads start */
-    dp_threads *const threads =
-        dp_threads_create(r->count > 64 * BLOCK ? 0 : 1, NULL, NULL, memory);
-    const uint32_t workers = threads ? dp_threads_count(threads) : 0;
-    seen *const seen_by = threads ? dp_alloc_array(memory, workers, sizeof *seen_by) : NULL;
-    dp_result result =
-        seen_by ? DP_OK : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
-    for (uint32_t i = 0; seen_by && i < workers; i++) {
-        seen_by[i] =
-            (seen){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
-        seen_by[i].buffer = dp_alloc_array(memory, BLOCK, r->size);
-        if (!seen_by[i].buffer)
-            result = dp_fail(diag, DP_ERR_MEMORY, "out of memory for a model's extent");
+static bool may_grow(const dp_reach *reach, const box *b, const double shift[3]) {
+    double min[3], max[3];
+    if (!reach || b->min[0] > b->max[0]) return false;
+    for (int k = 0; k < 3; k++)
+        min[k] = (double)b->min[k] + shift[k], max[k] = (double)b->max[k] + shift[k];
+    return dp_reach_may_grow(reach, min, max);
+}
+
+static size_t first_corner(const dp_batch *b, size_t i) { return b->firsts ? b->firsts[i] : 3 * i; }
+
+/* Polygons from all over a large batch first: then few of the others reach farther. */
+static void sample(dp_reach *reach, const dp_batch *batch, const double shift[3]) {
+    const size_t step = batch->polygon_count / SAMPLES;
+    if (!reach || step < DP_TUNED(16, 2)) return;
+    for (size_t i = 0; i < batch->polygon_count; i += step)
+        dp_reach_add_polygon(reach, batch, first_corner(batch, i), first_corner(batch, i + 1),
+                             shift);
+    dp_reach_set_limits(reach);
+}
+
+static void measure_batch(const dp_batch *batch, const double shift[3], box *whole, dp_reach *reach,
+                          dp_extent *extent) {
+    sample(reach, batch, shift);
+    for (size_t first = 0; first < batch->polygon_count; first += RUN) {
+        const size_t left = batch->polygon_count - first, last = first + (left < RUN ? left : RUN);
+        box b = empty_box;
+        for (size_t i = first; i < last; i++)
+            extend(batch, first_corner(batch, i), first_corner(batch, i + 1), &b, extent);
+        join(whole, &b);
+        if (!may_grow(reach, &b, shift)) continue;
+        for (size_t i = first; i < last; i++)
+            dp_reach_add_polygon(reach, batch, first_corner(batch, i), first_corner(batch, i + 1),
+                                 shift);
     }
-    if (!result) result = look_at_all(source, threads, seen_by, diag);
-    if (!result) add_up(seen_by, workers, extent);
-    for (uint32_t i = 0; seen_by && i < workers; i++) dp_free(memory, seen_by[i].buffer);
-    dp_free(memory, seen_by);
-    dp_threads_destroy(threads);
-    return result ? result : dp_source_rewind(source, diag);
+}
+
+/* ---- sources ---- */
+
+static void add_box(const box *b, const double origin[3], dp_extent *extent) {
+    if (b->min[0] > b->max[0]) return;
+    for (int k = 0; k < 3; k++) {
+        const double min = (double)b->min[k], max = (double)b->max[k];
+        extent->exact_min[k] = dp_min(origin[k] + min, extent->exact_min[k]);
+        extent->exact_max[k] = dp_max(origin[k] + max, extent->exact_max[k]);
+        extent->spacing = dp_max(extent->spacing, dp_float_spacing(dp_max(fabs(min), fabs(max))));
+    }
+}
+
+/* The float32 next to a value that is no larger; for the other side, negate both. */
+static float below(double value) {
+    const float near = (float)value;
+    return (double)near > value ? nextafterf(near, -INFINITY) : near;
+}
+
+void dp_extent_round(dp_extent *extent) {
+    for (int k = 0; k < 3; k++) {
+        extent->min[k] = below(extent->exact_min[k]);
+        extent->max[k] = -below(-extent->exact_max[k]);
+    }
+}
+
+/* All of a source counts from its first batch's origin. */
+static void place(dp_reach *reach, const dp_batch *batch, double shift[3]) {
+    for (int k = 0; k < 3; k++) {
+        if (reach && !reach->placed) reach->origin[k] = batch->origin[k];
+        shift[k] = reach ? batch->origin[k] - reach->origin[k] : 0;
+    }
+    if (reach) reach->placed = true;
+}
+
+static void add_batch(const dp_batch *batch, dp_reach *reach, dp_extent *extent) {
+    double shift[3];
+    box whole = empty_box;
+    place(reach, batch, shift);
+    measure_batch(batch, shift, &whole, reach, extent);
+    add_box(&whole, batch->origin, extent);
+    extent->spacing = dp_max(extent->spacing, batch->spacing);
+    extent->polygons += batch->polygon_count;
+    extent->vertices += batch->vertex_count;
+}
+
+dp_result dp_source_measure(dp_source *source, dp_extent *extent, dp_reach *reach, dp_diag *diag) {
+    if (source->records.read) return dp_records_measure(source, extent, reach, diag);
+    if (dp_source_rewindable(source)) {
+        const dp_result result = dp_source_rewind(source, diag);
+        if (result) return result;
+    }
+    dp_extent sum = {.exact_min = {INFINITY, INFINITY, INFINITY},
+                     .exact_max = {-INFINITY, -INFINITY, -INFINITY}};
+    for (;;) {
+        dp_batch batch;
+        const dp_result result = dp_source_next(source, &batch, diag);
+        if (result) return result;
+        if (!batch.polygon_count) break;
+        add_batch(&batch, reach, &sum);
+    }
+    dp_extent_round(&sum);
+    *extent = sum;
+    return dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
+}
+
+dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
+    if (!source || !extent)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
+    return dp_source_measure(source, extent, NULL, diag);
 }

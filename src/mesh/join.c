@@ -302,6 +302,8 @@ dp_result dp_source_join(dp_source *const *sources, const char *const *names, si
                                            .color_remark = scene_color_remark};
     result = dp_source_from_callbacks(&callbacks, &memory, out, diag);
     if (result) return release(s), result;
+    memcpy((*out)->callbacks.up, sources[0]->callbacks.up, sizeof sources[0]->callbacks.up);
+    (*out)->callbacks.up_assumed = sources[0]->callbacks.up_assumed; /* the first one says */
     (*out)->constant = constant;
     offer_records(s, *out);
     return DP_OK;

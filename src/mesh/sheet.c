@@ -339,7 +339,8 @@ dp_result dp_model_source(const dp_model *model, double scale, const dp_allocato
         const dp_source_callbacks callbacks = {.user = self,
                                                .next = generator_next,
                                                .rewind = generator_rewind,
-                                               .destroy = generator_destroy};
+                                               .destroy = generator_destroy,
+                                               .up = {0, 1, 0}};
         result = dp_source_from_callbacks(&callbacks, memory, out, diag);
     } else {
         dp_fail(diag, DP_ERR_MEMORY, "out of memory for a generated model");

@@ -5,8 +5,6 @@
 #include "mesh/source.h"
 
 #include "base/diag.h"
-#include "base/vec.h"
-#include "mesh/wide.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -206,102 +204,18 @@ const char *dp_source_color_remark(const dp_source *source) {
     return source->callbacks.color_remark(source->callbacks.user);
 }
 
+bool dp_source_up(const dp_source *source, double up[3]) {
+    static const dp_source_callbacks unknown = {0};
+    const dp_source_callbacks *const c = source ? &source->callbacks : &unknown;
+    const double length = sqrt(c->up[0] * c->up[0] + c->up[1] * c->up[1] + c->up[2] * c->up[2]);
+    const bool known = length > 0 && isfinite(length);
+    for (int k = 0; k < 3; k++) up[k] = known ? c->up[k] / length : k == 1;
+    return known && !c->up_assumed;
+}
+
 void dp_source_destroy(dp_source *source) {
     if (!source) return;
     const dp_allocator memory = source->allocator;
     if (source->callbacks.destroy) source->callbacks.destroy(source->callbacks.user);
     dp_free(&memory, source);
-}
-
-/* ------- extent ------- */
-
-static const float *corner(const dp_batch *batch, size_t c) {
-    const uint32_t v = batch->indices ? batch->indices[c] : (uint32_t)c;
-    if (v >= batch->vertex_count) return NULL;
-    return (const float *)(const void *)((const char *)batch->positions +
-                                         v * batch->position_stride);
-}
-
-/* A batch's box, in its own positions. */
-typedef struct box {
-    float min[3], max[3];
-} box;
-
-static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static void extend(const dp_batch *batch, size_t first, size_t last, box *b, dp_extent *extent) {
-    for (size_t c = first; c < last; c++) {
-        const float *const p = corner(batch, c);
-        if (!p) {
-            extent->bad_index++;
-            return;
-        }
-        if (p[0] - p[0] + (p[1] - p[1]) + (p[2] - p[2]) !=
-            0) { /* 0, or NaN when any is not finite */
-            extent->not_finite++;
-            return;
-        }
-    }
-    for (size_t c = first; c < last; c++) {
-        const float *const p = corner(batch, c);
-        for (int k = 0; k < 3; k++) {
-            b->min[k] = dp_minf(p[k], b->min[k]);
-            b->max[k] = dp_maxf(p[k], b->max[k]);
-        }
-    }
-}
-
-static void add_box(const box *b, const double origin[3], dp_extent *extent) {
-    if (b->min[0] > b->max[0]) return;
-    for (int k = 0; k < 3; k++) {
-        const double min = (double)b->min[k], max = (double)b->max[k];
-        extent->exact_min[k] = dp_min(origin[k] + min, extent->exact_min[k]);
-        extent->exact_max[k] = dp_max(origin[k] + max, extent->exact_max[k]);
-        extent->spacing = dp_max(extent->spacing, dp_float_spacing(dp_max(fabs(min), fabs(max))));
-    }
-}
-
-/* The float32 next to a value that is no larger; for the other side, negate both. */
-static float below(double value) {
-    const float near = (float)value;
-    return (double)near > value ? nextafterf(near, -INFINITY) : near;
-}
-
-void dp_extent_round(dp_extent *extent) {
-    for (int k = 0; k < 3; k++) {
-        extent->min[k] = below(extent->exact_min[k]);
-        extent->max[k] = -below(-extent->exact_max[k]);
-    }
-}
-
-dp_result dp_source_extent(dp_source *source, dp_extent *extent, dp_diag *diag) {
-    if (!source || !extent)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_extent: NULL argument");
-    if (source->records.read) return dp_records_extent(source, extent, diag);
-    if (dp_source_rewindable(source)) {
-        const dp_result result = dp_source_rewind(source, diag);
-        if (result) return result;
-    }
-    dp_extent sum = {.exact_min = {INFINITY, INFINITY, INFINITY},
-                     .exact_max = {-INFINITY, -INFINITY, -INFINITY}};
-    for (;;) {
-        dp_batch batch;
-        const dp_result result = dp_source_next(source, &batch, diag);
-        if (result) return result;
-        if (!batch.polygon_count) break;
-        box b = empty_box;
-        for (size_t i = 0; i < batch.polygon_count; i++) {
-            const size_t first = batch.firsts ? batch.firsts[i] : 3 * i;
-            const size_t last = batch.firsts ? batch.firsts[i + 1] : 3 * i + 3;
-            extend(&batch, first, last, &b, &sum);
-            sum.corners += last - first;
-        }
-        add_box(&b, batch.origin, &sum);
-        sum.spacing = dp_max(sum.spacing, batch.spacing);
-        sum.polygons += batch.polygon_count;
-        sum.vertices += batch.vertex_count;
-    }
-    dp_extent_round(&sum);
-    *extent = sum;
-    return dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
 }

@@ -3,6 +3,7 @@
 #define DP_MESH_SOURCE_H
 
 #include "base/memory.h"
+#include "mesh/reach.h"
 #include <drypoint/source.h>
 
 /* Triangles in records of one size (a binary STL), which can be read in any order. */
@@ -47,7 +48,16 @@ dp_result dp_check_alignment(const dp_batch *batch, dp_diag *diag);
 /* Makes min and max of exact_min and exact_max; a box of nothing (from INFINITY on) becomes 0. */
 void dp_extent_round(dp_extent *extent);
 
-/* The extent of a source with records, read in parallel (extent.c). */
-dp_result dp_records_extent(dp_source *source, dp_extent *extent, dp_diag *diag);
+/* dp_source_extent, and in the same reading how far what is drawn reaches in a view: polygons that
+ * have an area and no bad corner. `reach` has just begun; NULL: only the extent. */
+dp_result dp_source_measure(dp_source *source, dp_extent *extent, dp_reach *reach, dp_diag *diag);
+
+/* The same of a source with records, read in parallel (extent_records.c). */
+dp_result dp_records_measure(dp_source *source, dp_extent *extent, dp_reach *reach, dp_diag *diag);
+
+/* Adds the polygon of a batch's corners [first, last), if it is drawn; `shift` moves its positions to
+ * the reach's origin. */
+void dp_reach_add_polygon(dp_reach *reach, const dp_batch *batch, size_t first, size_t last,
+                          const double shift[3]);
 
 #endif

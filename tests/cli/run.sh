@@ -156,6 +156,57 @@ views_differ() {
     run 0 shape:bracket $small --azimuth 90 --elevation 0 -o angles.png
     cmp -s right.png angles.png || fail "--view right differs from --azimuth 90 --elevation 0"
 }
+# What is up: by word, by numbers, by the file; views and angles turn with it.
+what_is_up() {
+    local pair
+    for kind in ply stl; do run 0 make bracket --triangles 500 -o b.$kind; done
+    for kind in ply stl; do
+        run 0 b.$kind $small -o $kind.png
+        silent err
+    done
+    for pair in 'ply y' 'ply +y' 'ply 0,3,0' 'stl z' 'stl 0,0,0.5'; do
+        run 0 b.${pair% *} $small --up ${pair#* } -o other.png
+        cmp -s ${pair% *}.png other.png || fail "b.${pair% *} does not stand on ${pair#* }"
+    done
+    "$program" - $small -o piped.png <b.stl || fail "in a pipe"
+    cmp -s stl.png piped.png || fail "a piped STL does not stand on z"
+    for up in x y z -x -y -z; do
+        run 0 b.ply $small --up $up -o ./$up.png
+        for view in 'front 0 0' 'right 90 0' 'back 180 0' 'left -90 0' 'top 0 90' 'bottom 0 -90'; do
+            set -- $view
+            run 0 b.ply $small --up $up --view $1 -o view.png
+            run 0 b.ply $small --up $up --azimuth $2 --elevation $3 -o angles.png
+            cmp -s view.png angles.png || fail "--up $up: --view $1 is not at $2, $3"
+        done
+    done
+    [ "$(md5sum ./x.png ./y.png ./z.png ./-x.png ./-y.png ./-z.png | cut -c1-32 | sort -u | wc -l)" = 6 ] ||
+        fail "two ups are one"
+    run 0 b.ply $small --up 0,0,-1 -o other.png
+    cmp -s ./-z.png other.png || fail "-z is not 0,0,-1"
+    run 0 b.stl $small -o b.svg
+    one_line
+    says err '; up is +z, as usual in STL (--up y turns it)'
+    run 0 b.ply $small -o b.svg
+    says err '; up is +y, as the file does not say (--up z turns it)'
+    for given in 'b.stl --up z' 'b.stl -q' shape:bracket; do
+        run 0 $given $small -o b.svg
+        grep -q 'up is' err && fail "$given: $(cat err)"
+    done
+    run 0 info b.stl
+    says out '0 0 1 (as is usual: the file does not say)'
+    run 0 info "$here/../unit/files/thumbnail.3mf" # read in a process of its own
+    grep -q '^up  *0 0 1$' out || fail "3MF: $(tail -1 out)"
+    run 0 info --json shape:bracket
+    says out '"up": [0, 1, 0], "up_said": true'
+    wrong b.ply --up w -o out.png -- '--up: "w" is no direction; give x, y, z, -x, -y, -z, or three numbers'
+    wrong b.ply --up 0,0,0 -o out.png -- '--up: 0,0,0 has no direction'
+    wrong b.ply --up 1,2 -o out.png -- '--up: "1,2" is not a point'
+}
+# Beside its edges lie polygons that are only seen beyond cracks.
+distant_terrain() {
+    run 0 shape:terrain:20000 $small --samples 1 --eye 3.22979594,1.05012956,0.458683927 \
+        --target 2.32320177,0.659575166,0.298826913 -o out.png
+}
 eye_alone_looks_at_the_centre() {
     run 0 shape:cube $small --eye 5,3,5 --fov 30 -o a.png
     run 0 shape:cube $small --eye 5,3,5 --fov 30 --target 0,0,0 -o b.png
@@ -1300,7 +1351,7 @@ paper_presets() {
 . "$here/several.sh" # scenes, a drawing for each of several models
 . "$here/helps.sh"   # --help and its topics, completions
 
-tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"

@@ -106,6 +106,43 @@ static void materials_are_colours(void **state) {
     dp_source_destroy(source);
 }
 
+/* FBX: one triangle that says what is up. */
+#define FBX(axis, sign)                                                                            \
+    "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\n"                       \
+    "GlobalSettings: {\nVersion: 1000\nProperties70: {\n"                                          \
+    "P: \"UpAxis\", \"int\", \"Integer\", \"\"," axis "\n"                                         \
+    "P: \"UpAxisSign\", \"int\", \"Integer\", \"\"," sign "\n}\n}\n"                               \
+    "Objects: {\nGeometry: 1, \"Geometry::g\", \"Mesh\" {\n"                                       \
+    "Vertices: *9 {\na: 0,0,0,1,0,0,0,1,0\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\n}\n"         \
+    "Model: 2, \"Model::m\", \"Mesh\" {\nVersion: 232\n}\n}\n"                                     \
+    "Connections: {\nC: \"OO\",2,0\nC: \"OO\",1,2\n}\n"
+
+static void assert_up(const char *path, const char *wanted) {
+    dp_source *source = NULL;
+    char found[64];
+    double up[3];
+    assert_int_equal(dp_io_open(path, NULL, &source, NULL), DP_OK);
+    const bool said = dp_source_up(source, up);
+    snprintf(found, sizeof found, "%g %g %g%s", up[0], up[1], up[2], said ? "" : " assumed");
+    assert_string_equal(found, wanted);
+    dp_source_destroy(source);
+}
+
+static void files_say_what_is_up(void **state) {
+    static const char *const scenes[][3] = {{".gltf", moved_far, "0 1 0"},
+                                            {".ac", made_far, "0 1 0 assumed"},
+                                            {".fbx", FBX("1", "1"), "0 1 0"},
+                                            {".fbx", FBX("2", "1"), "0 0 1"},
+                                            {".fbx", FBX("0", "-1"), "-1 0 0"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        const char *const path = write_file(scenes[i][0], scenes[i][1], strlen(scenes[i][1]));
+        assert_up(path, scenes[i][2]);
+        unlink(path);
+    }
+    assert_up(DP_TESTS_DIR "/unit/files/thumbnail.3mf", "0 0 1"); /* on the printer's plate */
+}
+
 /* A tetrahedron with a picture of itself, as every slicer writes it. */
 static void thumbnails_are_left_alone(void **state) {
     (void)state;
@@ -275,6 +312,7 @@ int main(void) {
         cmocka_unit_test(scenes_are_transformed_and_named),
         cmocka_unit_test(far_scenes_keep_what_assimp_keeps),
         cmocka_unit_test(materials_are_colours),
+        cmocka_unit_test(files_say_what_is_up),
         cmocka_unit_test(thumbnails_are_left_alone),
         cmocka_unit_test(what_assimp_refuses_is_said_in_one_line),
         cmocka_unit_test(scenes_in_memory_are_those_in_files),
