@@ -58,6 +58,8 @@ static void warn_unused(const tool_settings *s, const drawing *d) {
         (s->levels || s->hidden_smooth))
         warn("%s is of hidden lines: add --hidden dashed to draw them",
              s->levels ? "--levels" : "--hidden-smooth");
+    if (s->smooth_what && s->smooth < 2)
+        warn("--smooth-what says what --smooth is of: add --smooth auto");
     if (!d->paths && (s->optimize || s->join_classes || s->keep_coincident))
         warn("%s is of vector files: add -o drawing.svg, say", s->optimize ? "--optimize"
                                                                : s->join_classes

@@ -105,6 +105,14 @@ const option option_table[] = {
     {"valley-angle", 0, "DEG", OPTION_INSIDE, GROUP_LINES, PICTURE, AT(valley_angle), 0, 0, 360,
      "Edges whose dihedral angle is above this are valleys. Default: 210."},
 
+    {"smooth", 0, "off|auto|1|2|3|4|5|6", OPTION_WORD, GROUP_LINES, PICTURE, AT(smooth), 0, 0, 0,
+     "Round off coarse models: triangles become curved patches (PN triangles, Vlachos et al. 2001) over their corners' "
+     "normals, each curved edge with that many points between its ends, or as many as its size in the picture needs. "
+     "Hard edges stay. Default: off."},
+    {"smooth-what", 0, "silhouettes|surface", OPTION_WORD, GROUP_LINES, PICTURE, AT(smooth_what), 0, 0, 0,
+     "With --smooth: only what lies near silhouettes, as Raskar 2001 has it, or the whole surface, with its folds and "
+     "shading. Default: silhouettes."},
+
     {"hidden", 0, "dashed|dotted|thin|solid|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(hidden), 0, 0, 0,
      "Draw lines that something hides, too, below the visible ones: dashed, dotted, whole but thin, or as wide as "
      "these. Default: none; on sheets dashed, but for the pictorial view."},

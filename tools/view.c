@@ -166,6 +166,10 @@ dp_style make_style(const tool_settings *s) {
     if (s->hidden && s->hidden != HIDDEN_NONE) style.hidden.look = (dp_hidden_look)s->hidden;
     style.hidden.levels = s->levels;
     style.hidden.smooth = s->hidden_smooth;
+    if (s->smooth > 1) { /* the first word is off, the second auto */
+        style.smooth = s->smooth_what == 2 ? DP_SMOOTH_SURFACE : DP_SMOOTH_SILHOUETTES;
+        style.smooth_level = (uint32_t)s->smooth - 2;
+    }
     style.passes = s->passes;
     style.cull_back_faces = s->cull_back_faces;
     style.edge_table_off = s->edge_table == SWITCH_OFF;
