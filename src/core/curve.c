@@ -48,8 +48,8 @@ static double turn_to(const dp_pn_end *from, const dp_pn_end *to) {
 
 static bool is_near_silhouette(const dp_view *view, dp_vec3 a, dp_vec3 b, const dp_pn_end ends[2]) {
     const range at_a = facing_at(view, a, &ends[0]), at_b = facing_at(view, b, &ends[1]);
-    const double turn = dp_max(LEAST_TURN, dp_max(turn_to(&ends[0], &ends[1]),
-                                                  turn_to(&ends[1], &ends[0])));
+    const double turn =
+        dp_max(LEAST_TURN, dp_max(turn_to(&ends[0], &ends[1]), turn_to(&ends[1], &ends[0])));
     return dp_min(at_a.least, at_b.least) <= turn && dp_max(at_a.most, at_b.most) >= -turn;
 }
 
@@ -104,8 +104,8 @@ uint32_t dp_curve_parts(const dp_curve_rule *rule, dp_vec3 a, dp_vec3 b, const d
                         dp_pn_edge *curve) {
     static const dp_pn_end straight = {.count = 0};
     *curve = dp_pn_edge_between(a, b, &ends[0], &ends[1]);
-    if (!is_straight(curve) && (rule->what != DP_SMOOTH_SILHOUETTES ||
-                                is_near_silhouette(rule->view, a, b, ends)))
+    if (!is_straight(curve) &&
+        (rule->what != DP_SMOOTH_SILHOUETTES || is_near_silhouette(rule->view, a, b, ends)))
         return rule->level ? rule->level + 1 : parts_by_size(rule->view, curve);
     *curve = dp_pn_edge_between(a, b, &straight, &straight);
     return 1;

@@ -25,7 +25,9 @@ static uint32_t texcoord_of(const dp_patch_target *t, uint32_t corner) {
 }
 
 static uint8_t flag_of(const dp_polygons *p, uint32_t corner) {
-    return !p->edge_flags ? 1 : p->has_diagonals ? p->edge_flags[corner] : p->edge_flags[corner] != 0;
+    return !p->edge_flags     ? 1
+           : p->has_diagonals ? p->edge_flags[corner]
+                              : p->edge_flags[corner] != 0;
 }
 
 /* What an edge of the result takes from the polygons that there were. */
@@ -150,8 +152,7 @@ static void put_triangle(dp_patch_target *t, const patch *p, uint32_t polygon, u
     begin_polygon(t, polygon);
     for (int i = 0; i < 3; i++) {
         const uint32_t v = p->grid.triangles[triangle][i], k = p->grid.edges[triangle][i];
-        if (t->normals)
-            t->normal_at[t->corner] = number_of(t, p, v, p->normal, t->normal_base);
+        if (t->normals) t->normal_at[t->corner] = number_of(t, p, v, p->normal, t->normal_base);
         if (t->texcoords)
             t->texcoord_at[t->corner] =
                 number_of(t, p, v, p->texcoord, (uint32_t)t->from->texcoords.count);
@@ -161,8 +162,7 @@ static void put_triangle(dp_patch_target *t, const patch *p, uint32_t polygon, u
 }
 
 static void begin_patch(const dp_patch_target *t, patch *p, uint32_t polygon, uint32_t i) {
-    const uint32_t first = dp_first_corner(t->from, polygon),
-                   n = dp_corner_count(t->from, polygon);
+    const uint32_t first = dp_first_corner(t->from, polygon), n = dp_corner_count(t->from, polygon);
     const uint32_t corner[3] = {0, i, i + 1};
     p->first = t->vertex;
     for (int k = 0; k < 3; k++) {

@@ -29,22 +29,21 @@ typedef struct dp_smooth_block {
     uint64_t polygons, corners, vertices; /* how many; then the first's number */
 } dp_smooth_block;
 
-static const dp_array arrays[] = {
-    DP_ARRAY(dp_smooth_store, parts, parts_cap),
-    DP_ARRAY(dp_smooth_store, blocks, blocks_cap),
-    DP_ARRAY(dp_smooth_store, positions, positions_cap),
-    DP_ARRAY(dp_smooth_store, corners, corners_cap),
-    DP_ARRAY(dp_smooth_store, firsts, firsts_cap),
-    DP_ARRAY(dp_smooth_store, source_polygon, source_cap),
-    DP_ARRAY(dp_smooth_store, colors, colors_cap),
-    DP_ARRAY(dp_smooth_store, groups, groups_cap),
-    DP_ARRAY(dp_smooth_store, source_edges, source_edges_cap),
-    DP_ARRAY(dp_smooth_store, edge_flags, flags_cap),
-    DP_ARRAY(dp_smooth_store, smooth_edges, smooth_edges_cap),
-    DP_ARRAY(dp_smooth_store, normals, normals_cap),
-    DP_ARRAY(dp_smooth_store, texcoords, texcoords_cap),
-    DP_ARRAY(dp_smooth_store, normal_at, normal_at_cap),
-    DP_ARRAY(dp_smooth_store, texcoord_at, texcoord_at_cap)};
+static const dp_array arrays[] = {DP_ARRAY(dp_smooth_store, parts, parts_cap),
+                                  DP_ARRAY(dp_smooth_store, blocks, blocks_cap),
+                                  DP_ARRAY(dp_smooth_store, positions, positions_cap),
+                                  DP_ARRAY(dp_smooth_store, corners, corners_cap),
+                                  DP_ARRAY(dp_smooth_store, firsts, firsts_cap),
+                                  DP_ARRAY(dp_smooth_store, source_polygon, source_cap),
+                                  DP_ARRAY(dp_smooth_store, colors, colors_cap),
+                                  DP_ARRAY(dp_smooth_store, groups, groups_cap),
+                                  DP_ARRAY(dp_smooth_store, source_edges, source_edges_cap),
+                                  DP_ARRAY(dp_smooth_store, edge_flags, flags_cap),
+                                  DP_ARRAY(dp_smooth_store, smooth_edges, smooth_edges_cap),
+                                  DP_ARRAY(dp_smooth_store, normals, normals_cap),
+                                  DP_ARRAY(dp_smooth_store, texcoords, texcoords_cap),
+                                  DP_ARRAY(dp_smooth_store, normal_at, normal_at_cap),
+                                  DP_ARRAY(dp_smooth_store, texcoord_at, texcoord_at_cap)};
 
 void dp_smooth_store_free(dp_smooth_store *store, const dp_allocator *memory) {
     dp_edge_normals_free(&store->edges, memory);
@@ -126,7 +125,7 @@ static void curves_of(const job *j, uint32_t first, uint32_t n, uint32_t i, dp_p
     for (int k = 0; k < 3; k++) {
         const bool diagonal = dp_is_fan_diagonal(n, i, k);
         parts[k] = DP_NOTED_PARTS & curve_between(j, corner[k], corner[(k + 1) % 3],
-                                         diagonal ? UINT32_MAX : corner[k], &curves[k]);
+                                                  diagonal ? UINT32_MAX : corner[k], &curves[k]);
     }
 }
 
@@ -214,7 +213,8 @@ static void make_block(void *arg, uint32_t index, uint32_t worker) {
     dp_patch_target t = target_of(j, &j->store->blocks[index]);
     (void)worker;
     for (uint32_t i = index * BLOCK; i < block_end(j, index); i++) {
-        if (dp_corner_count(j->from, i) && j->store->parts[dp_first_corner(j->from, i)] & DP_NOTED_CURVED)
+        if (dp_corner_count(j->from, i) &&
+            j->store->parts[dp_first_corner(j->from, i)] & DP_NOTED_CURVED)
             make_curved(j, &t, i);
         else
             dp_patch_put_flat(&t, i);

@@ -479,7 +479,8 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->threads = c->threads;
     f->styles = styles;
     f->style_count = style_count;
-    f->exact_ends = styles[0].exact_ends;
+    /* many small triangles lie along a curved contour, nearly edge-on */
+    f->exact_ends = styles[0].exact_ends || styles[0].smooth;
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);

@@ -22,18 +22,18 @@ static bool find_normals(dp_context *c, dp_source *source, dp_smooth_setup *setu
     if (!made) setup->normals.given = p->normals;
     if (!made && !lacks_any(p)) return true;
     return dp_normals_make(&c->normals, p, shade->crease_angle,
-                           source->constant ? &source->key : NULL, c->threads, &c->memory, &setup->normals.made);
+                           source->constant ? &source->key : NULL, c->threads, &c->memory,
+                           &setup->normals.made);
 }
 
 dp_result dp_smooth_frame(dp_context *c, dp_source *source, dp_diag *diag) {
     const dp_style *const style = &c->frame.styles[0];
-    dp_smooth_setup setup = {.what = style->smooth,
-                             .level = style->smooth_level,
-                             .wants_normals =
-                                 c->shade.active && style->shade.normals != DP_NORMALS_FACET,
-                             .wants_flags = style->ink == DP_INK_QUADS ||
-                                            style->edges == DP_EDGES_ADJACENCY ||
-                                            style->edge_table_off};
+    dp_smooth_setup setup = {
+        .what = style->smooth,
+        .level = style->smooth_level,
+        .wants_normals = c->shade.active && style->shade.normals != DP_NORMALS_FACET,
+        .wants_flags = style->ink == DP_INK_QUADS || style->edges == DP_EDGES_ADJACENCY ||
+                       style->edge_table_off};
     if (!find_normals(c, source, &setup))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the normals of curved triangles");
     return dp_smooth_polygons(&c->smooth, &setup, &c->frame, diag);

@@ -15,9 +15,10 @@ typedef struct dp_hard_edge {
 
 /* Zero is empty. */
 typedef struct dp_edge_normals {
-    float (*smooth)[3]; /* [vertices] the one normal at the vertex's position, unit; 0: there is none,
+    float (
+        *smooth)[3]; /* [vertices] the one normal at the vertex's position, unit; 0: there is none,
                            or several */
-    uint32_t *hard_at;  /* [corners] 1 + 2 times the hard edge that starts there, + 1 if it starts at
+    uint32_t *hard_at; /* [corners] 1 + 2 times the hard edge that starts there, + 1 if it starts at
                            its second end; 0: both ends are smooth. With hard_count 0 not there */
     dp_hard_edge *hard; /* [hard_count] */
     uint32_t hard_count;
@@ -40,7 +41,8 @@ typedef struct dp_corner_normals {
 
 /* Its number: that of the given one, or given.count and on for the made one; UINT32_MAX: none. A normal
  * that is zero or not finite is none. */
-uint32_t dp_corner_normal_number(const dp_corner_normals *normals, uint32_t corner, uint32_t vertex);
+uint32_t dp_corner_normal_number(const dp_corner_normals *normals, uint32_t corner,
+                                 uint32_t vertex);
 
 /* Of any length. The number must not be UINT32_MAX. */
 static inline const float *dp_corner_normal_value(const dp_corner_normals *n, uint32_t number) {

@@ -41,8 +41,8 @@ static dp_vec3 third(dp_vec3 e, const dp_pn_end *end) {
 }
 
 dp_pn_edge dp_pn_edge_between(dp_vec3 a, dp_vec3 b, const dp_pn_end *at_a, const dp_pn_end *at_b) {
-    return (dp_pn_edge){{a, dp_add(a, third(dp_sub(b, a), at_a)),
-                         dp_add(b, third(dp_sub(a, b), at_b)), b}};
+    return (dp_pn_edge){
+        {a, dp_add(a, third(dp_sub(b, a), at_a)), dp_add(b, third(dp_sub(a, b), at_b)), b}};
 }
 
 void dp_pn_bend(const dp_pn_edge *edge, dp_vec3 bend[2]) {
@@ -61,9 +61,9 @@ dp_vec3 dp_pn_edge_point(const dp_pn_edge *edge, uint32_t part, uint32_t parts) 
     const double t = (double)(onward ? part : parts - part) / parts, s = 1 - t;
     const dp_vec3 first = onward ? p[0] : p[3], second = onward ? p[1] : p[2],
                   next = onward ? p[2] : p[1], last = onward ? p[3] : p[0];
-    return dp_mad(dp_mad(dp_mad(dp_scale(first, s * s * s), second, 3 * s * s * t), next,
-                         3 * s * t * t),
-                  last, t * t * t);
+    return dp_mad(
+        dp_mad(dp_mad(dp_scale(first, s * s * s), second, 3 * s * s * t), next, 3 * s * t * t),
+        last, t * t * t);
 }
 
 dp_pn_patch dp_pn_patch_within(const dp_pn_edge edges[3]) {

@@ -92,7 +92,8 @@ static void put_rows(dp_pn_grid *g) {
         for (uint32_t i = 0; i <= r; i++) {
             put(g, grid_vertex(g, r, i), grid_vertex(g, r + 1, i), grid_vertex(g, r + 1, i + 1));
             if (i < r)
-                put(g, grid_vertex(g, r, i), grid_vertex(g, r + 1, i + 1), grid_vertex(g, r, i + 1));
+                put(g, grid_vertex(g, r, i), grid_vertex(g, r + 1, i + 1),
+                    grid_vertex(g, r, i + 1));
         }
 }
 

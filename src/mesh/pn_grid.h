@@ -13,9 +13,9 @@ enum {
 /* The grid over one triangle. Vertices: its corners, then the points that cut edge 0 (from corner 0
  * to 1), edge 1, edge 2, in the edges' direction, then inner points. */
 typedef struct dp_pn_grid {
-    uint32_t parts[3];                   /* of the edges */
-    uint32_t rows;                       /* inner points are those of so many rows */
-    uint32_t starts[4];                  /* first points of the edges; of the inner ones */
+    uint32_t parts[3];  /* of the edges */
+    uint32_t rows;      /* inner points are those of so many rows */
+    uint32_t starts[4]; /* first points of the edges; of the inner ones */
     uint32_t vertex_count, triangle_count;
     uint8_t triangles[DP_PN_TRIANGLES][3]; /* vertices, wound as the triangle */
     uint8_t edges[DP_PN_TRIANGLES][3];     /* the outer edge on which theirs lie, or DP_PN_INSIDE */
