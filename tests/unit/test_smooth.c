@@ -119,8 +119,9 @@ static void a_steep_normal_bends_nothing(void **state) {
 /* ------- the grid ------- */
 
 static double area_of(const dp_pn_grid *g, uint32_t t) {
-    const double *const a = g->weights[g->triangles[t][0]], *const b = g->weights[g->triangles[t][1]],
-                       *const c = g->weights[g->triangles[t][2]];
+    const double *const a = g->weights[g->triangles[t][0]],
+                        *const b = g->weights[g->triangles[t][1]],
+                        *const c = g->weights[g->triangles[t][2]];
     return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
 }
 
@@ -225,7 +226,8 @@ static void make_torus(mesh *m, uint32_t across, uint32_t around, double noise) 
     for (uint32_t i = 0; i < across; i++)
         for (uint32_t k = 0; k < around; k++) {
             const double u = turn * i / across, v = turn * k / around, r = 1 + 0.4 * cos(v);
-            add_vertex(m, dp_mad(dp_v3(r * cos(u), 0.4 * sin(v), r * sin(u)), random_vector(), noise));
+            add_vertex(m,
+                       dp_mad(dp_v3(r * cos(u), 0.4 * sin(v), r * sin(u)), random_vector(), noise));
         }
     for (uint32_t i = 0; i < across; i++)
         for (uint32_t k = 0; k < around; k++) {
@@ -272,7 +274,8 @@ static uint32_t unmet(const dp_polygons *p) {
     for (uint32_t i = 0; i < p->count; i++) {
         const uint32_t first = dp_first_corner(p, i), n = dp_corner_count(p, i);
         for (uint32_t k = 0; k < n; k++)
-            edges[count++] = half_edge_of(p, p->corners[first + k], p->corners[first + (k + 1) % n]);
+            edges[count++] =
+                half_edge_of(p, p->corners[first + k], p->corners[first + (k + 1) % n]);
     }
     qsort(edges, count, sizeof *edges, compare);
     for (uint32_t i = 0, last; i < count; i = last) {
@@ -297,7 +300,8 @@ static void closed_meshes_stay_closed(void **state) {
             for (int what = DP_SMOOTH_SILHOUETTES; what <= DP_SMOOTH_SURFACE; what++) {
                 smooth(&s, &m, (dp_smoothing)what, level);
                 assert_int_equal(unmet(&s.frame.polygons), 0);
-                if (what == DP_SMOOTH_SURFACE && level) assert_true(s.frame.polygons.count > m.triangles);
+                if (what == DP_SMOOTH_SURFACE && level)
+                    assert_true(s.frame.polygons.count > m.triangles);
             }
     }
     end(&s);
@@ -327,7 +331,8 @@ static double farthest_from_axis(const dp_polygons *p, double least_y) {
     double most = 0;
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         const float *const at = dp_vertex_position(p, v);
-        if ((double)at[1] >= least_y) most = fmax(most, sqrt((double)(at[0] * at[0] + at[2] * at[2])));
+        if ((double)at[1] >= least_y)
+            most = fmax(most, sqrt((double)(at[0] * at[0] + at[2] * at[2])));
     }
     return most;
 }
@@ -399,7 +404,8 @@ static void levels_have_their_parts(void **state) {
     for (uint32_t c = 0; c < 3 * m.triangles; c++) { /* exact normals */
         const float *const p = m.positions[m.corners[c]];
         const double r = sqrt((double)(p[0] * p[0] + p[2] * p[2]));
-        const dp_vec3 n = dp_unit(dp_v3((double)p[0] * (1 - 1 / r), (double)p[1], (double)p[2] * (1 - 1 / r)));
+        const dp_vec3 n =
+            dp_unit(dp_v3((double)p[0] * (1 - 1 / r), (double)p[1], (double)p[2] * (1 - 1 / r)));
         m.normals[c][0] = (float)n.x, m.normals[c][1] = (float)n.y, m.normals[c][2] = (float)n.z;
     }
     m.has_normals = true;

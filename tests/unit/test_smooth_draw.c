@@ -17,7 +17,9 @@ typedef struct view {
     double eye[3], right[3], up[3], ahead[3], focal; /* px */
 } view;
 
-static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static view view_of(const dp_camera *camera, const double eye[3]) {
     view v;
@@ -51,24 +53,30 @@ enum { CURVE = 200000 };
 static double curve[CURVE][2];
 static size_t curve_count;
 
-/* Contour points: where the normal is at right angles to the line of sight. */
-static void find_curve(const surface *s, const view *view) {
-    curve_count = 0;
-    for (int i = 0; i < 4000; i++) {
-        double last = 0;
-        for (int k = 0; k <= 720; k++) {
-            double p[3], n[3], to[3];
-            const double u = 2 * PI * i / 4000, v = 2 * PI * k / 720;
-            point_on(s, u, v, p, n);
-            for (int c = 0; c < 3; c++) to[c] = p[c] - view->eye[c];
-            const double facing = dot(to, n);
-            if (k && facing * last < 0 && curve_count < CURVE) {
-                point_on(s, u, v - 2 * PI / 720 * facing / (facing - last), p, n);
-                project(view, p, curve[curve_count++]);
-            }
-            last = facing;
+/* Walks along one parameter, with the other at `at`, and takes the points where the normal is at right
+ * angles to the line of sight. */
+static void walk(const surface *s, const view *seen, double at, bool along_u) {
+    enum { STEPS = 360 };
+    double last = 0;
+    for (int k = 0; k <= STEPS; k++) {
+        double p[3], n[3], to[3];
+        const double t = 2 * PI * k / STEPS;
+        point_on(s, along_u ? t : at, along_u ? at : t, p, n);
+        for (int c = 0; c < 3; c++) to[c] = p[c] - seen->eye[c];
+        const double facing = dot(to, n);
+        if (k && facing * last < 0 && curve_count < CURVE) {
+            const double zero = t - 2 * PI / STEPS * facing / (facing - last);
+            point_on(s, along_u ? zero : at, along_u ? at : zero, p, n);
+            project(seen, p, curve[curve_count++]);
         }
+        last = facing;
     }
+}
+
+static void find_curve(const surface *s, const view *seen) {
+    enum { WALKS = 8000 };
+    curve_count = 0;
+    for (int i = 0; i < 2 * WALKS; i++) walk(s, seen, 2 * PI * i / WALKS, i % 2);
 }
 
 static double from_curve(double x, double y) {
@@ -80,46 +88,88 @@ static double from_curve(double x, double y) {
     return sqrt(least);
 }
 
-/* ------- drawing a generated model ------- */
+/* ------- models: soups of triangles with the surface's own normals ------- */
 
-/* Reads a shape and gives it the surface's own normals. */
 typedef struct model {
-    dp_source *shape, *source;
-    dp_batch batch;
-    float (*normals)[3];
+    float positions[3 * 600][3], normals[3 * 600][3];
+    size_t corners;
+    dp_source *source;
 } model;
 
-static model open_model(const char *name, uint64_t triangles, const surface *s) {
-    model m;
-    const dp_shape_desc desc = {.name = name, .triangles = triangles};
+static void add_corner(model *m, const double p[3], const double n[3]) {
+    for (int k = 0; k < 3; k++)
+        m->positions[m->corners][k] = (float)p[k], m->normals[m->corners][k] = (float)n[k];
+    m->corners++;
+}
+
+static void open_model(model *m) {
+    const dp_batch batch = {.positions = m->positions[0],
+                            .vertex_count = m->corners,
+                            .corner_count = m->corners,
+                            .polygon_count = m->corners / 3,
+                            .normals = {m->normals[0], 12, m->corners, NULL},
+                            .stable = true};
     dp_diag diag;
-    assert_int_equal(dp_source_shape(&desc, &m.shape, &diag), DP_OK);
-    assert_int_equal(dp_source_next(m.shape, &m.batch, &diag), DP_OK);
-    assert_true(m.batch.stable);
-    m.normals = calloc(m.batch.vertex_count, sizeof *m.normals);
-    assert_non_null(m.normals);
-    for (size_t v = 0; v < m.batch.vertex_count; v++) {
-        const float *const p =
-            (const float *)(const void *)((const char *)m.batch.positions + v * m.batch.position_stride);
-        const double out = sqrt((double)(p[0] * p[0] + p[2] * p[2])), off = 1 - (s->R > 0 ? s->R / out : 0);
-        m.normals[v][0] = (float)(p[0] * off / s->r), m.normals[v][1] = (float)(p[1] / s->r);
-        m.normals[v][2] = (float)(p[2] * off / s->r);
+    assert_int_equal(dp_source_from_arrays(&batch, NULL, &m->source, &diag), DP_OK);
+}
+
+/* A triangle of a sphere, or the four that it is cut into. */
+static void add_sphere(model *m, const double a[3], const double b[3], const double c[3],
+                       int cuts) {
+    const double *const at[3] = {a, b, c};
+    double middle[3][3];
+    if (!cuts) {
+        for (int i = 0; i < 3; i++) add_corner(m, at[i], at[i]);
+        return;
     }
-    m.batch.normals = (dp_attribute){m.normals[0], 12, m.batch.vertex_count, NULL};
-    assert_int_equal(dp_source_from_arrays(&m.batch, NULL, &m.source, &diag), DP_OK);
-    return m;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) middle[i][k] = at[i][k] + at[(i + 1) % 3][k];
+        const double length = sqrt(dot(middle[i], middle[i]));
+        for (int k = 0; k < 3; k++) middle[i][k] /= length;
+    }
+    for (int i = 0; i < 3; i++) add_sphere(m, at[i], middle[i], middle[(i + 2) % 3], cuts - 1);
+    add_sphere(m, middle[0], middle[1], middle[2], cuts - 1);
 }
 
-static void close_model(model *m) {
-    dp_source_destroy(m->source);
-    dp_source_destroy(m->shape);
-    free(m->normals);
+/* 20 * 4^2 triangles. */
+static void make_sphere(model *m) {
+    static const int faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                     {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                     {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                     {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+    const double t = (1 + sqrt(5)) / 2, s = 1 / sqrt(1 + t * t), l = t * s;
+    const double v[12][3] = {{-s, l, 0}, {s, l, 0}, {-s, -l, 0}, {s, -l, 0},
+                             {0, -s, l}, {0, s, l}, {0, -s, -l}, {0, s, -l},
+                             {l, 0, -s}, {l, 0, s}, {-l, 0, -s}, {-l, 0, s}};
+    m->corners = 0;
+    for (int i = 0; i < 20; i++) add_sphere(m, v[faces[i][0]], v[faces[i][1]], v[faces[i][2]], 2);
+    assert_int_equal(m->corners, 3 * 320);
+    open_model(m);
 }
 
-static const dp_segment *draw(dp_context *c, const model *m, int turn, const dp_style *style, view *v,
-                              size_t *count) {
+/* 24 * 12 * 2 triangles. */
+static void make_torus(model *m, const surface *s) {
+    static const int corner[6][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 0}, {0, 1}, {1, 1}};
+    m->corners = 0;
+    for (int i = 0; i < 24; i++)
+        for (int k = 0; k < 12; k++)
+            for (int c = 0; c < 6; c++) {
+                double p[3], n[3];
+                point_on(s, 2 * PI * ((i + corner[c][0]) % 24) / 24,
+                         2 * PI * ((k + corner[c][1]) % 12) / 12, p, n);
+                add_corner(m, p, n);
+            }
+    assert_int_equal(m->corners, 3 * 576);
+    open_model(m);
+}
+
+/* ------- drawing ------- */
+
+static uint8_t rgba[4 * SIZE * SIZE];
+
+static const dp_segment *draw(dp_context *c, const model *m, int turn, const dp_style *style,
+                              view *v, size_t *count) {
     static const double axis[3] = {0, 0, 0}, up[3] = {0, 1, 0};
-    static uint8_t rgba[4 * SIZE * SIZE];
     const double az = 0.37 + 0.61 * turn, el = 0.15 + 0.17 * (turn % 5);
     const double eye[3] = {3.6 * cos(az) * cos(el), 3.6 * sin(el), 3.6 * sin(az) * cos(el)};
     const dp_target target = {.width = SIZE, .height = SIZE, .rgba = rgba};
@@ -145,7 +195,8 @@ static double mean_distance(const dp_segment *s, size_t count) {
         for (int k = 0; k < 4; k++) {
             const double t = (k + 0.5) / 4;
             distance += from_curve((double)s[i].a[0] * (1 - t) + (double)s[i].b[0] * t,
-                                   (double)s[i].a[1] * (1 - t) + (double)s[i].b[1] * t) / 4;
+                                   (double)s[i].a[1] * (1 - t) + (double)s[i].b[1] * t) /
+                        4;
         }
         sum += own * distance, length += own;
     }
@@ -154,7 +205,8 @@ static double mean_distance(const dp_segment *s, size_t count) {
 
 static double from_segment(const dp_segment *s, const double p[2]) {
     const double dx = (double)(s->b[0] - s->a[0]), dy = (double)(s->b[1] - s->a[1]),
-                 px = p[0] - (double)s->a[0], py = p[1] - (double)s->a[1], square = dx * dx + dy * dy;
+                 px = p[0] - (double)s->a[0], py = p[1] - (double)s->a[1],
+                 square = dx * dx + dy * dy;
     const double t = square > 0 ? fmin(fmax((px * dx + py * dy) / square, 0), 1) : 0;
     return hypot(px - t * dx, py - t * dy);
 }
@@ -168,17 +220,17 @@ static double widest_gap(const dp_segment *s, size_t count) {
         size_t best = 0;
         double least = INFINITY;
         for (size_t i = 1; i < curve_count; i++)
-            if (curve[i][0] * x + curve[i][1] * y > curve[best][0] * x + curve[best][1] * y) best = i;
+            if (curve[i][0] * x + curve[i][1] * y > curve[best][0] * x + curve[best][1] * y)
+                best = i;
         for (size_t i = 0; i < count; i++) least = fmin(least, from_segment(&s[i], curve[best]));
         widest = fmax(widest, least);
     }
     return widest;
 }
 
-static void measure(const char *name, uint64_t triangles, surface s, dp_smoothing what, uint32_t level,
-                    double most) {
+static void measure(model *m, const surface *s, const char *name, dp_smoothing what,
+                    uint32_t level) {
     const dp_style style = {.lines = DP_SILHOUETTE, .smooth = what, .smooth_level = level};
-    model m = open_model(name, triangles, &s);
     dp_context *c = NULL;
     dp_diag diag;
     double worst = 0, gap = 0;
@@ -186,55 +238,107 @@ static void measure(const char *name, uint64_t triangles, surface s, dp_smoothin
     for (int turn = 0; turn < 10; turn++) {
         size_t count;
         view v;
-        const dp_segment *const segments = draw(c, &m, turn, &style, &v, &count);
-        find_curve(&s, &v);
+        const dp_segment *const segments = draw(c, m, turn, &style, &v, &count);
+        find_curve(s, &v);
         worst = fmax(worst, mean_distance(segments, count));
         gap = fmax(gap, widest_gap(segments, count));
     }
-    print_message("%s of %u: level %u, %s: mean distance %.3f px, widest gap %.3f px\n", name,
-                  (unsigned)triangles, level, what == DP_SMOOTH_SURFACE ? "surface" : "silhouettes",
-                  worst, gap);
-    assert_true(worst <= most);
-    assert_true(gap <= 1.5);
+    print_message("%s, level %u, %s: mean distance %.3f px, widest gap %.3f px\n", name, level,
+                  what == DP_SMOOTH_SURFACE ? "surface" : "silhouettes", worst, gap);
+    assert_true(worst <= 0.5);
+    assert_true(gap <= 1);
     dp_context_destroy(c);
-    close_model(&m);
 }
 
-static const surface SPHERE = {0, 1};
-
-static surface torus_of(void) { /* as it is generated: as wide as 2 units */
-    const dp_shape_desc desc = {.name = "torus", .triangles = 576};
-    dp_source *source = NULL;
-    dp_extent e;
-    dp_diag diag;
-    assert_int_equal(dp_source_shape(&desc, &source, &diag), DP_OK);
-    assert_int_equal(dp_source_extent(source, &e, &diag), DP_OK);
-    dp_source_destroy(source);
-    const double r = e.exact_max[1];
-    return (surface){e.exact_max[0] - r, r};
+static void measure_all(model *m, const surface *s, const char *name) {
+    for (uint32_t level = 0; level <= 4; level += 4)
+        for (int what = DP_SMOOTH_SILHOUETTES; what <= DP_SMOOTH_SURFACE; what++)
+            measure(m, s, name, (dp_smoothing)what, level);
+    dp_source_destroy(m->source);
 }
+
+static model one; /* large */
 
 static void a_sphere_of_320_triangles_is_round(void **state) {
     (void)state;
-    measure("sphere", 320, SPHERE, DP_SMOOTH_SILHOUETTES, 4, 0.5);
-    measure("sphere", 320, SPHERE, DP_SMOOTH_SURFACE, 4, 0.5);
-    measure("sphere", 320, SPHERE, DP_SMOOTH_SILHOUETTES, 0, 0.5);
-    measure("sphere", 320, SPHERE, DP_SMOOTH_SURFACE, 0, 0.5);
+    make_sphere(&one);
+    measure_all(&one, &(surface){0, 1}, "sphere");
 }
 
 static void a_torus_of_576_triangles_is_round(void **state) {
     (void)state;
-    const surface torus = torus_of();
-    measure("torus", 576, torus, DP_SMOOTH_SILHOUETTES, 4, 0.5);
-    measure("torus", 576, torus, DP_SMOOTH_SURFACE, 4, 0.5);
-    measure("torus", 576, torus, DP_SMOOTH_SILHOUETTES, 0, 0.5);
-    measure("torus", 576, torus, DP_SMOOTH_SURFACE, 0, 0.5);
+    const surface torus = {0.68, 0.27};
+    make_torus(&one, &torus);
+    measure_all(&one, &torus, "torus");
+}
+
+/* ------- styles ------- */
+
+static void levels_out_of_range_are_refused(void **state) {
+    (void)state;
+    dp_style resolved;
+    dp_diag diag;
+    dp_style style = {.smooth = DP_SMOOTH_SURFACE, .smooth_level = DP_SMOOTH_LEVELS + 1};
+    assert_int_equal(dp_style_resolve(&style, &resolved, &diag), DP_ERR_ARGUMENT);
+    style = (dp_style){.smooth = (dp_smoothing)3};
+    assert_int_equal(dp_style_resolve(&style, &resolved, &diag), DP_ERR_ARGUMENT);
+    style = (dp_style){.smooth = DP_SMOOTH_SILHOUETTES, .smooth_level = DP_SMOOTH_LEVELS};
+    assert_int_equal(dp_style_resolve(&style, &resolved, &diag), DP_OK);
+}
+
+/* Pixels that differ. */
+static size_t difference(const uint8_t *a, const uint8_t *b) {
+    size_t count = 0;
+    for (size_t i = 0; i < (size_t)4 * SIZE * SIZE; i += 4) count += memcmp(a + i, b + i, 4) != 0;
+    return count;
+}
+
+static void threads_do_not_matter_and_styles_work_together(void **state) {
+    (void)state;
+    static uint8_t first[4 * SIZE * SIZE];
+    const dp_style styles[] = {
+        {.smooth = DP_SMOOTH_SILHOUETTES},
+        {.smooth = DP_SMOOTH_SURFACE, .shade = {.shading = DP_SHADING_GOOCH}},
+        {.smooth = DP_SMOOTH_SURFACE, .hidden = {.look = DP_HIDDEN_DASHED}},
+        {.smooth = DP_SMOOTH_SURFACE, .edges = DP_EDGES_ADJACENCY},
+        {.smooth = DP_SMOOTH_SILHOUETTES, .ink = DP_INK_QUADS},
+        {.smooth = DP_SMOOTH_SURFACE, .edge_table_off = true},
+        {.smooth = DP_SMOOTH_SURFACE, .shade = {.shading = DP_SHADING_PENCIL}},
+        {.smooth = DP_SMOOTH_SURFACE, .mirror = {{0, 1, 0}, -0.5, {0, 0, 0}, 3, 0, 0, 0}},
+        {.smooth = DP_SMOOTH_SURFACE,
+         .smooth_level = 3,
+         .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL}},
+    };
+    make_torus(&one, &(surface){0.68, 0.27});
+    for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
+        dp_style plain = styles[i];
+        plain.smooth = DP_SMOOTH_OFF;
+        for (uint32_t threads = 1; threads <= 3; threads++) {
+            dp_context *c = NULL;
+            dp_diag diag;
+            size_t count;
+            view v;
+            assert_int_equal(dp_context_create(&(dp_context_desc){.threads = threads}, &c, &diag),
+                             DP_OK);
+            if (threads == 3) { /* a context that has drawn something else */
+                draw(c, &one, 1, &plain, &v, &count);
+                assert_true(difference(rgba, first) > 200);
+            }
+            draw(c, &one, 1, &styles[i], &v, &count);
+            if (threads == 1) memcpy(first, rgba, sizeof first);
+            assert_memory_equal(first, rgba, sizeof first);
+            dp_context_destroy(c);
+        }
+    }
+    dp_source_destroy(one.source);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_of_320_triangles_is_round),
         cmocka_unit_test(a_torus_of_576_triangles_is_round),
+        cmocka_unit_test(levels_out_of_range_are_refused),
+        cmocka_unit_test(threads_do_not_matter_and_styles_work_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
