@@ -14,9 +14,8 @@
 /* px. */
 static const double TOLERANCE = 0.2;
 
-/* Of its length: an edge is straight that bends by less; and of normals: the least turn that is
- * looked at. */
-static const double STRAIGHT = 1e-4, LEAST_TURN = 0.02;
+/* Of its length: an edge is straight that bends by less. */
+static const double STRAIGHT = 1e-4;
 
 /* Cosine between the line of sight, from the eye on, and the normal that faces most away; and the one
  * that faces most to the eye. */
@@ -25,10 +24,9 @@ typedef struct range {
 } range;
 
 static range facing_at(const dp_view *view, dp_vec3 at, const dp_pn_end *end) {
-    const dp_vec3 sight = dp_view_vector(view, at);
     range r = {INFINITY, -INFINITY};
     for (uint32_t i = 0; i < end->count; i++) {
-        const double cosine = dp_dot(sight, end->normal[i]);
+        const double cosine = dp_curve_facing(view, at, end->normal[i]);
         r.least = dp_min(r.least, cosine), r.most = dp_max(r.most, cosine);
     }
     return r;
@@ -48,8 +46,8 @@ static double turn_to(const dp_pn_end *from, const dp_pn_end *to) {
 
 static bool is_near_silhouette(const dp_view *view, dp_vec3 a, dp_vec3 b, const dp_pn_end ends[2]) {
     const range at_a = facing_at(view, a, &ends[0]), at_b = facing_at(view, b, &ends[1]);
-    const double turn =
-        dp_max(LEAST_TURN, dp_max(turn_to(&ends[0], &ends[1]), turn_to(&ends[1], &ends[0])));
+    const double turn = dp_max(DP_CURVE_LEAST_TURN,
+                               dp_max(turn_to(&ends[0], &ends[1]), turn_to(&ends[1], &ends[0])));
     return dp_min(at_a.least, at_b.least) <= turn && dp_max(at_a.most, at_b.most) >= -turn;
 }
 
@@ -103,10 +101,11 @@ static uint32_t parts_by_size(const dp_view *view, const dp_pn_edge *curve) {
 uint32_t dp_curve_parts(const dp_curve_rule *rule, dp_vec3 a, dp_vec3 b, const dp_pn_end ends[2],
                         dp_pn_edge *curve) {
     static const dp_pn_end straight = {.count = 0};
-    *curve = dp_pn_edge_between(a, b, &ends[0], &ends[1]);
-    if (!is_straight(curve) &&
-        (rule->what != DP_SMOOTH_SILHOUETTES || is_near_silhouette(rule->view, a, b, ends)))
-        return rule->level ? rule->level + 1 : parts_by_size(rule->view, curve);
+    if (rule->what != DP_SMOOTH_SILHOUETTES || is_near_silhouette(rule->view, a, b, ends)) {
+        *curve = dp_pn_edge_between(a, b, &ends[0], &ends[1]);
+        if (!is_straight(curve))
+            return rule->level ? rule->level + 1 : parts_by_size(rule->view, curve);
+    }
     *curve = dp_pn_edge_between(a, b, &straight, &straight);
     return 1;
 }

@@ -65,7 +65,7 @@ void dp_patch_put_flat(dp_patch_target *t, uint32_t polygon) {
 /* ------- curved ones ------- */
 
 typedef struct patch {
-    dp_pn_grid grid;
+    const dp_pn_grid *grid;
     uint32_t corner[3], vertex[3]; /* of the polygons that there were */
     edge outer[3];
     uint32_t normal[3], texcoord[3]; /* numbers of the corners' */
@@ -73,7 +73,7 @@ typedef struct patch {
 } patch;
 
 static void put_positions(const dp_patch_target *t, const patch *p, const dp_pn_edge curves[3]) {
-    const dp_pn_grid *const g = &p->grid;
+    const dp_pn_grid *const g = p->grid;
     const dp_pn_patch surface = dp_pn_patch_within(curves);
     for (uint32_t v = 3; v < g->vertex_count; v++) {
         int k = 0;
@@ -90,7 +90,7 @@ static bool has_all(const uint32_t number[3]) {
 }
 
 static void put_normals(const dp_patch_target *t, const patch *p) {
-    const dp_pn_grid *const g = &p->grid;
+    const dp_pn_grid *const g = p->grid;
     if (!has_all(p->normal)) return;
     dp_vec3 at[3], corner[3];
     for (int k = 0; k < 3; k++) {
@@ -108,12 +108,12 @@ static void put_normals(const dp_patch_target *t, const patch *p) {
 static void put_texcoords(const dp_patch_target *t, const patch *p) {
     const dp_attribute *const a = &t->from->texcoords;
     if (!has_all(p->texcoord)) return;
-    for (uint32_t v = 3; v < p->grid.vertex_count; v++) {
+    for (uint32_t v = 3; v < p->grid->vertex_count; v++) {
         float *const to = t->texcoords[a->count + p->first - t->from->vertex_count + v - 3];
         for (int c = 0; c < 2; c++) {
             double sum = 0;
             for (int k = 0; k < 3; k++)
-                sum += p->grid.weights[v][k] * (double)dp_attribute_value(a, p->texcoord[k])[c];
+                sum += p->grid->weights[v][k] * (double)dp_attribute_value(a, p->texcoord[k])[c];
             to[c] = (float)sum;
         }
     }
@@ -137,8 +137,8 @@ static uint32_t mix_colors(const uint32_t colors[3], const double w[3]) {
 static void put_colors(const dp_patch_target *t, const patch *p) {
     uint32_t colors[3];
     for (int k = 0; k < 3; k++) colors[k] = t->from->colors[p->vertex[k]];
-    for (uint32_t v = 3; v < p->grid.vertex_count; v++)
-        t->colors[p->first + v - 3] = mix_colors(colors, p->grid.weights[v]);
+    for (uint32_t v = 3; v < p->grid->vertex_count; v++)
+        t->colors[p->first + v - 3] = mix_colors(colors, p->grid->weights[v]);
 }
 
 /* The number that a vertex of the grid has among normals or texture coordinates. */
@@ -151,7 +151,7 @@ static uint32_t number_of(const dp_patch_target *t, const patch *p, uint32_t v,
 static void put_triangle(dp_patch_target *t, const patch *p, uint32_t polygon, uint32_t triangle) {
     begin_polygon(t, polygon);
     for (int i = 0; i < 3; i++) {
-        const uint32_t v = p->grid.triangles[triangle][i], k = p->grid.edges[triangle][i];
+        const uint32_t v = p->grid->triangles[triangle][i], k = p->grid->edges[triangle][i];
         if (t->normals) t->normal_at[t->corner] = number_of(t, p, v, p->normal, t->normal_base);
         if (t->texcoords)
             t->texcoord_at[t->corner] =
@@ -176,13 +176,13 @@ static void begin_patch(const dp_patch_target *t, patch *p, uint32_t polygon, ui
 
 void dp_patch_put(dp_patch_target *t, uint32_t polygon, uint32_t i, const dp_pn_edge curves[3],
                   const uint32_t parts[3]) {
-    patch p;
-    dp_pn_grid_make(&p.grid, parts);
+    patch p = {.grid = t->grid};
+    if (memcmp(t->grid->parts, parts, sizeof t->grid->parts)) dp_pn_grid_make(t->grid, parts);
     begin_patch(t, &p, polygon, i);
     put_positions(t, &p, curves);
     if (t->normals) put_normals(t, &p);
     if (t->texcoords) put_texcoords(t, &p);
     if (t->colors) put_colors(t, &p);
-    for (uint32_t k = 0; k < p.grid.triangle_count; k++) put_triangle(t, &p, polygon, k);
-    t->vertex += p.grid.vertex_count - 3;
+    for (uint32_t k = 0; k < p.grid->triangle_count; k++) put_triangle(t, &p, polygon, k);
+    t->vertex += p.grid->vertex_count - 3;
 }

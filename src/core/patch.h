@@ -33,6 +33,7 @@ typedef struct dp_patch_target {
     uint32_t *normal_at, *texcoord_at;
     uint32_t normal_base;             /* the first new normal's number */
     uint32_t polygon, corner, vertex; /* of the next */
+    dp_pn_grid *grid;                 /* of the last patch: many are cut alike */
 } dp_patch_target;
 
 /* A polygon as it is. */

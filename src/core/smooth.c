@@ -31,6 +31,7 @@ typedef struct dp_smooth_block {
 
 static const dp_array arrays[] = {DP_ARRAY(dp_smooth_store, parts, parts_cap),
                                   DP_ARRAY(dp_smooth_store, blocks, blocks_cap),
+                                  DP_ARRAY(dp_smooth_store, facing, facing_cap),
                                   DP_ARRAY(dp_smooth_store, positions, positions_cap),
                                   DP_ARRAY(dp_smooth_store, corners, corners_cap),
                                   DP_ARRAY(dp_smooth_store, firsts, firsts_cap),
@@ -71,6 +72,18 @@ static uint32_t block_end(const job *j, uint32_t index) {
 
 /* ------- count ------- */
 
+/* How smooth vertices face the eye; 0: not known. */
+static void face_block(void *arg, uint32_t index, uint32_t worker) {
+    const job *const j = arg;
+    const uint32_t first = index * BLOCK, count = j->from->vertex_count,
+                   last = count - first < BLOCK ? count : first + BLOCK;
+    (void)worker;
+    for (uint32_t v = first; v < last; v++)
+        j->store->facing[v] =
+            (float)dp_curve_facing(j->rule.view, dp_v3f(dp_vertex_position(j->from, v)),
+                                   dp_v3f(j->store->edges.smooth[v]));
+}
+
 /* Can a polygon be curved? Binning drops those that cannot be drawn. */
 static bool is_sound(const dp_polygons *p, uint32_t first, uint32_t n) {
     if (n < 3 || n >= UINT16_MAX) return false;
@@ -101,6 +114,16 @@ static uint32_t curve_between(const job *j, uint32_t from, uint32_t to, uint32_t
     return ends[0].count == 1 && ends[1].count == 1 ? parts | DP_NOTED_SMOOTH : parts;
 }
 
+/* For silhouettes alone: is the edge between two vertices known to be straight, by how these face the
+ * eye? */
+static bool is_far(const job *j, uint32_t from, uint32_t to) {
+    const dp_smooth_store *const s = j->store;
+    if (j->rule.what != DP_SMOOTH_SILHOUETTES) return false;
+    const uint32_t a = dp_corner_vertex(j->from, from), b = dp_corner_vertex(j->from, to);
+    return dp_curve_is_far(dp_v3f(s->edges.smooth[a]), (double)s->facing[a],
+                           dp_v3f(s->edges.smooth[b]), (double)s->facing[b]);
+}
+
 /* Notes into how many parts its edges are cut; is any cut? */
 static bool cut_edges(const job *j, uint32_t first, uint32_t n) {
     bool any = false;
@@ -111,7 +134,8 @@ static bool cut_edges(const job *j, uint32_t first, uint32_t n) {
     for (uint32_t i = 0; i < n; i++) {
         dp_pn_edge curve;
         const uint32_t edge = first + i, next = first + (i + 1 == n ? 0 : i + 1);
-        const uint32_t noted = curve_between(j, edge, next, edge, &curve);
+        const uint32_t noted = is_far(j, edge, next) ? 1 | DP_NOTED_SMOOTH
+                                                     : curve_between(j, edge, next, edge, &curve);
         j->store->parts[edge] = (uint8_t)noted;
         any |= (noted & DP_NOTED_PARTS) > 1;
     }
@@ -173,7 +197,7 @@ static dp_smooth_block number(const job *j) {
 
 /* ------- make ------- */
 
-static dp_patch_target target_of(const job *j, const dp_smooth_block *at) {
+static dp_patch_target target_of(const job *j, const dp_smooth_block *at, dp_pn_grid *grid) {
     dp_smooth_store *const s = j->store;
     return (dp_patch_target){
         .from = j->from,
@@ -193,6 +217,7 @@ static dp_patch_target target_of(const job *j, const dp_smooth_block *at) {
         .normal_base = (uint32_t)(j->setup->normals.given.count + j->setup->normals.made.count),
         .texcoords = j->from->texcoords.values ? s->texcoords : NULL,
         .texcoord_at = s->texcoord_at,
+        .grid = grid,
         .polygon = (uint32_t)at->polygons,
         .corner = (uint32_t)at->corners,
         .vertex = (uint32_t)at->vertices};
@@ -210,7 +235,8 @@ static void make_curved(const job *j, dp_patch_target *t, uint32_t polygon) {
 
 static void make_block(void *arg, uint32_t index, uint32_t worker) {
     const job *const j = arg;
-    dp_patch_target t = target_of(j, &j->store->blocks[index]);
+    dp_pn_grid grid = {.parts = {0, 0, 0}};
+    dp_patch_target t = target_of(j, &j->store->blocks[index], &grid);
     (void)worker;
     for (uint32_t i = index * BLOCK; i < block_end(j, index); i++) {
         if (dp_corner_count(j->from, i) &&
@@ -321,6 +347,8 @@ static bool begin(job *j, const dp_frame *f) {
     return dp_edge_normals_collect(&j->store->edges, j->from, &j->setup->normals, f->threads,
                                    f->memory) &&
            dp_reserve(f->memory, &j->store->parts, &j->store->parts_cap, j->corner_total, 1) &&
+           dp_reserve(f->memory, &j->store->facing, &j->store->facing_cap, j->from->vertex_count,
+                      sizeof *j->store->facing) &&
            dp_reserve(f->memory, &j->store->blocks, &j->store->blocks_cap, j->blocks,
                       sizeof *j->store->blocks);
 }
@@ -328,6 +356,9 @@ static bool begin(job *j, const dp_frame *f) {
 static dp_result smooth(job *j, dp_frame *f, dp_diag *diag) {
     const dp_polygons *const p = j->from;
     if (!begin(j, f)) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for curved triangles");
+    const uint32_t vertex_blocks = p->vertex_count / BLOCK + (p->vertex_count % BLOCK != 0);
+    if (j->rule.what == DP_SMOOTH_SILHOUETTES)
+        dp_parallel(f->threads, vertex_blocks, face_block, j);
     dp_parallel(f->threads, j->blocks, count_block, j);
     const dp_smooth_block sum = number(j);
     if (sum.polygons > MOST || sum.vertices > MOST)
@@ -339,7 +370,6 @@ static dp_result smooth(job *j, dp_frame *f, dp_diag *diag) {
                        "out of memory for %llu curved triangles; a lower level of smoothing makes "
                        "fewer",
                        (unsigned long long)sum.polygons);
-    const uint32_t vertex_blocks = p->vertex_count / BLOCK + (p->vertex_count % BLOCK != 0);
     dp_parallel(f->threads, vertex_blocks, copy_vertices, j);
     copy_attributes(j);
     dp_parallel(f->threads, j->blocks, make_block, j);

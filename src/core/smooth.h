@@ -11,6 +11,7 @@ typedef struct dp_smooth_store {
     dp_edge_normals edges;
     uint8_t
         *parts; /* [corners] into how many parts the edge from there is cut, and more (smooth.c) */
+    float *facing; /* [vertices] as dp_curve_facing, where normals are one */
     struct dp_smooth_block *blocks;
 
     float (*positions)[3];
@@ -20,9 +21,9 @@ typedef struct dp_smooth_store {
     float (*normals)[3];
     float (*texcoords)[2];
     uint32_t *normal_at, *texcoord_at; /* [corners] */
-    size_t parts_cap, blocks_cap, positions_cap, corners_cap, firsts_cap, source_cap, colors_cap,
-        groups_cap, source_edges_cap, flags_cap, smooth_edges_cap, normals_cap, texcoords_cap,
-        normal_at_cap, texcoord_at_cap;
+    size_t parts_cap, facing_cap, blocks_cap, positions_cap, corners_cap, firsts_cap, source_cap,
+        colors_cap, groups_cap, source_edges_cap, flags_cap, smooth_edges_cap, normals_cap,
+        texcoords_cap, normal_at_cap, texcoord_at_cap;
 } dp_smooth_store;
 
 void dp_smooth_store_free(dp_smooth_store *store, const dp_allocator *memory);
