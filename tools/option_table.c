@@ -109,9 +109,9 @@ const option option_table[] = {
      "Round off coarse models: triangles become curved patches (PN triangles, Vlachos et al. 2001) over their corners' "
      "normals, each curved edge with that many points between its ends, or as many as its size in the picture needs. "
      "Hard edges stay. Default: off."},
-    {"smooth-what", 0, "silhouettes|surface", OPTION_WORD, GROUP_LINES, PICTURE, AT(smooth_what), 0, 0, 0,
-     "With --smooth: only what lies near silhouettes, as Raskar 2001 has it, or the whole surface, with its folds and "
-     "shading. Default: silhouettes."},
+    {"smooth-what", 0, "surface|silhouettes", OPTION_WORD, GROUP_LINES, PICTURE, AT(smooth_what), 0, 0, 0,
+     "With --smooth: the whole surface, with its folds and shading, or only what lies near silhouettes, as Raskar 2001 "
+     "has it, which is faster. Default: surface."},
 
     {"hidden", 0, "dashed|dotted|thin|solid|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(hidden), 0, 0, 0,
      "Draw lines that something hides, too, below the visible ones: dashed, dotted, whole but thin, or as wide as "

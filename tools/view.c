@@ -167,7 +167,7 @@ dp_style make_style(const tool_settings *s) {
     style.hidden.levels = s->levels;
     style.hidden.smooth = s->hidden_smooth;
     if (s->smooth > 1) { /* the first word is off, the second auto */
-        style.smooth = s->smooth_what == 2 ? DP_SMOOTH_SURFACE : DP_SMOOTH_SILHOUETTES;
+        style.smooth = s->smooth_what == 2 ? DP_SMOOTH_SILHOUETTES : DP_SMOOTH_SURFACE;
         style.smooth_level = (uint32_t)s->smooth - 2;
     }
     style.passes = s->passes;

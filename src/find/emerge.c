@@ -343,19 +343,14 @@ static bool goes_on_edge_on(const dp_finder *w, const emerging *e) {
            (p[e->unpaired.polygon].flags | p[e->unpaired.partner - 1].flags) & DP_POLYGON_EDGE_ON;
 }
 
-static uint32_t corner_of(const dp_finder *w, const emerging *e) {
-    const uint32_t polygon = w->tile.polygons[e->unpaired.polygon].id;
-    return dp_first_corner(&w->tile.frame->polygons, polygon) + e->unpaired.edge;
-}
-
 static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
     const dp_beside left = beside(w, &e->sight, f->sides[0]),
                     right = beside(w, &e->sight, f->sides[1]);
     const dp_fold fold = dp_fold_of_sides(&e->sight, &left, &right);
     f->line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id));
-    if (w->finds_hidden && dp_is_smooth(w->tile.frame, &fold)) f->line = -1;
-    if (e->unpaired.partner && dp_edge_is_smooth(&w->tile.frame->polygons, corner_of(w, e)))
-        f->line = -1; /* what meets there is one surface */
+    if ((w->finds_hidden && dp_is_smooth(w->tile.frame, &fold)) ||
+        dp_emerges_smooth(w, e->unpaired))
+        f->line = -1;
     f->normal = fold.normal;
 }
 
