@@ -337,12 +337,66 @@ static void threads_do_not_matter_and_styles_work_together(void **state) {
     dp_source_destroy(one.source);
 }
 
+/* ------- memory ------- */
+
+typedef struct budget {
+    long left; /* allocations that are granted */
+    long held; /* blocks */
+} budget;
+
+static void *spend(size_t size, void *user) {
+    budget *const b = user;
+    if (b->left-- <= 0) return NULL;
+    b->held++;
+    return malloc(size);
+}
+static void *spend_more(void *block, size_t size, void *user) {
+    budget *const b = user;
+    if (b->left-- <= 0) return NULL;
+    if (!block) b->held++;
+    return realloc(block, size);
+}
+static void give_back(void *block, void *user) {
+    if (block) ((budget *)user)->held--;
+    free(block);
+}
+
+static void want_of_memory_is_told(void **state) {
+    (void)state;
+    static const double eye[3] = {2, 1, 3}, at[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    const dp_style style = {.smooth = DP_SMOOTH_SURFACE, .shade = {.shading = DP_SHADING_GOOCH}};
+    const dp_target target = {.width = 64, .height = 48, .rgba = rgba, .samples = 1};
+    dp_camera camera;
+    dp_diag diag;
+    dp_camera_look_at(&camera, eye, at, up);
+    dp_camera_perspective(&camera, 40, 1, 0.1, 100);
+    make_sphere(&one);
+    for (long granted = 0, done = 0; !done; granted++) {
+        budget b = {1000000, 0};
+        const dp_allocator memory = {spend, spend_more, give_back, &b};
+        dp_context *c = NULL;
+        assert_int_equal(
+            dp_context_create(&(dp_context_desc){.allocator = &memory, .threads = 1}, &c, &diag),
+            DP_OK);
+        b.left = granted;
+        const dp_result result = dp_draw(c, one.source, &camera, &style, &target, &diag);
+        assert_true(result == DP_OK || result == DP_ERR_MEMORY);
+        done = result == DP_OK;
+        b.left = 1000000;
+        assert_int_equal(dp_draw(c, one.source, &camera, &style, &target, &diag), DP_OK);
+        dp_context_destroy(c);
+        assert_int_equal(b.held, 0);
+    }
+    dp_source_destroy(one.source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_of_320_triangles_is_round),
         cmocka_unit_test(a_torus_of_576_triangles_is_round),
         cmocka_unit_test(levels_out_of_range_are_refused),
         cmocka_unit_test(threads_do_not_matter_and_styles_work_together),
+        cmocka_unit_test(want_of_memory_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
