@@ -41,6 +41,7 @@ static bool has_ground(const tool_settings *s) {
            files_have(s, DP_FORMAT_EPS);
 }
 
+static bool has_smooth(const tool_settings *s) { return s->smooth > 1; /* 1: off */ }
 static bool has_pens(const tool_settings *s) { return !has_quads_alone(s); }
 static bool has_texture(const tool_settings *s) { return s->stroke != NULL; }
 static bool is_polar(const tool_settings *s) {
@@ -107,6 +108,7 @@ static const rule drawing_rules[] = {
      "levels|hidden-smooth|hidden-width|hidden-color|ink|method|between|edge-table",
      has_lines, "no lines are drawn; leave out --lines none"},
     {"detail", has_pens, "with --ink quads the added polygons are the lines; leave it out"},
+    {"smooth-what", has_smooth, "nothing is smoothed; add --smooth auto"},
     {"ridge-angle", has_ridges, "no ridges are drawn; add them to --lines"},
     {"valley-angle", has_valleys, "no valleys are drawn; add them to --lines"},
     {"levels|hidden-smooth|hidden-width|hidden-color", has_hidden,

@@ -130,6 +130,13 @@ const option option_table[] = {
      "what a person would draw at this size: it leaves out creases and outlines that come of noise or of the mesh, and "
      "lets weak ones thin out; F is times as fine: 2 draws more, 0.5 less. Machine parts stay as they are. Default: "
      "auto."},
+    {"smooth", 0, "off|auto|1|2|3|4|5|6", OPTION_WORD, GROUP_LINES, PICTURE, AT(smooth), 0, 0, 0,
+     "Round off coarse models: triangles become curved patches (PN triangles, Vlachos et al. 2001) over their corners' "
+     "normals, each curved edge with that many points between its ends, or as many as its size in the picture needs. "
+     "Hard edges stay. Default: off."},
+    {"smooth-what", 0, "surface|silhouettes", OPTION_WORD, GROUP_LINES, PICTURE, AT(smooth_what), 0, 0, 0,
+     "With --smooth: the whole surface, with its folds and shading, or only what lies near silhouettes, as Raskar 2001 "
+     "has it, which is faster. Default: surface."},
 
     {"hidden", 0, "dashed|dotted|thin|solid|none", OPTION_WORD, GROUP_LINES, PICTURE, AT(hidden), 0, 0, 0,
      "Draw lines that something hides, too, below the visible ones: dashed, dotted, whole but thin, or as wide as "

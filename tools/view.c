@@ -194,6 +194,10 @@ dp_style make_style(const tool_settings *s) {
     style.hidden.levels = s->levels;
     style.hidden.smooth = s->hidden_smooth;
     style.detail = s->has_detail ? (float)s->detail : 1;
+    if (s->smooth > 1) { /* the first word is off, the second auto */
+        style.smooth = s->smooth_what == 2 ? DP_SMOOTH_SILHOUETTES : DP_SMOOTH_SURFACE;
+        style.smooth_level = (uint32_t)s->smooth - 2;
+    }
     style.passes = s->passes;
     style.cull_back_faces = s->cull_back_faces;
     style.edge_table_off = s->edge_table == SWITCH_OFF;

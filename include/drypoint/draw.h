@@ -80,7 +80,7 @@ typedef struct dp_target {
  * between polygons of one part; beyond 64 readings edges are given up, and where lines alone do not
  * fit they are thinned (dp_stats.edges_lost). Polygons of more than three corners are streamed as
  * triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
- * adjacency, hidden lines, polar stroke textures) is drawn from memory. With dp_style.passes = 1
+ * adjacency, hidden lines, polar stroke textures, smoothing) is drawn from memory. With dp_style.passes = 1
  * the source is read once, and what hides lines is known only as finely as the picture's samples. A
  * source that can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1.
  * Sources of one stable batch are drawn from where they lie, whatever their size.
@@ -122,7 +122,8 @@ typedef struct dp_segment {
     uint64_t polygon;   /* of the source, counted from 0 over all its batches; a mirror comes as one
                            more after them */
     uint64_t other;     /* the polygon across the edge, or that it cuts; UINT64_MAX: none known */
-    uint32_t edge;      /* from corner `edge` to the next; UINT32_MAX for an intersection */
+    uint32_t edge;      /* from corner `edge` to the next; UINT32_MAX for an intersection and, with
+                           dp_style.smooth, for what lies within the polygon's patch */
     uint32_t group;     /* of the polygon; 0 where the source has no groups, or is streamed */
     dp_line_end end[2]; /* at a and at b */
     uint64_t hider[2];  /* where that is DP_END_HIDDEN: by which polygon of the source. With

@@ -94,7 +94,7 @@ typedef dp_result dp_text_writer(void *user, const char *text, size_t size, dp_d
  * ended (stylized strokes), a line `gap` says where it begins. `level` is 0 for visible lines;
  * hidden ones come first, with layers of their own. Positions are x and y, px, and the
  * distance along the line of sight. `edge` gives polygon and corner of the source, `crossing` the
- * polygon of an intersection, `other` the second polygon where it is known. What ends a segment comes
+ * polygon of an intersection, `within` that of a line on its patch (dp_style.smooth), `other` the second polygon where it is known. What ends a segment comes
  * last: `vertex` (left out where the stroke runs on), `crossing`, `picture` or `hidden`, by a polygon
  * where it is known. */
 DP_API dp_result dp_trace(dp_context *context, dp_text_writer *write, void *user, dp_diag *diag);

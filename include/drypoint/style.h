@@ -103,6 +103,18 @@ typedef struct dp_hidden {
     dp_line_style line[DP_LEVELS][DP_LINE_COUNT];
 } dp_hidden;
 
+/* What is drawn as curved PN triangles (Vlachos et al. 2001; Raskar 2001, 5): each triangle becomes a
+ * cubic patch over its own corners and their normals, cut into small ones for the picture
+ * (docs/smooth.md). Normals are those that shading uses (dp_shade.normals; those of SMOOTH where the
+ * model has none). */
+typedef enum dp_smoothing {
+    DP_SMOOTH_OFF = 0,
+    DP_SMOOTH_SILHOUETTES, /* near silhouettes alone; all else stays as it is */
+    DP_SMOOTH_SURFACE      /* the whole surface: folds, shading and what hides lines, too */
+} dp_smoothing;
+
+enum { DP_SMOOTH_LEVELS = 6 };
+
 /* Zero is the default: `dp_style style = {0};` draws every class, 2 px wide, black on white. */
 typedef struct dp_style {
     uint32_t lines;                    /* set of classes; 0 means DP_ALL_LINES; or DP_NO_LINES */
@@ -140,6 +152,13 @@ typedef struct dp_style {
     dp_shade shade;       /* shading of surfaces */
     dp_edge_map edge_map; /* default: off */
     dp_mirror mirror;     /* default: none */
+
+    /* Drawn from memory, whatever the model's size. Of the first style. DP_ERR_LIMIT where that makes
+     * more than 2^30 polygons or vertices. */
+    dp_smoothing smooth;
+    uint32_t
+        smooth_level; /* points on each curved edge between its ends, 1 to DP_SMOOTH_LEVELS; 0: by
+                              size on the screen, up to 15 */
 } dp_style;
 
 /* Fills in every default. With DP_ERR_ARGUMENT, *diag names the member that is out of range. */

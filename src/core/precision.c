@@ -24,20 +24,25 @@ static bool has_decimals(float v, double unit) {
     return noise < 0.05 && fabs(units - floor(units + 0.5)) <= 1e-3 + noise;
 }
 
+/* Those that smoothing made have decimals of their own. */
+static uint32_t given_count(const dp_polygons *polygons) {
+    return polygons->vertex_count - polygons->made_vertices;
+}
+
 static uint32_t position_step(const dp_polygons *polygons) {
-    return polygons->vertex_count / POSITIONS + 1;
+    return given_count(polygons) / POSITIONS + 1;
 }
 
 double dp_precision_of(const dp_polygons *polygons) {
     const uint32_t step = position_step(polygons);
     int decimals = 0;
     double unit = 1;
-    for (uint32_t v = 0; v < polygons->vertex_count && decimals <= DECIMALS_MOST; v += step) {
+    for (uint32_t v = 0; v < given_count(polygons) && decimals <= DECIMALS_MOST; v += step) {
         const float *const p = dp_vertex_position(polygons, v);
         for (int i = 0; i < 3 && decimals <= DECIMALS_MOST; i++)
             while (decimals <= DECIMALS_MOST && !has_decimals(p[i], unit)) unit /= 10, decimals++;
     }
-    return decimals > DECIMALS_MOST || !polygons->vertex_count ? 0 : unit / 2;
+    return decimals > DECIMALS_MOST || !given_count(polygons) ? 0 : unit / 2;
 }
 
 typedef struct box {
@@ -47,7 +52,7 @@ typedef struct box {
 static box box_of(const dp_polygons *polygons) {
     const uint32_t step = position_step(polygons);
     box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (uint32_t v = 0; v < polygons->vertex_count; v += step) {
+    for (uint32_t v = 0; v < given_count(polygons); v += step) {
         const dp_vec3 p = dp_v3f(dp_vertex_position(polygons, v));
         if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) continue;
         b.least = dp_v3(dp_min(b.least.x, p.x), dp_min(b.least.y, p.y), dp_min(b.least.z, p.z));

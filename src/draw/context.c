@@ -102,6 +102,7 @@ void dp_context_destroy(dp_context *c) {
     dp_frame_free(&c->frame, &memory);
     dp_polygon_store_free(&c->polygons, &memory);
     dp_normal_store_free(&c->normals, &memory);
+    dp_smooth_store_free(&c->smooth, &memory);
     dp_adjacency_free(&c->adjacency, &memory);
     dp_lines_free(&c->drawing, &memory);
     dp_lines_free(&c->once, &memory);
@@ -127,8 +128,9 @@ dp_result dp_context_settle(dp_context *c, dp_result result, dp_diag *diag) {
 uint64_t dp_context_bytes(const dp_context *c) {
     return sizeof *c + dp_threads_bytes(c->threads) + workers_bytes(c) + dp_frame_bytes(&c->frame) +
            dp_polygon_store_bytes(&c->polygons) + dp_normal_store_bytes(&c->normals) +
-           dp_adjacency_bytes(&c->adjacency) + dp_lines_bytes(&c->drawing) +
-           dp_lines_bytes(&c->once) + c->once_scratch.bytes + dp_detail_store_bytes(&c->detail) +
-           dp_shade_store_bytes(&c->shade) + dp_mirror_store_bytes(&c->mirror) +
-           dp_recording_bytes(c->recording) + dp_stream_bytes(c->stream);
+           dp_smooth_store_bytes(&c->smooth) + dp_adjacency_bytes(&c->adjacency) +
+           dp_lines_bytes(&c->drawing) + dp_lines_bytes(&c->once) + c->once_scratch.bytes +
+           dp_detail_store_bytes(&c->detail) + dp_shade_store_bytes(&c->shade) +
+           dp_mirror_store_bytes(&c->mirror) + dp_recording_bytes(c->recording) +
+           dp_stream_bytes(c->stream);
 }

@@ -3,6 +3,7 @@
 #define DP_DRAW_CONTEXT_H
 
 #include "mesh/adjacency.h"
+#include "core/smooth.h"
 #include "raster/stages.h"
 #include "mesh/normals.h"
 #include "find/finder.h"
@@ -46,6 +47,7 @@ struct dp_context {
     bool inks_once;          /* `once` is inked */
     bool drawn;              /* there is one */
     dp_normal_store normals; /* made for models without */
+    dp_smooth_store smooth;  /* curved triangles, where those are drawn */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
     dp_mirror_store mirror;
@@ -89,6 +91,9 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
 /* Tells how far the picture is, 0 to 1, or below 0 where that is not known; DP_ERR_CANCELLED when
  * it is to stop. What is told must not fall (dp_context_desc). */
 dp_result dp_tell_progress(dp_context *context, double fraction, dp_diag *diag);
+
+/* Replaces the frame's gathered polygons by curved ones, as the first style says (draw/smooth.c). */
+dp_result dp_smooth_frame(dp_context *context, dp_source *source, dp_diag *diag);
 
 /* dp_draw with a mirror; the style is resolved (draw/mirror.c). */
 dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,

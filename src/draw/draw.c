@@ -1,6 +1,6 @@
 /* Drawing one picture: the stages in order. The context keeps their memory (context.c).
  *
- *     source → gather → vertices → bin → tiles (faces, edges, visibility) → segments, chains
+ *     source → gather (→ smooth) → vertices → bin → tiles (faces, edges, visibility) → segments, chains
  *            → shading → sink (ink) → target
  *
  * Each stage runs in parallel over blocks, chunks or tiles and ends before the next begins. What a
@@ -263,8 +263,8 @@ static bool find_adjacency(dp_context *c) {
 static bool may_stream(const dp_context *c) {
     const dp_style *const style = &c->frame.styles[0];
     return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && !c->frame.hidden &&
-           style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !is_polar(&c->frame) &&
-           !(style->stroke.light > 0);
+           style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !style->smooth &&
+           !is_polar(&c->frame) && !(style->stroke.light > 0);
 }
 
 static dp_result tell_gathered(void *arg, double done, dp_diag *diag) {
@@ -355,10 +355,11 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, since, diag);
+    if (f->styles[0].smooth && (result = dp_smooth_frame(c, source, diag))) return result;
     c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
     c->stats.curvature_ms = c->shade.pencil.curvature.ms;
-    if (!make_normals(c, source)) return out_of_memory(diag);
+    if (!f->styles[0].smooth && !make_normals(c, source)) return out_of_memory(diag);
     if (c->shade.active && f->polygons.normals.values) {
         if (!dp_normals_pack(&c->normals, &f->polygons, c->threads, &c->memory))
             return out_of_memory(diag);
@@ -498,7 +499,8 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     f->threads = c->threads;
     f->styles = styles;
     f->style_count = style_count;
-    f->exact_ends = styles[0].exact_ends;
+    /* many small triangles lie along a curved contour, nearly edge-on */
+    f->exact_ends = styles[0].exact_ends || styles[0].smooth;
     f->lines = 0;
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);

@@ -265,6 +265,10 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
     if (full.detail != 0 && !(full.detail >= 0.01f && full.detail <= 100))
         return dp_fail(diag, DP_ERR_ARGUMENT, "detail is %s; it must be 0, or 0.01 to 100",
                        NUMBER(full.detail));
+    if ((unsigned)full.smooth > DP_SMOOTH_SURFACE || full.smooth_level > DP_SMOOTH_LEVELS)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "smoothing is not one of its values, or its level, %u, is above %d",
+                       full.smooth_level, DP_SMOOTH_LEVELS);
     if (full.between_offset == 0) full.between_offset = 1;
     if (!(full.between_offset > 0) || !isfinite(full.between_offset))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the between offset must be above zero");

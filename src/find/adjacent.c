@@ -101,7 +101,8 @@ static void add_polygon(dp_finder *w, const dp_tile_polygon *p, bool creases) {
         if (line >= 0) {
             const shared_edge e = owned(w->tile.frame, p->id, first + i);
             add_outline(w, &e, (dp_line)line);
-        } else if (creases && dp_edge_is_flagged(polygons, first + i)) {
+        } else if (creases && dp_edge_is_flagged(polygons, first + i) &&
+                   !dp_edge_is_smooth(polygons, first + i)) {
             add_crease(w, p->id, first + i);
         }
         w->tile.stats.edges_resolved++;

@@ -77,7 +77,7 @@ static bool is_fold(const dp_finder *w, const dp_edge_entry *e) {
 
 /* The class of line that the fold of a pair makes, or -1. */
 static int fold_line(const dp_finder *w, const dp_edge_entry *e, const dp_fold *fold) {
-    if (dp_edge_is_diagonal(w, e)) return -1;
+    if (dp_edge_is_no_fold(w, e)) return -1;
     const dp_style *const style = dp_polygon_style(w->tile.frame, w->tile.polygons[e->a].id);
     if (w->finds_hidden && dp_is_smooth(w->tile.frame, fold)) return -1;
     return dp_fold_line(fold, style);

@@ -348,7 +348,9 @@ static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
                     right = beside(w, &e->sight, f->sides[1]);
     const dp_fold fold = dp_fold_of_sides(&e->sight, &left, &right);
     f->line = dp_fold_line(&fold, dp_polygon_style(w->tile.frame, e->id));
-    if (w->finds_hidden && dp_is_smooth(w->tile.frame, &fold)) f->line = -1;
+    if ((w->finds_hidden && dp_is_smooth(w->tile.frame, &fold)) ||
+        dp_emerges_smooth(w, e->unpaired))
+        f->line = -1;
     f->normal = fold.normal;
 }
 

@@ -30,6 +30,20 @@ bool dp_edge_is_diagonal(const dp_finder *w, const dp_edge_entry *e) {
                                dp_first_corner(polygons, w->tile.polygons[e->b].id) + e->edge_b);
 }
 
+bool dp_edge_is_no_fold(const dp_finder *w, const dp_edge_entry *e) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    return dp_edge_is_diagonal(w, e) ||
+           dp_edge_is_smooth(polygons,
+                             dp_first_corner(polygons, w->tile.polygons[e->a].id) + e->edge_a);
+}
+
+bool dp_emerges_smooth(const dp_finder *w, dp_unpaired_edge e) {
+    const dp_polygons *const polygons = &w->tile.frame->polygons;
+    return e.partner &&
+           dp_edge_is_smooth(polygons,
+                             dp_first_corner(polygons, w->tile.polygons[e.polygon].id) + e.edge);
+}
+
 void dp_add_line(dp_finder *w, const dp_edge_entry *e, dp_line line, const dp_spine *spine,
                  const dp_vec3 normals[2], const uint32_t sides[2]) {
     const uint32_t id = w->tile.polygons[e->a].id;
@@ -199,7 +213,7 @@ void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     const bool left = f.sides[0].nearest.polygon != UINT32_MAX,
                right = f.sides[1].nearest.polygon != UINT32_MAX;
     if (left && right) {
-        if (!dp_edge_is_diagonal(w, e)) add_fold(w, &f);
+        if (!dp_edge_is_no_fold(w, e)) add_fold(w, &f);
     } else if (left || right) {
         add_outline(w, e, &f, right);
     }

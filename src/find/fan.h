@@ -9,6 +9,11 @@
 /* Does the edge only split the polygons that are known to have it? Then it may be an outline, but
  * no crease. */
 bool dp_edge_is_diagonal(const dp_finder *finder, const dp_edge_entry *edge);
+/* The same, or smoothing found the surface smooth there: it may be an outline, but no fold. */
+bool dp_edge_is_no_fold(const dp_finder *finder, const dp_edge_entry *edge);
+
+/* The same of an edge that is left to emerge and has two polygons. */
+bool dp_emerges_smooth(const dp_finder *finder, dp_unpaired_edge edge);
 
 /* Adds a line of class `line` along an edge of polygon a, if that draws such lines; or leaves the
  * edge to emerge if something else is seen beside it. `sides`: the tile polygons that are seen to

@@ -14,12 +14,17 @@ typedef struct dp_polygons {
     const float *positions;
     size_t stride; /* bytes */
     uint32_t vertex_count;
+    uint32_t made_vertices;         /* the last ones, which smoothing made (core/smooth.h) */
     const uint32_t *corners;        /* [corners] vertex; NULL: corner c is vertex c */
     const uint32_t *firsts;         /* [count + 1] corner; NULL: triangles */
     const uint8_t *edge_flags;      /* [corners] as in dp_batch; or NULL */
     bool has_diagonals;             /* an edge flag may be DP_EDGE_DIAGONAL */
     const uint32_t *source_polygon; /* [count] its number in the source; NULL: the same */
-    const uint16_t *groups;         /* [count]; NULL: all group 0 */
+    const uint16_t *source_edges;   /* [corners] the edge of the polygon that smoothing found, or
+                                       DP_EDGE_INSIDE; NULL: the same */
+    const uint8_t *smooth_edges; /* [corners] 1: the surface is smooth across the edge, whose fold
+                                       is none; NULL: across none */
+    const uint16_t *groups;      /* [count]; NULL: all group 0 */
     dp_attribute normals, texcoords;
     const uint32_t *colors; /* [vertex_count] as in dp_batch; or NULL */
     uint32_t count;
@@ -28,6 +33,9 @@ typedef struct dp_polygons {
 /* Flag of an edge that splits a polygon. Where that is not plane it may be an outline; it is no
  * crease. */
 enum { DP_EDGE_DIAGONAL = 2 };
+
+/* An edge that lies within a polygon's patch. */
+enum { DP_EDGE_INSIDE = UINT16_MAX };
 
 /* Scratch for splitting one polygon; as large as the largest so far. The caller sets `at`. */
 typedef struct dp_split_scratch {
@@ -99,6 +107,11 @@ static inline bool dp_edge_may_be_line(const dp_polygons *polygons, uint32_t cor
 static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t corner) {
     return dp_edge_may_be_line(polygons, corner) &&
            !(polygons->has_diagonals && polygons->edge_flags[corner] == DP_EDGE_DIAGONAL);
+}
+
+/* Did smoothing find the surface smooth across the edge? */
+static inline bool dp_edge_is_smooth(const dp_polygons *polygons, uint32_t corner) {
+    return polygons->smooth_edges && polygons->smooth_edges[corner];
 }
 
 /* Polygons are not visited in memory order: these prefetch the vertex numbers of a polygon's first

@@ -58,6 +58,8 @@ static dp_result put_edge(const dp_tracing *t, const dp_segment *s, dp_diag *dia
     char other[40] = "";
     if (s->other != UINT64_MAX)
         snprintf(other, sizeof other, " other %llu", (unsigned long long)s->other);
+    if (s->edge == UINT32_MAX && s->line != DP_LINE_INTERSECTION)
+        return put(t, diag, " within %llu%s", (unsigned long long)s->polygon, other);
     if (s->edge == UINT32_MAX)
         return put(t, diag, " crossing %llu%s", (unsigned long long)s->polygon, other);
     return put(t, diag, " edge %llu %u%s", (unsigned long long)s->polygon, s->edge, other);

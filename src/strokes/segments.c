@@ -231,6 +231,15 @@ void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segm
     stroke->half_width = line->width / 2;
 }
 
+/* Smoothing cuts an edge into many, and a polygon by others. */
+static uint32_t source_edge(const dp_frame *frame, const dp_piece *piece) {
+    const dp_polygons *const p = &frame->polygons;
+    if (piece->edge == DP_CROSSING) return UINT32_MAX;
+    if (!p->source_edges) return piece->edge;
+    const uint16_t edge = p->source_edges[dp_first_corner(p, piece->a) + piece->edge];
+    return edge == DP_EDGE_INSIDE ? UINT32_MAX : edge;
+}
+
 /* Degrees between the normals of its two polygons. */
 static float turn_at(const dp_segment_batch *made, uint32_t i, const dp_piece *piece) {
     double cosine = 0;
@@ -244,7 +253,7 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
     segment->line = (dp_line)piece->line;
     segment->polygon = source_number(frame, piece->a);
     segment->other = source_number(frame, piece->b);
-    segment->edge = piece->edge;
+    segment->edge = source_edge(frame, piece);
     segment->group = frame->polygons.groups ? frame->polygons.groups[piece->a] : 0;
     segment->chain = segment->place = 0;
     segment->reversed = false;

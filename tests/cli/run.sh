@@ -1029,6 +1029,29 @@ enhanced_objects() {
     says err 'no object called "middle"; it has left, right/red'
     absent out.png
 }
+smoothing() {
+    run 0 shape:torus:576 -o plain.png --size 200x150
+    run 0 shape:torus:576 -o off.png --size 200x150 --smooth off
+    cmp -s plain.png off.png || fail "--smooth off changes the picture"
+    run 0 shape:torus:576 -o auto.png --size 200x150 --smooth auto
+    silent err
+    cmp -s plain.png auto.png && fail "--smooth auto changes nothing"
+    run 0 shape:torus:576 -o surface.png --size 200x150 --smooth auto --smooth-what surface
+    cmp -s auto.png surface.png || fail "the surface is not the default"
+    run 0 shape:torus:576 -o line.png --size 200x150 --smooth 3 --smooth-what silhouettes --hidden dashed --threads 2
+    run 0 shape:torus:576 -o line1.png --size 200x150 --smooth 3 --smooth-what silhouettes --hidden dashed --threads 1
+    cmp -s line.png line1.png || fail "threads matter"
+    run 0 shape:cube -o cube.png --size 200x150
+    run 0 shape:cube -o hard.png --size 200x150 --smooth 6
+    cmp -s cube.png hard.png || fail "a cube does not stay one"
+    run 0 shape:sphere:320 -o trace=sphere.txt --size 200x150 --smooth 2
+    says sphere.txt ' within '
+    run 0 shape:terrain:2000000 -o large.png --size 200x150 --smooth auto --smooth-what silhouettes --memory 48M
+    run 0 shape:cube -o cube.png --size 200x150 --smooth-what silhouettes
+    says err 'add --smooth auto'
+    wrong shape:cube -o out.png --smooth 7 -- --smooth
+    wrong shape:cube -o out.png --smooth auto --smooth-what edges -- --smooth-what
+}
 absurd_thresholds() {
     for option in "--inner-angle 0" "--inner-angle 181" "--profile-depth -1" "--edge-radius 5" "--profile-softness 2" \
         "--crease-angle nan" "--light 10" "--light 0,91" "--highlight 1.5" "--hatch-scale 0"; do
@@ -1351,7 +1374,7 @@ paper_presets() {
 . "$here/several.sh" # scenes, a drawing for each of several models
 . "$here/helps.sh"   # --help and its topics, completions
 
-tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects smoothing absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
