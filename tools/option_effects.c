@@ -82,7 +82,7 @@ static bool makes_map(const tool_settings *s) { return draws_map(s) || s->wants_
 static bool is_c1(const tool_settings *s) { return s->edge_map == EDGE_MAP_C1; }
 static bool is_scaled(const tool_settings *s) { return s->edge_measure != MEASURE_PAPER; }
 static bool has_normals(const tool_settings *s) {
-    return is_shaded(s) || makes_map(s) || s->outputs[PLANE_NORMALS];
+    return is_shaded(s) || makes_map(s) || s->outputs[PLANE_NORMALS] || has_smooth(s);
 }
 
 static bool is_terrain(const tool_settings *s) { return !strcmp(s->model, "terrain"); }
