@@ -92,6 +92,11 @@ standard_input() {
     cat b.stl | "$program" - $small -o - >piped.png || fail "piped"
     cmp -s file.png redirected.png || fail "standard input from a file differs"
     cmp -s file.png piped.png || fail "standard input from a pipe differs"
+    for given in '--detail exact' '--up y' '--view iso --ortho 0' '--size 500x500' '--hidden thin' '--edges adjacency'; do
+        run 0 b.stl $small $given -q -o trace=file.txt
+        cat b.stl | "$program" - $small $given -q -o trace=piped.txt || fail "piped, $given"
+        cmp -s file.txt piped.txt || fail "standard input from a pipe differs with $given"
+    done
 }
 # A file that does not fit is read twice, in parts: the picture is the same.
 streamed() {
@@ -1183,7 +1188,7 @@ cleaning() {
     run 0 shape:gear $small -q -o all.svg --join 0 --min-length 0 --tolerance 0 --keep-coincident
     run 0 shape:gear $small -q -o less.svg --join 0.5mm --min-length 4 --tolerance 0.1 --join-classes
     [ "$(stat -c %s less.svg)" -lt "$(stat -c %s all.svg)" ] || fail "cleaning leaves out nothing"
-    run 0 shape:gear $small -o short.svg --min-length 4
+    run 0 shape:gear $small -o short.svg --min-length 4 --detail exact # which leaves the short ones
     says err '% dropped as shorter than 4 px'
     run 0 shape:gear $small -o pen.svg --optimize
     says err 'the pen travels'
