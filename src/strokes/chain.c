@@ -52,8 +52,8 @@ static dp_point end_point(const chaining *c, uint32_t end) {
 static bool same_node(const chaining *c, uint32_t e, uint32_t f) {
     const dp_point p = end_point(c, e), q = end_point(c, f);
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
-    return p.x == q.x && p.y == q.y && p.d == q.d && s->line == t->line && s->level == t->level &&
-           s->color == t->color;
+    return p.x == q.x && p.y == q.y && p.d == q.d && s->level == t->level &&
+           (c->rule->any_class || (s->line == t->line && s->color == t->color));
 }
 
 static uint32_t node_hash(const chaining *c, uint32_t end) {
@@ -61,17 +61,22 @@ static uint32_t node_hash(const chaining *c, uint32_t end) {
     uint32_t bits[3];
     memcpy(bits, &p, sizeof bits);
     uint32_t h = bits[0] * 0x9e3779b1u ^ bits[1] * 0x85ebca77u ^ bits[2] * 0xc2b2ae3du ^
-                 c->strokes[end / 2].line;
+                 (c->rule->any_class ? 0 : c->strokes[end / 2].line);
     h ^= h >> 15, h *= 0x2c1b3c6du;
     return h ^ h >> 13;
+}
+
+static size_t node_slot(const chaining *c, uint32_t end) {
+    size_t s = node_hash(c, end) & (c->slot_count - 1);
+    while (c->slots[s] && !same_node(c, c->slots[s] - 1, end)) s = (s + 1) & (c->slot_count - 1);
+    return s;
 }
 
 /* Ends into lists by node, each in ascending order. */
 static void find_nodes(const chaining *c) {
     memset(c->slots, 0, c->slot_count * sizeof *c->slots);
     for (uint32_t i = 2 * c->count; i-- > 0;) {
-        size_t s = node_hash(c, i) & (c->slot_count - 1);
-        while (c->slots[s] && !same_node(c, c->slots[s] - 1, i)) s = (s + 1) & (c->slot_count - 1);
+        const size_t s = node_slot(c, i);
         c->next[i] = c->slots[s] ? c->slots[s] - 1 : NONE;
         c->slots[s] = i + 1;
         c->partner[i] = NONE;
@@ -150,8 +155,9 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
     const dp_point p = end_point(c, e), q = end_point(c, f);
     *distance = dp_hypotf(q.x - p.x, q.y - p.y);
     return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) &&
-           fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->level == t->level &&
-           s->color == t->color && may_join(c, e, f);
+           fabsf(p.d - q.d) <= c->rule->step && s->level == t->level &&
+           (c->rule->any_class || (s->line == t->line && s->color == t->color)) &&
+           may_join(c, e, f);
 }
 
 static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory,
@@ -233,6 +239,7 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
     chaining c = {.strokes = strokes, .rule = rule, .count = count, .slot_count = 64};
     while (c.slot_count < 4 * (size_t)count) c.slot_count *= 2;
     store->chain_count = 0;
+    store->slot_count = c.slot_count;
     if (!dp_reserve(memory, &store->scratch, &store->scratch_cap, c.slot_count + 5 * (size_t)count,
                     sizeof(uint32_t)) ||
         !dp_reserve(memory, &store->links, &store->links_cap, count, sizeof *store->links) ||
@@ -254,4 +261,14 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
         walk(&c, find_start(&c, i, &chain->closed), store, chain, &links);
     }
     return true;
+}
+
+uint32_t dp_first_end_at(const dp_chain_store *store, const dp_stroke *strokes, uint32_t count,
+                         const dp_chain_rule *rule, uint32_t end) {
+    const chaining c = {.strokes = strokes,
+                        .rule = rule,
+                        .count = count,
+                        .slots = store->scratch,
+                        .slot_count = store->slot_count};
+    return c.slots[node_slot(&c, end)] - 1;
 }

@@ -114,10 +114,15 @@ static bool first_is_left(const dp_frame *f, const dp_stroke_point *p, const flo
     return !(fabsf(left.nearer - slope[0] * left.away) > fabsf(left.nearer - slope[1] * left.away));
 }
 
+float dp_fold_sharpness(const dp_stroke *s) {
+    return s->line == DP_LINE_SILHOUETTE ? dp_smooth_step(50, 80, s->turn)
+                                         : dp_smooth_step(20, 60, s->turn);
+}
+
 float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_point *p,
                       const uint32_t polygon[2], float unit) {
     const bool outline = s->line == DP_LINE_SILHOUETTE;
-    const float sharp = outline ? dp_smooth_step(50, 80, s->turn) : dp_smooth_step(20, 60, s->turn);
+    const float sharp = dp_fold_sharpness(s);
     float slope[2], bend = INFINITY, widest = 0;
     if (!(sharp > 0)) return 0;
     for (int k = 0; k < 2; k++)
