@@ -200,7 +200,7 @@ static bool sample_chain(dp_detail *c, const dp_chain *chain) {
 /* How regular a segment's chain is where that matters: an edge as sharp as of a box is one in any
  * case. */
 static float regular_or_sharp(const dp_line_trait *t, const dp_stroke *s) {
-    return dp_maxf(t->regular, 0.6f * dp_smooth_step(60, 85, s->turn));
+    return dp_maxf(t->regular, 0.705f * dp_smooth_step(65, 88, s->turn));
 }
 
 /* Can a chain still be a hard edge, whatever the surface beside it is like? Most of a scan's cannot,
@@ -385,7 +385,7 @@ static void in_blocks(dp_detail *c, uint32_t count, dp_task *task) {
 /* px of this picture for one of the lengths above. */
 static float unit_of(const dp_frame *frame, float detail) {
     const float side = (float)dp_min(frame->view.width, frame->view.height);
-    return dp_maxf(side / PICTURE, 0.5f) / detail;
+    return dp_maxf(side / PICTURE, 0.25f) / detail;
 }
 
 bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *store) {

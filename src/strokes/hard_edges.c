@@ -11,7 +11,9 @@
 
 #include "strokes/evidence.h"
 
+enum { FEW = 4 /* segments of a chain that do not tell whether it is regular */ };
 static const float ENOUGH = 24 /* evidence of a hard edge that a chain needs */,
+                   LONG = 40 /* of a regular chain, which is an edge however little it is folded */,
                    CRUMB = 8 /* shorter chains between others are not drawn for their sake */;
 
 bool dp_is_hard(const dp_detail *c, float hard) { return hard > ENOUGH * c->unit; }
@@ -38,18 +40,19 @@ static float outline_length(const dp_detail *c, const dp_line_trait *t) {
 static void judge_chain(const dp_detail *c, uint32_t number) {
     const dp_chain *const chain = &c->own->chains.chains[number];
     const dp_link *const links = dp_links_of(c, chain);
-    float hard = 0, outline = 0;
+    float hard = 0, outline = 0, regular = 0;
     for (uint32_t i = 0; i < chain->count; i++) {
         dp_line_trait *const t = &c->own->trait[links[i].segment];
         t->chain = number;
         t->hard = mean_hard(c, t);
         hard += t->hard * t->length;
+        regular += dp_maxf(2 * t->regular - 1, 0) * t->length;
         if (c->lines->strokes[links[i].segment].line == DP_LINE_SILHOUETTE)
             outline += outline_length(c, t);
     }
     for (uint32_t i = 0; i < chain->count; i++) {
         dp_line_trait *const t = &c->own->trait[links[i].segment];
-        t->drawn = dp_is_hard(c, hard);
+        t->drawn = dp_is_hard(c, hard) || (chain->count >= FEW && regular > LONG * c->unit);
         t->weight = dp_smooth_step(40 * c->unit, 80 * c->unit, outline);
     }
 }
