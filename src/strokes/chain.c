@@ -41,6 +41,7 @@ typedef struct chaining {
     uint32_t count;
     uint32_t *slots, *next, *partner,
         *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
+    uint32_t *cells, *beside; /* the same of cells */
     size_t slot_count;
 } chaining;
 
@@ -140,12 +141,12 @@ static int32_t cell_of(const chaining *c, float px) { return (int32_t)floorf(px 
 
 /* Open ends into lists by grid cell; cells that share a slot share a list. */
 static void find_cells(const chaining *c) {
-    memset(c->slots, 0, c->slot_count * sizeof *c->slots);
+    memset(c->cells, 0, c->slot_count * sizeof *c->cells);
     for (uint32_t i = 2 * c->count; i-- > 0;) {
         if (c->partner[i] != NONE) continue;
         const dp_point p = end_point(c, i);
-        uint32_t *const slot = &c->slots[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
-        c->next[i] = *slot ? *slot - 1 : NONE;
+        uint32_t *const slot = &c->cells[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
+        c->beside[i] = *slot ? *slot - 1 : NONE;
         *slot = i + 1;
     }
 }
@@ -165,8 +166,8 @@ static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *mem
     const dp_point p = end_point(c, e);
     const int32_t x = cell_of(c, p.x), y = cell_of(c, p.y);
     for (int32_t k = 0; k < 9; k++) {
-        const uint32_t head = c->slots[cell_slot(c, x + k % 3 - 1, y + k / 3 - 1)];
-        for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->next[f]) {
+        const uint32_t head = c->cells[cell_slot(c, x + k % 3 - 1, y + k / 3 - 1)];
+        for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->beside[f]) {
             float distance;
             if (f <= e || !may_bridge(c, e, f, &distance)) continue;
             if (!dp_reserve(memory, &store->bridges, &store->bridges_cap, *n + 1,
@@ -240,14 +241,16 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
     while (c.slot_count < 4 * (size_t)count) c.slot_count *= 2;
     store->chain_count = 0;
     store->slot_count = c.slot_count;
-    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap, c.slot_count + 5 * (size_t)count,
-                    sizeof(uint32_t)) ||
+    const size_t cells = rule->gap > 0 ? c.slot_count + 2 * (size_t)count : 0;
+    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap,
+                    c.slot_count + 5 * (size_t)count + cells, sizeof(uint32_t)) ||
         !dp_reserve(memory, &store->links, &store->links_cap, count, sizeof *store->links) ||
         !dp_reserve(memory, &store->chains, &store->chains_cap, count, sizeof *store->chains))
         return false;
     c.slots = store->scratch, c.next = c.slots + c.slot_count,
     c.partner = c.next + 2 * (size_t)count;
     c.visited = c.partner + 2 * (size_t)count;
+    c.cells = c.visited + count, c.beside = c.cells + c.slot_count;
     if (count) memset(c.visited, 0, count * sizeof *c.visited);
     find_nodes(&c);
     for (size_t s = 0; s < c.slot_count; s++)

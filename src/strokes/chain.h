@@ -45,7 +45,7 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
                     const dp_allocator *memory, dp_chain_store *store);
 /* The ends at the place of an end, of the level, and the class and colour, that are joined with it: the first one
  * and the one after another, or UINT32_MAX. End 2 i is a of stroke i, 2 i + 1 is b. After dp_make_chains
- * with these strokes and this rule, whose gap is 0. */
+ * with these strokes and this rule. */
 uint32_t dp_first_end_at(const dp_chain_store *store, const dp_stroke *strokes, uint32_t count,
                          const dp_chain_rule *rule, uint32_t end);
 static inline uint32_t dp_next_end_at(const dp_chain_store *store, uint32_t end) {
