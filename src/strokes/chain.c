@@ -40,7 +40,7 @@ typedef struct chaining {
     const dp_chain_rule *rule;
     uint32_t count;
     uint32_t *slots, *next, *partner,
-        *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
+        *visited;             /* slots: 1 + first end of a node; next: of the node, or NONE */
     uint32_t *cells, *beside; /* the same of cells */
     size_t slot_count;
 } chaining;

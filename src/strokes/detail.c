@@ -211,7 +211,7 @@ static void find_hope(const dp_detail *c, const dp_chain *chain) {
     for (uint32_t i = 0; i < chain->count; i++) {
         dp_line_trait *const t = &c->own->trait[links[i].segment];
         const dp_stroke *const s = &c->lines->strokes[links[i].segment];
-        t->hard = is_judged(s) ? dp_fold_sharpness(s) * regular_or_sharp(t, s) : 1;
+        t->hard = is_judged(s) ? dp_most_clarity(s) * regular_or_sharp(t, s) : 1;
         hard += t->hard * t->length, length += t->length;
     }
     if (dp_is_hard(c, hard) || dp_is_good(c, hard, length)) return;

@@ -52,7 +52,8 @@ static inline const dp_link *dp_links_of(const dp_detail *c, const dp_chain *cha
 }
 
 /* How segments are chained: whatever their class, and at turns of up to 60 degrees. */
-static const dp_chain_rule dp_detail_rule = {.sharpest = 0.5f, .gap = 0.25f, .step = 1e30f, .any_class = true};
+static const dp_chain_rule dp_detail_rule = {
+    .sharpest = 0.5f, .gap = 0.25f, .step = 1e30f, .any_class = true};
 
 /* Has a chain as much evidence of a hard edge, px, as it needs? Or is it good all along? (hard_edges.c) */
 bool dp_is_hard(const dp_detail *detail, float hard);
