@@ -51,9 +51,17 @@ static inline const dp_link *dp_links_of(const dp_detail *c, const dp_chain *cha
     return c->own->chains.links + chain->first;
 }
 
+/* How segments are chained: whatever their class, and at turns of up to 60 degrees. */
+static const dp_chain_rule dp_detail_rule = {
+    .sharpest = 0.5f, .gap = 0.25f, .step = 1e30f, .any_class = true};
+
+/* Has a chain as much evidence of a hard edge, px, as it needs? Or is it good all along? (hard_edges.c) */
+bool dp_is_hard(const dp_detail *detail, float hard);
+bool dp_is_good(const dp_detail *detail, float hard, float length);
+
 /* Decides which chains are drawn as hard edges, or as outlines as a whole: traits' hard, weight and
- * drawn (hard_edges.c). False when memory is out. */
-bool dp_judge_chains(dp_detail *detail);
+ * drawn (hard_edges.c). */
+void dp_judge_chains(dp_detail *detail);
 
 /* Finds what support the samples of outlines have (support.c). False when memory is out. */
 bool dp_find_support(dp_detail *detail);

@@ -22,7 +22,10 @@ dp_stroke_point dp_stroke_point_at(const dp_frame *frame, const dp_stroke *strok
  * rest. */
 float dp_outline_gap(const dp_frame *frame, const dp_stroke_point *point, float reach);
 
-/* How clearly a fold is one, 0 to 1: how sharp it is, and how far it stands out from the surface
+/* The most that dp_fold_clarity may be, whatever lies beside the fold. */
+float dp_most_clarity(const dp_stroke *stroke);
+
+/* How clearly a fold is one, 0 to 2: how sharp it is, and how far it stands out from the surface
  * around it. Where both sides bend on by as much as the fold, just beyond its polygons, it is one of
  * many by which a round or a rough surface is approximated. px per `unit`. `polygon`: those
  * that meet there; UINT32_MAX: none, or it is not seen. */
