@@ -61,9 +61,7 @@ static bool is_crease(const dp_stroke *s) {
 }
 
 /* Is it for this stage to say whether the segment is drawn? */
-static bool is_judged(const dp_stroke *s) {
-    return !s->level && (s->line == DP_LINE_SILHOUETTE || is_crease(s));
-}
+static bool is_judged(const dp_stroke *s) { return s->line == DP_LINE_SILHOUETTE || is_crease(s); }
 
 /* ------- traits ------- */
 
@@ -203,6 +201,13 @@ static float regular_or_sharp(const dp_line_trait *t, const dp_stroke *s) {
     return dp_maxf(t->regular, 0.705f * dp_smooth_step(65, 88, s->turn));
 }
 
+/* Nothing is known of the surface beside hidden lines: what is not broken into pieces is an outline. */
+static const float HIDDEN = 0.75f; /* evidence per px */
+
+static bool is_hidden_outline(const dp_stroke *s) {
+    return s->level && s->line == DP_LINE_SILHOUETTE;
+}
+
 /* Can a chain still be a hard edge, whatever the surface beside it is like? Most of a scan's cannot,
  * and that need not be looked at. */
 static void find_hope(const dp_detail *c, const dp_chain *chain) {
@@ -211,7 +216,9 @@ static void find_hope(const dp_detail *c, const dp_chain *chain) {
     for (uint32_t i = 0; i < chain->count; i++) {
         dp_line_trait *const t = &c->own->trait[links[i].segment];
         const dp_stroke *const s = &c->lines->strokes[links[i].segment];
-        t->hard = is_judged(s) ? dp_most_clarity(s) * regular_or_sharp(t, s) : 1;
+        t->hard = !is_judged(s)          ? 1
+                  : is_hidden_outline(s) ? HIDDEN
+                                         : dp_most_clarity(s) * regular_or_sharp(t, s);
         hard += t->hard * t->length, length += t->length;
     }
     if (dp_is_hard(c, hard) || dp_is_good(c, hard, length)) return;
@@ -228,8 +235,8 @@ static void look(const dp_detail *c, dp_line_sample *s) {
     const dp_stroke *const stroke = &c->lines->strokes[s->segment];
     const dp_piece *const piece = &c->lines->pieces[s->segment];
     const dp_line_trait *const trait = &c->own->trait[s->segment];
-    if (!is_judged(stroke)) {
-        s->hard = 1;
+    if (!is_judged(stroke) || stroke->level) { /* as well as it can be */
+        s->hard = trait->hard;
         return;
     }
     const bool is_outline = stroke->line == DP_LINE_SILHOUETTE;
@@ -261,7 +268,7 @@ static float share_of(const dp_line_sample *s, const dp_stroke *stroke, const dp
     static const float LEAST = 0.1f;
     if (!is_judged(stroke)) return 1;
     if (t->drawn && (is_crease(stroke) || s->hard > 0.15f)) return 1;
-    if (is_crease(stroke)) return 0;
+    if (is_crease(stroke) || stroke->level) return 0;
     const float share = dp_maxf(dp_smooth_step(8, DP_FULL_SUPPORT, s->support),
                                 t->weight * dp_smooth_step(0, 3, s->gap));
     return share < LEAST ? 0 : ceilf(16 * share) / 16;
