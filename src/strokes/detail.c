@@ -1,18 +1,19 @@
 /* What of a drawing a person would draw: exact lines of a scan or of a coarse model are true to its
- * polygons, but most of them say nothing of its shape. Works on visible segments, before ink.
+ * polygons, but most of them say nothing of its shape. Works on segments, before ink.
  *
- *     chain the segments, whatever their class
- *     traits of each: how much its fold turns, and how regular its chain is there, as that of a real
- *         edge is: it does not zigzag, and its fold turns by the same from segment to segment
+ *     chain the segments, whatever their class (chain.c)
+ *     traits of each: how regular its chain is there, as that of a real edge is: it does not zigzag,
+ *         and its fold turns by the same from segment to segment
  *     samples, one every few px of a chain: the evidence there (evidence.c)
  *         of an outline    how far it stands before what is beyond
  *         of a hard edge   how clearly the surface is folded, times how regular the chain is
- *     chains with enough evidence of a hard edge are drawn, however much they weaken on their way; so
- *         are chains between two others that are drawn, if all of their evidence is good
- *     outlines have support: the evidence of samples on one smooth curve with them, near by, as in
- *         tensor voting (Guy and Medioni 1996); so crumbs have little, and gaps and joints do not
- *         matter. Or their whole chain has enough
- *     lines are as wide as their support allows, cut where it fails
+ *     which chains are hard edges and are drawn as a whole (hard_edges.c)
+ *     what support the samples of outlines have from others near by (support.c)
+ *     draw hard edges; and outlines, as wide as their support allows, or the evidence of their whole chain;
+ *         cut where both fail
+ *
+ * Of hidden lines only the chains are known, not the surface beside them: they are drawn as a whole
+ * or not at all.
  *
  * Lengths are in px of a picture whose smaller side is 900 px, and grow with it: the same is drawn in a
  * thumbnail and on a poster. All that is decided by thresholds is a smooth step, and support changes
@@ -20,7 +21,7 @@
  *
  * Data structure: samples lie in the order of chains; a segment has the run [first, end) of them,
  * which it shares with its neighbours if it is short. Invariant: what is drawn is a part of the exact
- * drawing; borders and intersections, hidden lines and the order of segments are not touched. */
+ * drawing; borders and intersections are not touched. Nothing depends on threads. */
 #include "strokes/detail_parts.h"
 
 #include "core/spine.h"

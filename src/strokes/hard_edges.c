@@ -1,8 +1,10 @@
 /* Which chains of a drawing are hard edges, and drawn whatever they look like in places.
  *
- *     a chain has enough evidence     it is drawn, however much it weakens on its way
- *     it lies between two that are drawn, or goes on behind something, and is good all along
- *                                     it is drawn, too; again until nothing changes
+ *     it has enough evidence, or is long and regular        it is, however much it weakens on its way
+ *     it is good all along, and both its ends are held: by
+ *         others that are drawn, or as it goes on behind something      it is; again until nothing changes
+ *
+ * And how much evidence there is, all along a chain, of an outline: its weight.
  *
  * So the small parts of machines stay, which hang together, and crumbs of a scan do not.
  *
