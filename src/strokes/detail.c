@@ -1,18 +1,19 @@
 /* What of a drawing a person would draw: exact lines of a scan or of a coarse model are true to its
- * polygons, but most of them say nothing of its shape. Works on visible segments, before ink.
+ * polygons, but most of them say nothing of its shape. Works on segments, before ink.
  *
- *     chain the segments, whatever their class
- *     traits of each: how much its fold turns, and how regular its chain is there, as that of a real
- *         edge is: it does not zigzag, and its fold turns by the same from segment to segment
+ *     chain the segments, whatever their class (chain.c)
+ *     traits of each: how regular its chain is there, as that of a real edge is: it does not zigzag,
+ *         and its fold turns by the same from segment to segment
  *     samples, one every few px of a chain: the evidence there (evidence.c)
  *         of an outline    how far it stands before what is beyond
  *         of a hard edge   how clearly the surface is folded, times how regular the chain is
- *     chains with enough evidence of a hard edge are drawn, however much they weaken on their way; so
- *         are chains between two others that are drawn, if all of their evidence is good
- *     outlines have support: the evidence of samples on one smooth curve with them, near by, as in
- *         tensor voting (Guy and Medioni 1996); so crumbs have little, and gaps and joints do not
- *         matter. Or their whole chain has enough
- *     lines are as wide as their support allows, cut where it fails
+ *     which chains are hard edges and are drawn as a whole (hard_edges.c)
+ *     what support the samples of outlines have from others near by (support.c)
+ *     draw hard edges; and outlines, as wide as their support allows, or the evidence of their whole chain;
+ *         cut where both fail
+ *
+ * Of hidden lines only the chains are known, not the surface beside them: they are drawn as a whole
+ * or not at all.
  *
  * Lengths are in px of a picture whose smaller side is 900 px, and grow with it: the same is drawn in a
  * thumbnail and on a poster. All that is decided by thresholds is a smooth step, and support changes
@@ -20,7 +21,7 @@
  *
  * Data structure: samples lie in the order of chains; a segment has the run [first, end) of them,
  * which it shares with its neighbours if it is short. Invariant: what is drawn is a part of the exact
- * drawing; borders and intersections, hidden lines and the order of segments are not touched. */
+ * drawing; borders and intersections are not touched. Nothing depends on threads. */
 #include "strokes/detail_parts.h"
 
 #include "core/spine.h"
@@ -61,9 +62,7 @@ static bool is_crease(const dp_stroke *s) {
 }
 
 /* Is it for this stage to say whether the segment is drawn? */
-static bool is_judged(const dp_stroke *s) {
-    return !s->level && (s->line == DP_LINE_SILHOUETTE || is_crease(s));
-}
+static bool is_judged(const dp_stroke *s) { return s->line == DP_LINE_SILHOUETTE || is_crease(s); }
 
 /* ------- traits ------- */
 
@@ -203,6 +202,13 @@ static float regular_or_sharp(const dp_line_trait *t, const dp_stroke *s) {
     return dp_maxf(t->regular, 0.705f * dp_smooth_step(65, 88, s->turn));
 }
 
+/* Nothing is known of the surface beside hidden lines: what is not broken into pieces is an outline. */
+static const float HIDDEN = 0.75f; /* evidence per px */
+
+static bool is_hidden_outline(const dp_stroke *s) {
+    return s->level && s->line == DP_LINE_SILHOUETTE;
+}
+
 /* Can a chain still be a hard edge, whatever the surface beside it is like? Most of a scan's cannot,
  * and that need not be looked at. */
 static void find_hope(const dp_detail *c, const dp_chain *chain) {
@@ -211,7 +217,9 @@ static void find_hope(const dp_detail *c, const dp_chain *chain) {
     for (uint32_t i = 0; i < chain->count; i++) {
         dp_line_trait *const t = &c->own->trait[links[i].segment];
         const dp_stroke *const s = &c->lines->strokes[links[i].segment];
-        t->hard = is_judged(s) ? dp_most_clarity(s) * regular_or_sharp(t, s) : 1;
+        t->hard = !is_judged(s)          ? 1
+                  : is_hidden_outline(s) ? HIDDEN
+                                         : dp_most_clarity(s) * regular_or_sharp(t, s);
         hard += t->hard * t->length, length += t->length;
     }
     if (dp_is_hard(c, hard) || dp_is_good(c, hard, length)) return;
@@ -228,8 +236,8 @@ static void look(const dp_detail *c, dp_line_sample *s) {
     const dp_stroke *const stroke = &c->lines->strokes[s->segment];
     const dp_piece *const piece = &c->lines->pieces[s->segment];
     const dp_line_trait *const trait = &c->own->trait[s->segment];
-    if (!is_judged(stroke)) {
-        s->hard = 1;
+    if (!is_judged(stroke) || stroke->level) { /* as well as it can be */
+        s->hard = trait->hard;
         return;
     }
     const bool is_outline = stroke->line == DP_LINE_SILHOUETTE;
@@ -261,7 +269,7 @@ static float share_of(const dp_line_sample *s, const dp_stroke *stroke, const dp
     static const float LEAST = 0.1f;
     if (!is_judged(stroke)) return 1;
     if (t->drawn && (is_crease(stroke) || s->hard > 0.15f)) return 1;
-    if (is_crease(stroke)) return 0;
+    if (is_crease(stroke) || stroke->level) return 0;
     const float share = dp_maxf(dp_smooth_step(8, DP_FULL_SUPPORT, s->support),
                                 t->weight * dp_smooth_step(0, 3, s->gap));
     return share < LEAST ? 0 : ceilf(16 * share) / 16;

@@ -1,8 +1,10 @@
 /* Which chains of a drawing are hard edges, and drawn whatever they look like in places.
  *
- *     a chain has enough evidence     it is drawn, however much it weakens on its way
- *     it lies between two that are drawn, or goes on behind something, and is good all along
- *                                     it is drawn, too; again until nothing changes
+ *     it has enough evidence, or is long and regular        it is, however much it weakens on its way
+ *     it is good all along, and both its ends are held: by
+ *         others that are drawn, or as it goes on behind something      it is; again until nothing changes
+ *
+ * And how much evidence there is, all along a chain, of an outline: its weight.
  *
  * So the small parts of machines stay, which hang together, and crumbs of a scan do not.
  *
@@ -62,7 +64,10 @@ static bool is_held(const dp_detail *c, const dp_link *link, bool last) {
     const uint32_t end = 2 * link->segment + (link->reversed != last),
                    chain = c->own->trait[link->segment].chain;
     const dp_line_end why = c->lines->segments[link->segment].end[end & 1];
-    if (why == DP_END_HIDDEN || why == DP_END_PICTURE) return true;
+    /* a hidden line that ends so becomes visible there, or has another level: crumbs do, too */
+    const dp_stroke *const s = &c->lines->strokes[link->segment];
+    if (why == DP_END_HIDDEN && (!s->level || s->turn > 60)) return true;
+    if (why == DP_END_PICTURE) return true;
     uint32_t e =
         dp_first_end_at(&c->own->chains, c->lines->strokes, c->count, &dp_detail_rule, end);
     for (; e != UINT32_MAX; e = dp_next_end_at(&c->own->chains, e)) {
