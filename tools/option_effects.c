@@ -31,6 +31,9 @@ static bool has_ridges(const tool_settings *s) {
     return has_class(s, has_quads(s) ? DP_RIDGE | DP_BORDER : DP_RIDGE);
 }
 static bool has_valleys(const tool_settings *s) { return has_class(s, DP_VALLEY); }
+static bool has_outlines_or_creases(const tool_settings *s) {
+    return has_class(s, DP_SIL_RIDGE_VALLEY);
+}
 
 static bool has_hidden(const tool_settings *s) {
     return s->hidden ? s->hidden != HIDDEN_NONE : s->sheet.count > 0;
@@ -108,6 +111,8 @@ static const rule drawing_rules[] = {
      "levels|hidden-smooth|hidden-width|hidden-color|ink|method|between|edge-table",
      has_lines, "no lines are drawn; leave out --lines none"},
     {"detail", has_pens, "with --ink quads the added polygons are the lines; leave it out"},
+    {"detail", has_outlines_or_creases,
+     "borders and intersections are all drawn; add others to --lines"},
     {"smooth-what", has_smooth, "nothing is smoothed; add --smooth auto"},
     {"ridge-angle", has_ridges, "no ridges are drawn; add them to --lines"},
     {"valley-angle", has_valleys, "no valleys are drawn; add them to --lines"},

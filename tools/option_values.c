@@ -72,9 +72,8 @@ static bool store_number(const option *o, const char *value, double *to) {
         return wrong_usage("--%s: \"%s\" is not a number; give one like 1.5", o->name, value);
     const bool inside = o->kind == OPTION_INSIDE;
     if (inside ? number <= o->least || number >= o->most : number < o->least || number > o->most)
-        return wrong_usage("--%s: %s is out of range; give a number %s %g and %s %g", o->name,
-                           value, inside ? "above" : "between", o->least, inside ? "below" : "",
-                           o->most);
+        return wrong_usage("--%s: %s is out of range; give a number %s %g and %s%g", o->name, value,
+                           inside ? "above" : "between", o->least, inside ? "below " : "", o->most);
     *to = number;
     return true;
 }

@@ -4,7 +4,7 @@
 
 look_tests="weights weights_of_sizes weights_on_paper shares_of_the_picture wrong_shares
     colors_by_name colors_with_alpha wrong_colors options_without_effect options_with_effect presets_change_nothing_unasked
-    angles_that_overlap lengths_of_strokes gaps_and_paths presets_of_sizes technical"
+    angles_that_overlap detail wrong_details detail_and_outputs lengths_of_strokes gaps_and_paths presets_of_sizes technical"
 
 # weights_of TRACE: the classes of a trace with their widths, in order: "border 3 silhouette 3 ...".
 weights_of() {
@@ -139,6 +139,10 @@ effects() {
 --edge-table off | --ink quads || only emergent strokes have that table
 --width 5 | --edges map | --edges both | --edges both adds them
 --color red | --lines none || leave out --lines none
+--detail 0.05 | --ink quads | --ink strokes | with --ink quads the added polygons are the lines
+--detail exact | --lines border,intersection | --lines silhouette,border | borders and intersections are all drawn
+--detail 2 | --edges none | --edges both | --edges both adds them
+--detail 2 | --lines none || leave out --lines none
 --ridge-angle 80 | --lines silhouette || add them to --lines
 --valley-angle 300 | --lines ridge || add them to --lines
 --levels 3 | --hidden none | --hidden dashed --hidden-color :2=red | add --hidden dashed
@@ -272,6 +276,73 @@ lengths_of_strokes() {
     run 0 shape:cube $small --stroke pencil --taper 0 -o none.png
     cmp -s usual.png none.png && fail "--taper 0 leaves the pencil's taper"
     wrong shape:cube -o out.png --taper 1km -- 'is not a length; give pixels like 2.5, or 0.5mm or 1pt, or 0.2%'
+}
+
+# segments_of ARGUMENTS...: of a terrain's drawing.
+segments_of() {
+    run 0 shape:terrain:5000 --size 240x180 "$@" -q -o trace=segments.txt
+    sed -n 's/^end .* strokes \([0-9]*\) segments$/\1/p' segments.txt
+}
+# What is drawn of a rough model: everything, what a person would draw, finer, coarser.
+detail() {
+    local value before=0 count
+    for value in 0.2 0.5 1 3; do
+        count=$(segments_of --detail $value)
+        [ "$count" -gt "$before" ] || fail "--detail $value: $count segments, not more than $before"
+        before=$count
+    done
+    [ "$(segments_of --detail exact)" -ge "$before" ] || fail "--detail exact has less than 3"
+    segments_of --detail exact --lines border >all.txt
+    segments_of --detail 0.01 --lines border >few.txt
+    cmp -s all.txt few.txt || fail "borders are left out"
+    for value in '' '--detail=1' '--detail 1.0'; do
+        # shellcheck disable=SC2086
+        segments_of $value >count.txt
+        mv segments.txt "other$value.txt"
+        segments_of --detail auto >count.txt
+        cmp -s segments.txt "other$value.txt" || fail "the default is not auto, or \"$value\" is not"
+    done
+    run 0 shape:bracket $small --detail auto -o auto.png
+    run 0 shape:bracket $small -o usual.png
+    cmp -s auto.png usual.png || fail "auto is not the default of pictures"
+    run 0 bench shape:terrain:5000 $small --detail 0.5 --frames 1
+    silent err
+    for preset in technical pencil patent; do
+        run 0 shape:terrain:2000 $small --preset $preset -q -o few.png
+        run 0 shape:terrain:2000 $small --preset $preset --detail exact -q -o all.png
+        cmp -s few.png all.png && fail "--detail changes nothing beside --preset $preset"
+    done
+}
+wrong_details() {
+    local value
+    for value in fine Exact 'auto ' nan inf; do
+        wrong shape:cube -o out.png --detail "$value" -- "--detail: \"$value\" is neither exact nor auto nor a number like 0.5"
+    done
+    for value in 0 -1 0.001 1000 100.5; do
+        wrong shape:cube -o out.png --detail=$value -- "--detail: $value is out of range; give a number between 0.01 and 100"
+    done
+    for value in 2x 1e ''; do wrong shape:cube -o out.png --detail "$value" -- '--detail: '; done
+    wrong shape:cube -o out.png --detail -- '--detail'
+    wrong make cube -o out.ply --detail 1 -- '--detail'
+}
+# Every kind of output, the same for any number of threads; streamed, in a pipe.
+detail_and_outputs() {
+    local kind threads
+    run 0 make terrain --triangles 5000 -o t.stl
+    for threads in 1 2 7; do
+        for kind in png svg pdf eps dxf json; do
+            run 0 t.stl --size 320x240 --hidden dashed -q --threads $threads -o $threads.$kind
+            cmp -s 1.$kind $threads.$kind || fail "$kind: $threads threads differ from one"
+        done
+    done
+    run 0 t.stl --size 320x240 --hidden dashed -q --detail exact -o all.svg
+    [ "$(stat -c %s 1.svg)" -lt "$(stat -c %s all.svg)" ] || fail "an SVG has all lines"
+    "$program" - --size 320x240 --hidden dashed -q -o trace=piped.txt <t.stl || fail "in a pipe"
+    run 0 t.stl --size 320x240 --hidden dashed -q -o trace=file.txt
+    cmp -s file.txt piped.txt || fail "a pipe's drawing is another"
+    run 0 t.stl --sheet front,iso --dpi 60 -q -o sheet.svg
+    run 0 t.stl --sheet front,iso --dpi 60 -q --detail exact -o all.svg
+    cmp -s sheet.svg all.svg && fail "a sheet has all lines"
 }
 
 # Textures with gaps are chained only when paths are asked for, after the picture.

@@ -124,8 +124,7 @@ static inline bool same_segment(const dp_segment *a, const dp_segment *b) {
 }
 
 static inline void expect_same_lines(const found_lines *a, const found_lines *b, const char *what) {
-    if (a->count != b->count)
-        fail_msg("%s: %zu segments, not %zu", what, b->count, a->count);
+    if (a->count != b->count) fail_msg("%s: %zu segments, not %zu", what, b->count, a->count);
     for (size_t i = 0; i < a->count; i++)
         if (!same_segment(&a->segments[i], &b->segments[i]))
             fail_msg("%s: segment %zu differs", what, i);

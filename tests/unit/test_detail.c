@@ -41,7 +41,8 @@ static found_lines draw(dp_source *source, const dp_camera *camera, uint32_t sid
 /* ------- what may be asked for ------- */
 
 static void values_out_of_range_are_refused(void **state) {
-    static const float wrong[] = {-1, -0.5f, 0.001f, 0.00999f, 100.5f, 1000, INFINITY, -INFINITY, NAN},
+    static const float wrong[] = {-1,   -0.5f,    0.001f,    0.00999f, 100.5f,
+                                  1000, INFINITY, -INFINITY, NAN},
                        right[] = {0, 0.01f, 0.5f, 1, 2, 100};
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -132,7 +133,8 @@ static void a_rough_ball_keeps_its_outline_alone(void **state) {
 }
 
 static void a_rough_terrain_keeps_crests_and_borders(void **state) {
-    rough_model m = make_rough("terrain", 20000, 0.006f, true), smooth = make_rough("terrain", 20000, 0, true);
+    rough_model m = make_rough("terrain", 20000, 0.006f, true),
+                smooth = make_rough("terrain", 20000, 0, true);
     const dp_camera camera = view_of(smooth.source, oblique, false, 1);
     (void)state;
     found_lines all = draw(m.source, &camera, 900, 0), few = draw(m.source, &camera, 900, 1),
@@ -151,7 +153,8 @@ static void a_rough_terrain_keeps_crests_and_borders(void **state) {
 
 /* Folds, borders and intersections of machine parts, by length and class. */
 static void parts_lose_nothing(void **state) {
-    static const char *const names[] = {"cube", "tetrahedron", "cylinder", "bracket", "stairs", "boxes"};
+    static const char *const names[] = {"cube",    "tetrahedron", "cylinder",
+                                        "bracket", "stairs",      "boxes"};
     (void)state;
     for (size_t n = 0; n < sizeof names / sizeof *names; n++)
         for (int side = 200; side <= SIDE_MAX; side += 250)
@@ -161,7 +164,8 @@ static void parts_lose_nothing(void **state) {
                 found_lines all = draw(m.source, &camera, (uint32_t)side, 0),
                             few = draw(m.source, &camera, (uint32_t)side, 1);
                 for (int line = 0; line < CLASSES; line++) {
-                    const double was = length_at(&all, 1u << line, 0), is = length_at(&few, 1u << line, 0);
+                    const double was = length_at(&all, 1u << line, 0),
+                                 is = length_at(&few, 1u << line, 0);
                     if (is < 0.99 * was)
                         fail_msg("%s, %d px, %s: %.1f px of %.1f", names[n], side,
                                  dp_line_name((dp_line)line), is, was);
@@ -176,9 +180,10 @@ static void parts_lose_nothing(void **state) {
 /* Where between the ends of `all` a point lies, by the screen; NaN where it is off by more than a tenth of
  * a pixel. */
 static double share_on(const dp_segment *all, const float point[3]) {
-    const double x = (double)all->b[0] - (double)all->a[0], y = (double)all->b[1] - (double)all->a[1],
-                 dx = (double)point[0] - (double)all->a[0], dy = (double)point[1] - (double)all->a[1],
-                 square = x * x + y * y;
+    const double x = (double)all->b[0] - (double)all->a[0],
+                 y = (double)all->b[1] - (double)all->a[1],
+                 dx = (double)point[0] - (double)all->a[0],
+                 dy = (double)point[1] - (double)all->a[1], square = x * x + y * y;
     if (square <= 0) return hypot(dx, dy) < 0.1 ? 0 : NAN;
     const double t = (x * dx + y * dy) / square;
     return fabs(x * dy - y * dx) / sqrt(square) < 0.1 ? t : NAN;
@@ -210,8 +215,7 @@ static void check_end(const dp_segment *part, const dp_segment *all, int end) {
     assert_true(part->hider[end] == UINT64_MAX);
     double away = 0, size = 0;
     const double far = (double)all->b[2] - (double)all->a[2];
-    for (int k = 0; k < 3; k++)
-        size = fmax(size, fabs(all->world_b[k] - all->world_a[k]));
+    for (int k = 0; k < 3; k++) size = fmax(size, fabs(all->world_b[k] - all->world_a[k]));
     if (fabs(far) < 0.2 * size) return; /* nothing to be told by distances */
     const double t = ((double)p[2] - (double)all->a[2]) / far;
     for (int k = 0; k < 3; k++)
@@ -248,7 +252,8 @@ static void check_parts(const found_lines *all, const found_lines *few, const ch
             if (!lies_on_hidden(part, all)) other += length_of(part);
             continue;
         }
-        for (; tries < all->count && !is_part(part, &all->segments[(at + tries) % all->count]);) tries++;
+        for (; tries < all->count && !is_part(part, &all->segments[(at + tries) % all->count]);)
+            tries++;
         if (tries == all->count)
             fail_msg("%s: segment %zu, %s of polygon %llu, lies on no exact one", what, i,
                      dp_line_name(part->line), (unsigned long long)part->polygon);
@@ -264,15 +269,17 @@ static void lines_are_parts_of_exact_ones(void **state) {
         const char *name;
         uint64_t triangles;
         float noise;
-    } models[] = {{"sphere", 2000, 0.05f}, {"terrain", 3000, 0}, {"terrain", 3000, 0.01f}, {"gear", 0, 0},
-                  {"boxes", 0, 0}, {"bolt", 0, 0.002f}, {"torus", 500, 0.02f}, {"stairs", 0, 0}};
+    } models[] = {{"sphere", 2000, 0.05f}, {"terrain", 3000, 0}, {"terrain", 3000, 0.01f},
+                  {"gear", 0, 0},          {"boxes", 0, 0},      {"bolt", 0, 0.002f},
+                  {"torus", 500, 0.02f},   {"stairs", 0, 0}};
     (void)state;
     for (size_t i = 0; i < sizeof models / sizeof *models; i++)
         for (int way = 0; way < 4; way++) {
             char what[100];
             rough_model m = make_rough(models[i].name, models[i].triangles, models[i].noise, false);
             const dp_camera camera = view_of(m.source, way % 2 ? oblique : askew, way % 2, 1.5);
-            const dp_hidden hidden = {.look = way > 1 ? DP_HIDDEN_THIN : DP_HIDDEN_NONE, .levels = 3};
+            const dp_hidden hidden = {.look = way > 1 ? DP_HIDDEN_THIN : DP_HIDDEN_NONE,
+                                      .levels = 3};
             dp_style style = {.hidden = hidden, .exact_ends = way > 1};
             found_lines all = draw_style(m.source, &camera, 600, 400, &style);
             for (int finer = 0; finer < 3; finer++) {
@@ -334,7 +341,8 @@ static void sizes_of_a_picture_look_alike(void **state) {
     const dp_camera camera = view_of(m.source, oblique, false, 1);
     (void)state;
     found_lines small = draw(m.source, &camera, 600, 1), large = draw(m.source, &camera, 1200, 1);
-    const double a = 2 * length_at(&small, DP_SILHOUETTE, 0), b = length_at(&large, DP_SILHOUETTE, 0);
+    const double a = 2 * length_at(&small, DP_SILHOUETTE, 0),
+                 b = length_at(&large, DP_SILHOUETTE, 0);
     assert_true(fabs(a - b) < 0.1 * b);
     free_lines(&small), free_lines(&large);
     free_rough(&m);
@@ -376,7 +384,8 @@ static void far_and_near_models(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof heights / sizeof *heights; i++)
         for (int perspective = 0; perspective < 2; perspective++) {
-            const double eye[3] = {0, 0, heights[i] / 2 + 0.001}, target[3] = {0, 0, -1}, up[3] = {0, 1, 0};
+            const double eye[3] = {0, 0, heights[i] / 2 + 0.001}, target[3] = {0, 0, -1},
+                         up[3] = {0, 1, 0};
             dp_camera camera;
             assert_int_equal(dp_camera_look_at(&camera, eye, target, up), DP_OK);
             if (perspective)
@@ -396,10 +405,15 @@ static void far_and_near_models(void **state) {
 static void edges_that_are_points(void **state) {
     static const float prism[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                       {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-    static const uint32_t faces[] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7},
+    static const uint32_t faces[] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4,
+                                     1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7},
                           firsts[] = {0, 4, 8, 12, 16, 20, 24};
-    const dp_batch batch = {.positions = &prism[0][0], .vertex_count = 8, .indices = faces, .corner_count = 24,
-                            .firsts = firsts, .polygon_count = 6};
+    const dp_batch batch = {.positions = &prism[0][0],
+                            .vertex_count = 8,
+                            .indices = faces,
+                            .corner_count = 24,
+                            .firsts = firsts,
+                            .polygon_count = 6};
     dp_source *source = NULL;
     (void)state;
     assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);

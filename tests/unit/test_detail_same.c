@@ -26,8 +26,8 @@ static dp_context *new_context(uint32_t threads, size_t limit) {
     return context;
 }
 
-static found_lines draw(dp_context *context, dp_source *source, const dp_style *style, uint32_t samples,
-                        uint8_t *rgba) {
+static found_lines draw(dp_context *context, dp_source *source, const dp_style *style,
+                        uint32_t samples, uint8_t *rgba) {
     const dp_camera camera = view_of(source, oblique, samples == 16, (double)WIDTH / HEIGHT);
     const dp_target target = {.width = WIDTH, .height = HEIGHT, .samples = samples, .rgba = rgba};
     dp_diag diag = {0};
@@ -53,7 +53,10 @@ static const struct {
     {"adjacency", {.detail = 1, .edges = DP_EDGES_ADJACENCY}, 4, 0},
     {"stylized", {.detail = 1, .stroke = {.taper = 8, .jitter = 1}}, 4, 0},
     {"shaded", {.detail = 1, .shade = {.shading = DP_SHADING_GOOCH}}, 4, 0},
-    {"mirror", {.detail = 1, .mirror = {.normal = {0, 1, 0}, .offset = -1.1f, .size = 4, .fade = 2}}, 4, 0},
+    {"mirror",
+     {.detail = 1, .mirror = {.normal = {0, 1, 0}, .offset = -1.1f, .size = 4, .fade = 2}},
+     4,
+     0},
     {"smooth", {.detail = 1, .smooth = DP_SMOOTH_SURFACE, .smooth_level = 2}, 4, 0},
     {"streamed", {.detail = 1}, 4, 1},
     {"streamed once", {.detail = 1, .passes = 1}, 4, 1},
@@ -64,7 +67,8 @@ static const struct {
     const char *name;
     uint64_t triangles;
     float noise;
-} models[] = {{"sphere", 4000, 0.02f}, {"terrain", 6000, 0.004f}, {"gear", 2000, 0}, {"boxes", 0, 0}};
+} models[] = {
+    {"sphere", 4000, 0.02f}, {"terrain", 6000, 0.004f}, {"gear", 2000, 0}, {"boxes", 0, 0}};
 enum { MODELS = sizeof models / sizeof *models };
 
 static void expect_same(const found_lines *a, found_lines *b, const char *what) {
@@ -83,9 +87,11 @@ static void threads_and_frames(void **state) {
             for (int t = 0; t < 3; t++) {
                 dp_context *const context = new_context(counts[t], ways[w].limit);
                 if (t == 0)
-                    expected = draw(context, model.source, &ways[w].style, ways[w].samples, first_rgba);
+                    expected =
+                        draw(context, model.source, &ways[w].style, ways[w].samples, first_rgba);
                 for (int frame = 0; frame < 2; frame++) {
-                    found_lines f = draw(context, model.source, &ways[w].style, ways[w].samples, other_rgba);
+                    found_lines f =
+                        draw(context, model.source, &ways[w].style, ways[w].samples, other_rgba);
                     expect_same(&expected, &f, ways[w].name);
                 }
                 dp_context_destroy(context);
@@ -257,7 +263,9 @@ typedef struct meter {
     atomic_long calls, fail_at, live;
 } meter;
 
-static bool fails(meter *m) { return atomic_fetch_add(&m->calls, 1) + 1 == atomic_load(&m->fail_at); }
+static bool fails(meter *m) {
+    return atomic_fetch_add(&m->calls, 1) + 1 == atomic_load(&m->fail_at);
+}
 
 static void *meter_alloc(size_t size, void *user) {
     meter *const m = user;
@@ -322,15 +330,18 @@ static void later_frames_allocate_nothing(void **state) {
     (void)state;
     for (size_t k = 0; k < MODELS; k++)
         for (size_t w = 0; w < WAYS; w++) {
-            if (ways[w].limit || ways[w].style.mirror.size > 0 || ways[w].style.shade.shading || ways[w].style.smooth)
+            if (ways[w].limit || ways[w].style.mirror.size > 0 || ways[w].style.shade.shading ||
+                ways[w].style.smooth)
                 continue; /* whose sources or normals come and go */
             meter m = {0};
             dp_allocator allocator;
-            rough_model model = make_rough(models[k].name, models[k].triangles, models[k].noise, false);
+            rough_model model =
+                make_rough(models[k].name, models[k].triangles, models[k].noise, false);
             dp_context *const context = metered_context(&m, &allocator, 1);
             long calls[3];
             for (int frame = 0; frame < 3; frame++) {
-                found_lines f = draw(context, model.source, &ways[w].style, ways[w].samples, first_rgba);
+                found_lines f =
+                    draw(context, model.source, &ways[w].style, ways[w].samples, first_rgba);
                 free_lines(&f);
                 calls[frame] = atomic_load(&m.calls);
             }

@@ -169,6 +169,8 @@ static void lines_and_quads(void **state) {
     (void)state;
     draw("strokes", NULL);
     draw("no lines", &(dp_style){.lines = DP_NO_LINES});
+    draw("cleaned", &(dp_style){.detail = 1});
+    draw("cleaned, finely", &(dp_style){.detail = 100, .hidden = {.look = DP_HIDDEN_DASHED}});
     draw("without the edge table", &(dp_style){.edge_table_off = true});
     for (int between = DP_BETWEEN_PLANE; between <= DP_BETWEEN_STENCIL; between++)
         for (int method = DP_METHOD_EXACT; method <= DP_METHOD_PAPER; method++)
@@ -398,6 +400,8 @@ static void drawings_that_fail(void **state) {
         size_t limit;
     } list[] = {{"strokes", {.passes = 0}, 0},
                 {"streamed", {.passes = 0}, 1},
+                {"cleaned", {.detail = 1}, 0},
+                {"cleaned, streamed", {.detail = 1}, 1},
                 {"adjacency", {.edges = DP_EDGES_ADJACENCY}, 0},
                 {"pencil", {.shade = {.shading = DP_SHADING_PENCIL}}, 0},
                 {"mirror, Gooch", {.mirror = mirror, .shade = {.shading = DP_SHADING_GOOCH}}, 0}};
