@@ -266,7 +266,7 @@ static void look_block(void *arg, uint32_t index, uint32_t worker) {
 
 /* The share of its width that a sample's line has, in sixteenths: equal neighbours stay one. */
 static float share_of(const dp_line_sample *s, const dp_stroke *stroke, const dp_line_trait *t) {
-    static const float LEAST = 0.1f;
+    static const float LEAST = 0.3f;
     if (!is_judged(stroke)) return 1;
     if (t->drawn && (is_crease(stroke) || s->hard > 0.15f)) return 1;
     if (is_crease(stroke) || stroke->level) return 0;
