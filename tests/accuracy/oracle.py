@@ -202,7 +202,7 @@ def draw_command(options, case, picture):
         "--samples", str(options.samples), "--eye=" + ",".join(eye),
         "--target=" + ",".join(target), "--up", "0,1,0", "--fov", fov,
         "--lines", CLASSES[case.cls][0], "--width", "%g" % case.width,
-        "--ridge-angle", str(case.theta), "--valley-angle", str(case.phi), "--ink", options.ink,
+        "--detail", "exact", "--ridge-angle", str(case.theta), "--valley-angle", str(case.phi), "--ink", options.ink,
         "--method", options.method, "--edges", options.edges, "--quiet"]
     if case.method != "emergent":
         command += shlex.split(METHODS[case.method] + MAP_PARTS[case.cls])

@@ -22,6 +22,7 @@ static float coordinate(uint8_t b) {
 }
 
 static dp_style style_of(const uint8_t *b) {
+    static const float details[] = {0, 0.01f, 0.3f, 1, 3, 100};
     dp_style s = {.lines = b[0] & DP_ALL_LINES ? b[0] & DP_ALL_LINES : DP_ALL_LINES,
                   .ridge_angle = 1 + (float)b[1] * 1.4f,
                   .valley_angle = 1 + (float)b[2] * 1.4f,
@@ -30,7 +31,11 @@ static dp_style style_of(const uint8_t *b) {
                   .ink = b[3] & 8 ? DP_INK_QUADS : DP_INK_STROKES,
                   .surface = b[3] & 16 ? DP_COLOR_NONE : 0,
                   .cull_back_faces = b[3] & 32,
-                  .edge_table_off = b[3] & 64};
+                  .edge_table_off = b[3] & 64,
+                  .detail = details[b[6] % 6],
+                  .hidden = {.look = b[7] & 1 ? DP_HIDDEN_DASHED : DP_HIDDEN_NONE, .levels = 2},
+                  .exact_ends = b[7] & 2,
+                  .stroke = {.taper = b[7] & 4 ? 3 : 0}};
     for (int i = 0; i < DP_LINE_COUNT; i++) s.line[i].width = 0.5f + (float)(b[4] % 64);
     return s;
 }

@@ -1,4 +1,6 @@
 /* dp_style.detail: what is left out of a drawing, and what never is. */
+#include "base/hostile.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -7,7 +9,8 @@
 
 #include "rough.h"
 
-enum { SIDE_MAX = 1200, CLASSES = DP_LINE_COUNT };
+/* Pictures up to LARGE; smaller ones where tiny tiles make all of them dear. */
+enum { SIDE_MAX = 1200, LARGE = DP_TUNED(SIDE_MAX, 300), CLASSES = DP_LINE_COUNT };
 
 static const uint32_t creases = DP_RIDGE | DP_VALLEY;
 static const double oblique[3] = {1, 0.7, 1.4}, askew[3] = {0.31, 0.23, 0.92};
@@ -115,7 +118,7 @@ static void a_rough_ball_keeps_its_outline_alone(void **state) {
     rough_model m = make_rough("sphere", 80000, 0.006f, false);
     (void)state;
     for (int orthographic = 0; orthographic < 2; orthographic++)
-        for (int side = 300; side <= SIDE_MAX; side += 450) {
+        for (int side = 300; side <= LARGE; side += 450) {
             const dp_camera camera = view_of(m.source, askew, orthographic, 1);
             found_lines all = draw(m.source, &camera, (uint32_t)side, 0),
                         few = draw(m.source, &camera, (uint32_t)side, 1);
@@ -157,7 +160,7 @@ static void parts_lose_nothing(void **state) {
                                         "bracket", "stairs",      "boxes"};
     (void)state;
     for (size_t n = 0; n < sizeof names / sizeof *names; n++)
-        for (int side = 200; side <= SIDE_MAX; side += 250)
+        for (int side = 200; side <= LARGE; side += 250)
             for (int flat = 0; flat < 2; flat++) {
                 rough_model m = make_rough(names[n], 0, 0, false);
                 const dp_camera camera = view_of(m.source, askew, flat, 1);
