@@ -92,6 +92,9 @@ standard_input() {
     cat b.stl | "$program" - $small -o - >piped.png || fail "piped"
     cmp -s file.png redirected.png || fail "standard input from a file differs"
     cmp -s file.png piped.png || fail "standard input from a pipe differs"
+    run 0 b.stl --size 640x480 --azimuth 70 --detail exact -o file.png
+    cat b.stl | "$program" - --size 640x480 --azimuth 70 --detail exact -o - >piped.png || fail "piped"
+    cmp -s file.png piped.png || fail "triangles from a pipe are drawn as polygons"
 }
 # A file that does not fit is read twice, in parts: the picture is the same.
 streamed() {
