@@ -34,7 +34,7 @@ build_instruments() {
 # Sets `options`: what is compared.
 choose_options() {
     local default=
-    ! "$program" --help | grep -q -e '--detail' || default='--detail exact;--detail auto'
+    ! "$program" --help all | grep -q -e '--detail' || default='--detail exact;--detail auto'
     IFS=';' read -ra options <<<"${OPTIONS-$default}"
     [ ${#options[@]} -gt 0 ] || options=('')
 }

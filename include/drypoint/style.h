@@ -143,10 +143,10 @@ typedef struct dp_style {
      * points a quarter of a pixel apart; and what is a line on a closed surface is decided as finely
      * (docs/lines.md). Of the first style; not where the source is streamed. */
     bool exact_ends;
-    /* Strokes: how much of the drawing of a scan, or of a coarse model, is drawn (docs/clean-lines.md). 0: all
-     * of it, as exact as the polygons are. 1: what a person would draw at this size; 2: twice as fine;
-     * 0.5: half as fine; 0.01 to 100. Lines are dropped, cut and thinned, never moved; borders,
-     * intersections and hidden lines are all drawn. Of the first style. */
+    /* Strokes: how much is drawn of a scan, or of a coarse model (docs/clean-lines.md). 0: all lines, as
+     * exact as the polygons are. 1: what a person would draw at this size; 2: twice as fine; 0.5: half
+     * as fine; 0.01 to 100. Lines are left out, cut and thinned, never moved; borders and intersections
+     * are all drawn. Of the first style. */
     float detail;
     bool edge_table_off;  /* strokes: do not resolve edges in the tile's table; all lines emerge */
     dp_shade shade;       /* shading of surfaces */

@@ -40,7 +40,8 @@ typedef struct chaining {
     const dp_chain_rule *rule;
     uint32_t count;
     uint32_t *slots, *next, *partner,
-        *visited; /* slots: 1 + first end of a node; next: of the node, or NONE */
+        *visited;             /* slots: 1 + first end of a node; next: of the node, or NONE */
+    uint32_t *cells, *beside; /* the same of cells */
     size_t slot_count;
 } chaining;
 
@@ -52,8 +53,8 @@ static dp_point end_point(const chaining *c, uint32_t end) {
 static bool same_node(const chaining *c, uint32_t e, uint32_t f) {
     const dp_point p = end_point(c, e), q = end_point(c, f);
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
-    return p.x == q.x && p.y == q.y && p.d == q.d && s->line == t->line && s->level == t->level &&
-           s->color == t->color;
+    return p.x == q.x && p.y == q.y && p.d == q.d && s->level == t->level &&
+           (c->rule->any_class || (s->line == t->line && s->color == t->color));
 }
 
 static uint32_t node_hash(const chaining *c, uint32_t end) {
@@ -61,17 +62,22 @@ static uint32_t node_hash(const chaining *c, uint32_t end) {
     uint32_t bits[3];
     memcpy(bits, &p, sizeof bits);
     uint32_t h = bits[0] * 0x9e3779b1u ^ bits[1] * 0x85ebca77u ^ bits[2] * 0xc2b2ae3du ^
-                 c->strokes[end / 2].line;
+                 (c->rule->any_class ? 0 : c->strokes[end / 2].line);
     h ^= h >> 15, h *= 0x2c1b3c6du;
     return h ^ h >> 13;
+}
+
+static size_t node_slot(const chaining *c, uint32_t end) {
+    size_t s = node_hash(c, end) & (c->slot_count - 1);
+    while (c->slots[s] && !same_node(c, c->slots[s] - 1, end)) s = (s + 1) & (c->slot_count - 1);
+    return s;
 }
 
 /* Ends into lists by node, each in ascending order. */
 static void find_nodes(const chaining *c) {
     memset(c->slots, 0, c->slot_count * sizeof *c->slots);
     for (uint32_t i = 2 * c->count; i-- > 0;) {
-        size_t s = node_hash(c, i) & (c->slot_count - 1);
-        while (c->slots[s] && !same_node(c, c->slots[s] - 1, i)) s = (s + 1) & (c->slot_count - 1);
+        const size_t s = node_slot(c, i);
         c->next[i] = c->slots[s] ? c->slots[s] - 1 : NONE;
         c->slots[s] = i + 1;
         c->partner[i] = NONE;
@@ -135,12 +141,12 @@ static int32_t cell_of(const chaining *c, float px) { return (int32_t)floorf(px 
 
 /* Open ends into lists by grid cell; cells that share a slot share a list. */
 static void find_cells(const chaining *c) {
-    memset(c->slots, 0, c->slot_count * sizeof *c->slots);
+    memset(c->cells, 0, c->slot_count * sizeof *c->cells);
     for (uint32_t i = 2 * c->count; i-- > 0;) {
         if (c->partner[i] != NONE) continue;
         const dp_point p = end_point(c, i);
-        uint32_t *const slot = &c->slots[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
-        c->next[i] = *slot ? *slot - 1 : NONE;
+        uint32_t *const slot = &c->cells[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
+        c->beside[i] = *slot ? *slot - 1 : NONE;
         *slot = i + 1;
     }
 }
@@ -150,8 +156,9 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
     const dp_point p = end_point(c, e), q = end_point(c, f);
     *distance = dp_hypotf(q.x - p.x, q.y - p.y);
     return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) &&
-           fabsf(p.d - q.d) <= c->rule->step && s->line == t->line && s->level == t->level &&
-           s->color == t->color && may_join(c, e, f);
+           fabsf(p.d - q.d) <= c->rule->step && s->level == t->level &&
+           (c->rule->any_class || (s->line == t->line && s->color == t->color)) &&
+           may_join(c, e, f);
 }
 
 static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory,
@@ -159,8 +166,8 @@ static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *mem
     const dp_point p = end_point(c, e);
     const int32_t x = cell_of(c, p.x), y = cell_of(c, p.y);
     for (int32_t k = 0; k < 9; k++) {
-        const uint32_t head = c->slots[cell_slot(c, x + k % 3 - 1, y + k / 3 - 1)];
-        for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->next[f]) {
+        const uint32_t head = c->cells[cell_slot(c, x + k % 3 - 1, y + k / 3 - 1)];
+        for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->beside[f]) {
             float distance;
             if (f <= e || !may_bridge(c, e, f, &distance)) continue;
             if (!dp_reserve(memory, &store->bridges, &store->bridges_cap, *n + 1,
@@ -233,14 +240,17 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
     chaining c = {.strokes = strokes, .rule = rule, .count = count, .slot_count = 64};
     while (c.slot_count < 4 * (size_t)count) c.slot_count *= 2;
     store->chain_count = 0;
-    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap, c.slot_count + 5 * (size_t)count,
-                    sizeof(uint32_t)) ||
+    store->slot_count = c.slot_count;
+    const size_t cells = rule->gap > 0 ? c.slot_count + 2 * (size_t)count : 0;
+    if (!dp_reserve(memory, &store->scratch, &store->scratch_cap,
+                    c.slot_count + 5 * (size_t)count + cells, sizeof(uint32_t)) ||
         !dp_reserve(memory, &store->links, &store->links_cap, count, sizeof *store->links) ||
         !dp_reserve(memory, &store->chains, &store->chains_cap, count, sizeof *store->chains))
         return false;
     c.slots = store->scratch, c.next = c.slots + c.slot_count,
     c.partner = c.next + 2 * (size_t)count;
     c.visited = c.partner + 2 * (size_t)count;
+    c.cells = c.visited + count, c.beside = c.cells + c.slot_count;
     if (count) memset(c.visited, 0, count * sizeof *c.visited);
     find_nodes(&c);
     for (size_t s = 0; s < c.slot_count; s++)
@@ -254,4 +264,14 @@ bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rul
         walk(&c, find_start(&c, i, &chain->closed), store, chain, &links);
     }
     return true;
+}
+
+uint32_t dp_first_end_at(const dp_chain_store *store, const dp_stroke *strokes, uint32_t count,
+                         const dp_chain_rule *rule, uint32_t end) {
+    const chaining c = {.strokes = strokes,
+                        .rule = rule,
+                        .count = count,
+                        .slots = store->scratch,
+                        .slot_count = store->slot_count};
+    return c.slots[node_slot(&c, end)] - 1;
 }

@@ -21,6 +21,7 @@ typedef struct dp_chain_store {
     uint32_t *scratch;         /* slots, ends by node, partners */
     struct dp_bridge *bridges; /* chain.c */
     size_t links_cap, chains_cap, scratch_cap, bridges_cap;
+    size_t slot_count;
     uint32_t chain_count;
 } dp_chain_store;
 
@@ -31,6 +32,7 @@ typedef struct dp_chain_rule {
                   of holes */
     float side_gap;     /* the same for segments with a side, at most `gap` */
     float step;         /* as far in depth d as that, at most */
+    bool any_class;     /* segments of all classes and colours are joined */
     const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must
                            stay on one side of a chain. 0: it has none. All of a class have one, or
                            none has. NULL: none at all */
@@ -41,6 +43,15 @@ typedef struct dp_chain_rule {
  * first segments. False when memory is out. */
 bool dp_make_chains(const dp_stroke *strokes, uint32_t count, const dp_chain_rule *rule,
                     const dp_allocator *memory, dp_chain_store *store);
+/* The ends at the place of an end, of the level, and the class and colour, that are joined with it: the first one
+ * and the one after another, or UINT32_MAX. End 2 i is a of stroke i, 2 i + 1 is b. After dp_make_chains
+ * with these strokes and this rule. */
+uint32_t dp_first_end_at(const dp_chain_store *store, const dp_stroke *strokes, uint32_t count,
+                         const dp_chain_rule *rule, uint32_t end);
+static inline uint32_t dp_next_end_at(const dp_chain_store *store, uint32_t end) {
+    return store->scratch[store->slot_count + end];
+}
+
 void dp_chain_store_free(dp_chain_store *store, const dp_allocator *memory);
 uint64_t dp_chain_store_bytes(const dp_chain_store *store);
 

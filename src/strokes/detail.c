@@ -1,18 +1,19 @@
 /* What of a drawing a person would draw: exact lines of a scan or of a coarse model are true to its
- * polygons, but most of them say nothing of its shape. Works on visible segments, before ink.
+ * polygons, but most of them say nothing of its shape. Works on segments, before ink.
  *
- *     chain the segments, whatever their class
- *     traits of each: how much its fold turns, and how regular its chain is there, as that of a real
- *         edge is: it does not zigzag, and its fold turns by the same from segment to segment
+ *     chain the segments, whatever their class (chain.c)
+ *     traits of each: how regular its chain is there, as that of a real edge is: it does not zigzag,
+ *         and its fold turns by the same from segment to segment
  *     samples, one every few px of a chain: the evidence there (evidence.c)
  *         of an outline    how far it stands before what is beyond
  *         of a hard edge   how clearly the surface is folded, times how regular the chain is
- *     chains with enough evidence of a hard edge are drawn, however much they weaken on their way; so
- *         are chains between two others that are drawn, if all of their evidence is good
- *     outlines have support: the evidence of samples on one smooth curve with them, near by, as in
- *         tensor voting (Guy and Medioni 1996); so crumbs have little, and gaps and joints do not
- *         matter. Or their whole chain has enough
- *     lines are as wide as their support allows, cut where it fails
+ *     which chains are hard edges and are drawn as a whole (hard_edges.c)
+ *     what support the samples of outlines have from others near by (support.c)
+ *     draw hard edges; and outlines, as wide as their support allows, or the evidence of their whole chain;
+ *         cut where both fail
+ *
+ * Of hidden lines only the chains are known, not the surface beside them: they are drawn as a whole
+ * or not at all.
  *
  * Lengths are in px of a picture whose smaller side is 900 px, and grow with it: the same is drawn in a
  * thumbnail and on a poster. All that is decided by thresholds is a smooth step, and support changes
@@ -20,7 +21,7 @@
  *
  * Data structure: samples lie in the order of chains; a segment has the run [first, end) of them,
  * which it shares with its neighbours if it is short. Invariant: what is drawn is a part of the exact
- * drawing; borders and intersections, hidden lines and the order of segments are not touched. */
+ * drawing; borders and intersections are not touched. Nothing depends on threads. */
 #include "strokes/detail_parts.h"
 
 #include "core/spine.h"
@@ -29,7 +30,7 @@
 #include <string.h>
 
 /* Lengths, px at a smaller side of 900. */
-static const float PICTURE = 900, STEP = 4 /* between samples */,
+static const float PICTURE = 900, STEP = 5 /* between samples */,
                    BEYOND = 3 /* beside an outline, where its gap is measured */,
                    KINK = 20 /* what of a chain a kink makes doubtful, to either side of it */;
 
@@ -43,10 +44,9 @@ typedef struct dp_whole_segment {
 } whole;
 
 static const dp_array arrays[] = {
-    DP_ARRAY(dp_detail_store, strokes, strokes_cap), DP_ARRAY(dp_detail_store, trait, trait_cap),
-    DP_ARRAY(dp_detail_store, samples, samples_cap), DP_ARRAY(dp_detail_store, rings, rings_cap),
-    DP_ARRAY(dp_detail_store, cells, cells_cap),     DP_ARRAY(dp_detail_store, voters, voters_cap),
-    DP_ARRAY(dp_detail_store, turns, turns_cap),     DP_ARRAY(dp_detail_store, aside, aside_cap)};
+    DP_ARRAY(dp_detail_store, trait, trait_cap), DP_ARRAY(dp_detail_store, samples, samples_cap),
+    DP_ARRAY(dp_detail_store, cells, cells_cap), DP_ARRAY(dp_detail_store, voters, voters_cap),
+    DP_ARRAY(dp_detail_store, turns, turns_cap), DP_ARRAY(dp_detail_store, aside, aside_cap)};
 
 void dp_detail_store_free(dp_detail_store *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
@@ -62,22 +62,16 @@ static bool is_crease(const dp_stroke *s) {
 }
 
 /* Is it for this stage to say whether the segment is drawn? */
-static bool is_judged(const dp_stroke *s) {
-    return !s->level && (s->line == DP_LINE_SILHOUETTE || is_crease(s));
-}
+static bool is_judged(const dp_stroke *s) { return s->line == DP_LINE_SILHOUETTE || is_crease(s); }
 
 /* ------- traits ------- */
 
-static bool make_chains(dp_detail *c) {
-    static const dp_chain_rule rule = {.sharpest = 0.5f}; /* up to 60 degrees */
+static void measure_lengths(const dp_detail *c) {
     for (uint32_t i = 0; i < c->count; i++) {
-        dp_stroke *const s = &c->own->strokes[i];
-        *s = c->lines->strokes[i];
-        s->line = 0, s->color = 0;
+        const dp_stroke *const s = &c->lines->strokes[i];
         c->own->trait[i] =
             (dp_line_trait){.length = dp_hypotf(s->b.x - s->a.x, s->b.y - s->a.y), .regular = 1};
     }
-    return dp_make_chains(c->own->strokes, c->count, &rule, c->frame->memory, &c->own->chains);
 }
 
 /* Degrees by which a chain turns to the left from one link to the next. */
@@ -149,11 +143,14 @@ static bool put_sample(dp_detail *c, uint32_t segment, float at, float length) {
     return true;
 }
 
-/* Several samples of a long segment; in the order in which a goes to b. */
+/* Several samples of a long segment, in the order in which a goes to b; of a crease one, as it is as
+ * sharp all along. */
 static bool sample_long(dp_detail *c, uint32_t segment) {
     dp_line_trait *const t = &c->own->trait[segment];
     const float parts = ceilf(t->length / (STEP * c->unit));
-    const uint32_t n = parts < 65536 ? (uint32_t)parts : 65536;
+    const uint32_t n = c->lines->strokes[segment].line != DP_LINE_SILHOUETTE ? 1
+                       : parts < 65536                                       ? (uint32_t)parts
+                                                                             : 65536;
     t->first = c->sample_count;
     for (uint32_t i = 0; i < n; i++)
         if (!put_sample(c, segment, ((float)i + 0.5f) / (float)n, t->length / (float)n))
@@ -199,6 +196,36 @@ static bool sample_chain(dp_detail *c, const dp_chain *chain) {
     return true;
 }
 
+/* How regular a segment's chain is where that matters: an edge as sharp as of a box is one in any
+ * case. */
+static float regular_or_sharp(const dp_line_trait *t, const dp_stroke *s) {
+    return dp_maxf(t->regular, 0.705f * dp_smooth_step(65, 88, s->turn));
+}
+
+/* Nothing is known of the surface beside hidden lines: what is not broken into pieces is an outline. */
+static const float HIDDEN = 0.75f; /* evidence per px */
+
+static bool is_hidden_outline(const dp_stroke *s) {
+    return s->level && s->line == DP_LINE_SILHOUETTE;
+}
+
+/* Can a chain still be a hard edge, whatever the surface beside it is like? Most of a scan's cannot,
+ * and that need not be looked at. */
+static void find_hope(const dp_detail *c, const dp_chain *chain) {
+    const dp_link *const links = dp_links_of(c, chain);
+    float hard = 0, length = 0;
+    for (uint32_t i = 0; i < chain->count; i++) {
+        dp_line_trait *const t = &c->own->trait[links[i].segment];
+        const dp_stroke *const s = &c->lines->strokes[links[i].segment];
+        t->hard = !is_judged(s)          ? 1
+                  : is_hidden_outline(s) ? HIDDEN
+                                         : dp_most_clarity(s) * regular_or_sharp(t, s);
+        hard += t->hard * t->length, length += t->length;
+    }
+    if (dp_is_hard(c, hard) || dp_is_good(c, hard, length)) return;
+    for (uint32_t i = 0; i < chain->count; i++) c->own->trait[links[i].segment].hard = 0;
+}
+
 /* Evidence of an outline: at a gap of 30 all that its length is worth, and more where it is the rim
  * of something before something else: nobody leaves that out. */
 static float outline_evidence(float gap) {
@@ -209,22 +236,22 @@ static void look(const dp_detail *c, dp_line_sample *s) {
     const dp_stroke *const stroke = &c->lines->strokes[s->segment];
     const dp_piece *const piece = &c->lines->pieces[s->segment];
     const dp_line_trait *const trait = &c->own->trait[s->segment];
-    if (!is_judged(stroke)) {
-        s->hard = 1;
+    if (!is_judged(stroke) || stroke->level) { /* as well as it can be */
+        s->hard = trait->hard;
         return;
     }
-    if (!(trait->length > 0)) return;
+    const bool is_outline = stroke->line == DP_LINE_SILHOUETTE;
+    if (!(trait->length > 0) || !(is_outline || trait->hard > 0)) return;
     const dp_stroke_point point = dp_stroke_point_at(c->frame, stroke, s->at);
-    const bool outline = stroke->line == DP_LINE_SILHOUETTE;
-    const uint32_t polygons[2] = {!outline || piece->seen & 1 ? piece->a : NONE,
-                                  !outline || piece->seen & 2 ? piece->b : NONE};
-    if (outline) {
+    const uint32_t polygons[2] = {!is_outline || piece->seen & 1 ? piece->a : NONE,
+                                  !is_outline || piece->seen & 2 ? piece->b : NONE};
+    if (is_outline) {
         s->gap = dp_outline_gap(c->frame, &point, dp_maxf(BEYOND * c->unit, 2)) / c->unit;
         s->outline = outline_evidence(s->gap);
     }
-    /* an edge as sharp as of a box is one, if it is short, too */
-    const float regular = dp_maxf(trait->regular, 0.6f * dp_smooth_step(60, 85, stroke->turn));
-    s->hard = dp_fold_clarity(c->frame, stroke, &point, polygons, c->unit) * regular;
+    if (trait->hard > 0)
+        s->hard = dp_fold_clarity(c->frame, stroke, &point, polygons, c->unit) *
+                  regular_or_sharp(trait, stroke);
 }
 
 static void look_block(void *arg, uint32_t index, uint32_t worker) {
@@ -239,10 +266,10 @@ static void look_block(void *arg, uint32_t index, uint32_t worker) {
 
 /* The share of its width that a sample's line has, in sixteenths: equal neighbours stay one. */
 static float share_of(const dp_line_sample *s, const dp_stroke *stroke, const dp_line_trait *t) {
-    static const float LEAST = 0.1f;
+    static const float LEAST = 0.3f;
     if (!is_judged(stroke)) return 1;
     if (t->drawn && (is_crease(stroke) || s->hard > 0.15f)) return 1;
-    if (is_crease(stroke)) return 0;
+    if (is_crease(stroke) || stroke->level) return 0;
     const float share = dp_maxf(dp_smooth_step(8, DP_FULL_SUPPORT, s->support),
                                 t->weight * dp_smooth_step(0, 3, s->gap));
     return share < LEAST ? 0 : ceilf(16 * share) / 16;
@@ -354,8 +381,7 @@ static bool keep_what_is_drawn(dp_detail *c) {
 static bool reserve(const dp_detail *c) {
     dp_detail_store *const own = c->own;
     const dp_allocator *const memory = c->frame->memory;
-    return dp_reserve(memory, &own->strokes, &own->strokes_cap, c->count, sizeof *own->strokes) &&
-           dp_reserve(memory, &own->trait, &own->trait_cap, c->count, sizeof *own->trait) &&
+    return dp_reserve(memory, &own->trait, &own->trait_cap, c->count, sizeof *own->trait) &&
            dp_reserve(memory, &own->turns, &own->turns_cap, c->count, sizeof *own->turns);
 }
 
@@ -367,7 +393,7 @@ static void in_blocks(dp_detail *c, uint32_t count, dp_task *task) {
 /* px of this picture for one of the lengths above. */
 static float unit_of(const dp_frame *frame, float detail) {
     const float side = (float)dp_min(frame->view.width, frame->view.height);
-    return dp_maxf(side / PICTURE, 0.5f) / detail;
+    return dp_maxf(side / PICTURE, 0.25f) / detail;
 }
 
 bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *store) {
@@ -379,12 +405,16 @@ bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *sto
                    .count = (uint32_t)lines->count,
                    .unit = unit_of(frame, detail)};
     if (!reserve(&c)) return false;
-    if (!make_chains(&c)) return false;
+    if (!dp_make_chains(lines->strokes, c.count, &dp_detail_rule, frame->memory, &store->chains))
+        return false;
+    measure_lengths(&c);
     for (uint32_t i = 0; i < store->chains.chain_count; i++) {
         find_regularity(&c, &store->chains.chains[i]);
+        find_hope(&c, &store->chains.chains[i]);
         if (!sample_chain(&c, &store->chains.chains[i])) return false;
     }
     in_blocks(&c, c.sample_count, look_block);
-    if (!dp_judge_chains(&c) || !dp_find_support(&c)) return false;
+    dp_judge_chains(&c);
+    if (!dp_find_support(&c)) return false;
     return keep_what_is_drawn(&c);
 }

@@ -6,7 +6,6 @@
 
 /* Its scratch (detail.c). Zero is empty. */
 typedef struct dp_detail_store {
-    dp_stroke *strokes;          /* by segment, of one class and colour, to be chained */
     struct dp_line_trait *trait; /* by segment */
     struct dp_line_sample *samples;
     uint32_t *rings, *cells; /* by end: another end at that place; by cell */
@@ -14,8 +13,7 @@ typedef struct dp_detail_store {
     float *turns;            /* by link of one chain */
     dp_chain_store chains;
     struct dp_whole_segment *aside; /* parts of segments, but for the first */
-    size_t strokes_cap, trait_cap, samples_cap, rings_cap, cells_cap, voters_cap, turns_cap,
-        aside_cap;
+    size_t trait_cap, samples_cap, cells_cap, voters_cap, turns_cap, aside_cap;
 } dp_detail_store;
 
 void dp_detail_store_free(dp_detail_store *store, const dp_allocator *memory);

@@ -11,9 +11,10 @@ enum { DP_DETAIL_BLOCK = DP_TUNED(64, 3) };
 
 /* Of a segment. */
 typedef struct dp_line_trait {
-    float length;        /* px */
-    float regular;       /* 0 to 1 */
-    float hard;          /* evidence of a hard edge, in the mean; 0 to 1 */
+    float length;  /* px */
+    float regular; /* 0 to 1 */
+    float
+        hard; /* evidence of a hard edge, in the mean, 0 to 2; before that is known, the most it can be */
     float weight;        /* by its whole chain, 0 to 1 */
     uint32_t first, end; /* samples */
     uint32_t chain;
@@ -36,14 +37,14 @@ typedef struct dp_voter {
     float evidence;       /* px */
 } dp_voter;
 
-/* One drawing while it is cleaned. Lengths are in its unit: px of a picture whose smaller side is 900
- * px. */
+/* One drawing while it is cleaned. Lengths of the method are in its unit, that of a picture whose
+ * smaller side is 900 px. */
 typedef struct dp_detail {
     const dp_frame *frame;
     dp_lines *lines;
     dp_detail_store *own;
     uint32_t count, sample_count; /* of segments, of samples */
-    float unit;                   /* px */
+    float unit;                   /* px: 1 at a smaller side of 900 and a detail of 1 */
     uint32_t columns, rows;       /* of cells */
 } dp_detail;
 
@@ -51,9 +52,18 @@ static inline const dp_link *dp_links_of(const dp_detail *c, const dp_chain *cha
     return c->own->chains.links + chain->first;
 }
 
+/* How segments are chained: whatever their class, at turns of up to 60 degrees, and over gaps that are
+ * rounding. */
+static const dp_chain_rule dp_detail_rule = {
+    .sharpest = 0.5f, .gap = 0.25f, .step = 1e30f, .any_class = true};
+
+/* Has a chain as much evidence of a hard edge, px, as it needs? Or is it good all along? (hard_edges.c) */
+bool dp_is_hard(const dp_detail *detail, float hard);
+bool dp_is_good(const dp_detail *detail, float hard, float length);
+
 /* Decides which chains are drawn as hard edges, or as outlines as a whole: traits' hard, weight and
- * drawn (hard_edges.c). False when memory is out. */
-bool dp_judge_chains(dp_detail *detail);
+ * drawn (hard_edges.c). */
+void dp_judge_chains(dp_detail *detail);
 
 /* Finds what support the samples of outlines have (support.c). False when memory is out. */
 bool dp_find_support(dp_detail *detail);

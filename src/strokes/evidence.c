@@ -114,10 +114,22 @@ static bool first_is_left(const dp_frame *f, const dp_stroke_point *p, const flo
     return !(fabsf(left.nearer - slope[0] * left.away) > fabsf(left.nearer - slope[1] * left.away));
 }
 
+/* How sharp a fold is, 0 to 1: of creases from 20 to 60 degrees, of outlines, which are that without a
+ * fold, from 50 to 80. */
+static float sharpness(const dp_stroke *s) {
+    return s->line == DP_LINE_SILHOUETTE ? dp_smooth_step(50, 80, s->turn)
+                                         : dp_smooth_step(20, 60, s->turn);
+}
+
+/* 0 to 1 from 75 to 88 degrees. */
+static float rightness(const dp_stroke *s) { return dp_smooth_step(75, 88, s->turn); }
+
+float dp_most_clarity(const dp_stroke *s) { return sharpness(s) + rightness(s); }
+
 float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_point *p,
                       const uint32_t polygon[2], float unit) {
     const bool outline = s->line == DP_LINE_SILHOUETTE;
-    const float sharp = outline ? dp_smooth_step(50, 80, s->turn) : dp_smooth_step(20, 60, s->turn);
+    const float sharp = sharpness(s);
     float slope[2], bend = INFINITY, widest = 0;
     if (!(sharp > 0)) return 0;
     for (int k = 0; k < 2; k++)
@@ -135,5 +147,8 @@ float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_poi
     const float meant = outline ? 0
                                 : 1 - (1 - dp_smooth_step(50, 80, s->turn)) *
                                           (1 - dp_smooth_step(40 * unit, 100 * unit, widest));
-    return sharp * (1 - dp_smooth_step(0.1f, 0.4f, bend / s->turn) * (1 - meant));
+    /* a right angle at a wide, flat face is worth twice as much: few of them are chance */
+    const float right = rightness(s) * dp_smooth_step(15 * unit, 30 * unit, widest) *
+                        (1 - dp_smooth_step(0.05f, 0.2f, bend / s->turn));
+    return sharp * (1 - dp_smooth_step(0.1f, 0.4f, bend / s->turn) * (1 - meant)) + right;
 }

@@ -22,10 +22,13 @@ dp_stroke_point dp_stroke_point_at(const dp_frame *frame, const dp_stroke *strok
  * rest. */
 float dp_outline_gap(const dp_frame *frame, const dp_stroke_point *point, float reach);
 
-/* How clearly a fold is one, 0 to 1: how sharp it is, and how far it stands out from the surface
+/* The most that dp_fold_clarity may be, whatever lies beside the fold. */
+float dp_most_clarity(const dp_stroke *stroke);
+
+/* How clearly a fold is one, 0 to 2: how sharp it is, and how far it stands out from the surface
  * around it. Where both sides bend on by as much as the fold, just beyond its polygons, it is one of
- * many by which a round or a rough surface is approximated. px per `unit`. `polygon`: those
- * that meet there; UINT32_MAX: none, or it is not seen. */
+ * many by which a round or a rough surface is approximated. `polygon`: those that meet there; UINT32_MAX:
+ * none, or it is not seen. `unit`, px: what is wide and what is near is measured in it. */
 float dp_fold_clarity(const dp_frame *frame, const dp_stroke *stroke, const dp_stroke_point *point,
                       const uint32_t polygon[2], float unit);
 
