@@ -396,6 +396,8 @@ nearest_option() {
     wrong shape:cube --lines ridge,vally -o out.png -- 'did you mean valley?'
     wrong make geer -o out.ply -- 'did you mean "gear"?'
     wrong shape:gaer -o out.png -- 'did you mean "gear"?'
+    wrong make pyramid -o out.ply -- 'no shape is called "pyramid"; there are cube, '
+    wrong shape:cube --view under -o out.png -- '--view: "under" is none of front|back|'
 }
 wrong_values() {
     for value in nan inf 3x '' 1e999 0x10 180 0 -5; do
