@@ -66,10 +66,11 @@ static bool is_judged(const dp_stroke *s) { return s->line == DP_LINE_SILHOUETTE
 
 /* ------- traits ------- */
 
-static void measure_lengths(const dp_detail *c) {
-    for (uint32_t i = 0; i < c->count; i++) {
-        const dp_stroke *const s = &c->lines->strokes[i];
-        c->own->trait[i] =
+static void measure_lengths(const dp_detail *c, const dp_chain *chain) {
+    const dp_link *const links = dp_links_of(c, chain);
+    for (uint32_t i = 0; i < chain->count; i++) {
+        const dp_stroke *const s = &c->lines->strokes[links[i].segment];
+        c->own->trait[links[i].segment] =
             (dp_line_trait){.length = dp_hypotf(s->b.x - s->a.x, s->b.y - s->a.y), .regular = 1};
     }
 }
@@ -107,7 +108,7 @@ static void doubt(const dp_detail *c, uint32_t segment, float share) {
 
 static void find_regularity(const dp_detail *c, const dp_chain *chain) {
     const dp_link *const links = dp_links_of(c, chain);
-    float *const turns = c->own->turns;
+    float *const turns = c->own->turns + chain->first;
     for (uint32_t i = 0; i + 1 < chain->count; i++) turns[i] = bend_of(c, &links[i], &links[i + 1]);
     for (uint32_t i = 0; i + 1 < chain->count; i++) {
         const uint32_t s = links[i].segment, t = links[i + 1].segment;
@@ -224,6 +225,18 @@ static void find_hope(const dp_detail *c, const dp_chain *chain) {
     }
     if (dp_is_hard(c, hard) || dp_is_good(c, hard, length)) return;
     for (uint32_t i = 0; i < chain->count; i++) c->own->trait[links[i].segment].hard = 0;
+}
+
+static void find_traits(void *arg, uint32_t index, uint32_t worker) {
+    const dp_detail *const c = arg;
+    const dp_chain_store *const store = &c->own->chains;
+    const uint32_t first = index * DP_DETAIL_BLOCK;
+    (void)worker;
+    for (uint32_t i = first; i < first + DP_DETAIL_BLOCK && i < store->chain_count; i++) {
+        measure_lengths(c, &store->chains[i]);
+        find_regularity(c, &store->chains[i]);
+        find_hope(c, &store->chains[i]);
+    }
 }
 
 /* Evidence of an outline: at a gap of 30 all that its length is worth, and more where it is the rim
@@ -407,12 +420,9 @@ bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *sto
     if (!reserve(&c)) return false;
     if (!dp_make_chains(lines->strokes, c.count, &dp_detail_rule, frame->memory, &store->chains))
         return false;
-    measure_lengths(&c);
-    for (uint32_t i = 0; i < store->chains.chain_count; i++) {
-        find_regularity(&c, &store->chains.chains[i]);
-        find_hope(&c, &store->chains.chains[i]);
+    in_blocks(&c, store->chains.chain_count, find_traits);
+    for (uint32_t i = 0; i < store->chains.chain_count; i++)
         if (!sample_chain(&c, &store->chains.chains[i])) return false;
-    }
     in_blocks(&c, c.sample_count, look_block);
     dp_judge_chains(&c);
     if (!dp_find_support(&c)) return false;

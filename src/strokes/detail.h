@@ -10,7 +10,7 @@ typedef struct dp_detail_store {
     struct dp_line_sample *samples;
     uint32_t *rings, *cells; /* by end: another end at that place; by cell */
     struct dp_voter *voters; /* support.c */
-    float *turns;            /* by link of one chain */
+    float *turns;            /* by link: to the next one */
     dp_chain_store chains;
     struct dp_whole_segment *aside; /* parts of segments, but for the first */
     size_t trait_cap, samples_cap, cells_cap, voters_cap, turns_cap, aside_cap;
