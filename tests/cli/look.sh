@@ -29,7 +29,7 @@ weights() {
     run 0 shape:boxes -q -o trace=boxes.txt
     [ "$(weights_of boxes.txt)" = "intersection 1.5 ridge 1.5 silhouette 3 " ] ||
         fail "boxes: $(weights_of boxes.txt)"
-    run 0 shape:terrain -q -o trace=terrain.txt --lines border,valley
+    run 0 shape:terrain -q -o trace=terrain.txt --lines border,valley --detail exact
     [ "$(weights_of terrain.txt)" = "border 3 valley 1.5 " ] || fail "terrain: $(weights_of terrain.txt)"
     # hidden lines are narrow, all alike, so that their dashes are
     run 0 shape:bracket -q --hidden dashed -o trace=dashed.txt
