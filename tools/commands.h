@@ -60,5 +60,7 @@ void print_stats_json(FILE *out, const tool_settings *s, const dp_stats *stats,
 void warn_dropped(const tool_settings *s, const dp_stats *stats);
 /* Warns that lines may be missing, if not all edges were followed. */
 void warn_lost(const tool_settings *s, const dp_stats *stats);
+/* Says of a file that no line is in it. */
+void tell_empty(const char *file);
 
 #endif

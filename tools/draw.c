@@ -180,6 +180,16 @@ static int write_planes(const tool_settings *s, const drawing *d) {
     return planes_write(s, &view);
 }
 
+/* Lines were asked for, and the picture has none. (Quads are no segments; an edge map may have edges.) */
+static void tell_empty_picture(const tool_settings *s, const drawing *d) {
+    uint64_t segments = 0;
+    for (int k = 0; k < d->plan.view_count; k++) segments += d->stats[k].segments;
+    if (segments || s->quiet || !s->file_count) return;
+    if (d->style.lines == DP_NO_LINES || d->style.ink == DP_INK_QUADS || d->style.edge_map.detector)
+        return;
+    tell_empty(strcmp(s->files[0], "-") ? s->files[0] : "standard output");
+}
+
 static void print_stats(const tool_settings *s, const drawing *d) {
     warn_source(s, dp_source_remark(d->source));
     if (!s->quiet) warn_dropped(s, &d->stats[0]);
@@ -195,7 +205,7 @@ static void print_stats(const tool_settings *s, const drawing *d) {
     if (d->paths)
         paths_tell(s, &d->plan, d->views, sides_assumed(s, d->source));
     else
-        sides_tell(s, d->source);
+        tell_empty_picture(s, d), sides_tell(s, d->source);
 }
 
 static int run(const tool_settings *s, drawing *d) {

@@ -2,9 +2,8 @@
  * once, but fitting a camera and drawing take two readings.
  *
  * Invariant: `batch` describes all polygons so far; arrays grow by at least half. There are edge
- * flags only once a batch has some; earlier corners then count as flagged. Where all polygons are
- * triangles they are handed out as such, as the source itself does: lines between triangles are
- * found in another way, and the drawing is to be that of a file. */
+ * flags only once a batch has some; earlier corners then count as flagged. Triangles alone are handed
+ * out as such, so that the drawing is the file's, to the byte. */
 #include "keep.h"
 
 #include <stdio.h>
@@ -19,8 +18,8 @@ typedef struct kept {
     size_t vertices, corners, polygons;
     double origin[3]; /* of the first batch */
     double spacing;
-    bool flagged, has_polygons, handed_out;
-    char remark[160]; /* of the source, or "" */
+    bool flagged, faceted, handed_out; /* faceted: not all are triangles */
+    char remark[160];                  /* of the source, or "" */
 } kept;
 
 static bool reserve(void *block_address, size_t *room, size_t need, size_t size) {
@@ -64,10 +63,9 @@ static bool add(kept *k, const dp_batch *b) {
     }
     for (size_t i = 0; i <= b->polygon_count; i++)
         k->firsts[k->polygons + i] = (uint32_t)(k->corners + (b->firsts ? b->firsts[i] : 3 * i));
+    for (size_t i = 0; i < b->polygon_count && b->firsts; i++)
+        k->faceted |= b->firsts[i + 1] - b->firsts[i] != 3;
     k->flagged |= b->edge_flags != NULL;
-    k->has_polygons |= b->corner_count != 3 * b->polygon_count;
-    for (size_t i = 0; b->firsts && i <= b->polygon_count; i++)
-        k->has_polygons |= b->firsts[i] != 3 * i;
     k->vertices += b->vertex_count;
     k->corners += b->corner_count;
     k->polygons += b->polygon_count;
@@ -84,7 +82,7 @@ static dp_result kept_next(void *user, dp_batch *batch, dp_diag *diag) {
                             .vertex_count = k->vertices,
                             .indices = k->indices,
                             .corner_count = k->corners,
-                            .firsts = k->has_polygons ? k->firsts : NULL,
+                            .firsts = k->faceted ? k->firsts : NULL,
                             .polygon_count = k->polygons,
                             .edge_flags = k->flagged ? k->flags : NULL,
                             .stable = true,

@@ -177,7 +177,7 @@ static bool unknown_topic(const char *topic) {
     char words[600], best[32];
     topic_words(words, sizeof words, "|");
     nearest_word(words, topic, best, sizeof best);
-    if (spelling_distance(topic, best) < strlen(best))
+    if (2 * spelling_distance(topic, best) <= strlen(best))
         return wrong_usage("--help: \"%s\" is no topic; did you mean %s?", topic, best);
     return wrong_usage("--help: \"%s\" is neither a topic nor an option; \"drypoint --help\" lists "
                        "topics",

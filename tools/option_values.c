@@ -270,7 +270,7 @@ static bool store_word(const option *o, const char *value, int *to) {
     if (*to) return true;
     char best[32];
     nearest_word(o->argument, value, best, sizeof best);
-    if (spelling_distance(value, best) >= strlen(best))
+    if (2 * spelling_distance(value, best) > strlen(best))
         return wrong_usage("--%s: \"%s\" is none of %s", o->name, value, o->argument);
     return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, value, o->argument,
                        best);

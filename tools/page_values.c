@@ -75,7 +75,7 @@ static void spell(const char *value, size_t length, char *name, size_t size) {
 static bool unknown_paper(const option *o, const char *value) {
     char best[32];
     nearest_word(paper_words, value, best, sizeof best);
-    if (spelling_distance(value, best) < strlen(best))
+    if (2 * spelling_distance(value, best) <= strlen(best))
         return wrong_usage(
             "--%s: \"%s\" is none of A0 to A5, letter, legal, tabloid and sizes like "
             "200x100mm; did you mean %s?",

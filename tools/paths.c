@@ -123,7 +123,8 @@ static void add_cleaning(sentence *to, const tool_settings *s, const page_plan *
     if (i->coincident > 0)
         add(to, "; %.2g %% left out because it lay on other lines", 100 * i->coincident / whole,
             "");
-    if (i->joined) add(to, "; %.0f gaps closed", (double)i->joined, "");
+    if (i->joined)
+        add(to, "; %.0f", (double)i->joined, i->joined == 1 ? " gap closed" : " gaps closed");
 }
 
 void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths *paths,
@@ -146,7 +147,7 @@ void paths_tell(const tool_settings *s, const page_plan *plan, const view_paths 
             add(&to, ", %.0f %% less", 100 * (1 - i.travel / i.travel_before), "");
     }
     note("%s%s%s%s", file, to.text, assumed ? "; " : "", assumed ? assumed : "");
-    if (!i.paths) note("%s: nothing of the model is seen, and no line is in it", file);
+    if (!i.paths) tell_empty(file);
     if (files_have(s, DP_FORMAT_DXF)) {
         const double mm = plan->mm_per_px;
         note("DXF: a unit is a millimetre; the page is %.4g x %.4g mm%s",

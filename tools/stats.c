@@ -82,6 +82,11 @@ void warn_lost(const tool_settings *s, const dp_stats *stats) {
     warn_of_model(s, text);
 }
 
+void tell_empty(const char *file) {
+    note("%s: no line is in it: nothing of the model is seen, or none of the lines asked for",
+         file);
+}
+
 /* Does it matter that polygons are dropped? Those without area leave no hole: most programs export
  * some, and only many of them hint at a file that is broken, or flat. */
 static bool is_worth_telling(const dp_stats *s) {

@@ -100,12 +100,11 @@ static uint32_t parts_by_size(const dp_view *view, const dp_pn_edge *curve) {
 
 uint32_t dp_curve_parts(const dp_curve_rule *rule, dp_vec3 a, dp_vec3 b, const dp_pn_end ends[2],
                         dp_pn_edge *curve) {
-    static const dp_pn_end straight = {.count = 0};
     if (rule->what != DP_SMOOTH_SILHOUETTES || is_near_silhouette(rule->view, a, b, ends)) {
         *curve = dp_pn_edge_between(a, b, &ends[0], &ends[1]);
         if (!is_straight(curve))
             return rule->level ? rule->level + 1 : parts_by_size(rule->view, curve);
     }
-    *curve = dp_pn_edge_between(a, b, &straight, &straight);
+    *curve = dp_pn_edge_straight(a, b);
     return 1;
 }

@@ -26,7 +26,8 @@ static inline double dp_curve_facing(const dp_view *view, dp_vec3 at, dp_vec3 no
 }
 
 /* Is an edge with one normal at each end far from silhouettes, and so straight where only those are
- * curved? From its ends' facing; dp_curve_parts, which takes longer, agrees. */
+ * curved? From its ends' facing, rounded as it may be; dp_curve_parts, which takes longer, agrees but where
+ * rounding decides. */
 static inline bool dp_curve_is_far(dp_vec3 normal_a, double facing_a, dp_vec3 normal_b,
                                    double facing_b) {
     const dp_vec3 turn = dp_sub(normal_a, normal_b);

@@ -16,7 +16,7 @@
 
 #include "base/diag.h"
 #include "base/elementary.h"
-#include "mesh/source.h"
+#include "mesh/reach.h"
 
 #include <string.h>
 

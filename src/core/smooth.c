@@ -96,12 +96,26 @@ static bool is_sound(const dp_polygons *p, uint32_t first, uint32_t n) {
     return true;
 }
 
+/* For silhouettes alone: is the edge between two vertices known to be straight, by how these face the
+ * eye? */
+static bool is_far(const job *j, const uint32_t v[2]) {
+    const dp_smooth_store *const s = j->store;
+    return j->rule.what == DP_SMOOTH_SILHOUETTES &&
+           dp_curve_is_far(dp_v3f(s->edges.smooth[v[0]]), (double)s->facing[v[0]],
+                           dp_v3f(s->edges.smooth[v[1]]), (double)s->facing[v[1]]);
+}
+
 /* The curve from one corner to another; what is noted of it. `edge`: the corner where the polygon's edge between them
- * starts, or UINT32_MAX for a diagonal. */
+ * starts, or UINT32_MAX for a diagonal. The same whenever it is asked: counting and making must agree. */
 static uint32_t curve_between(const job *j, uint32_t from, uint32_t to, uint32_t edge,
                               dp_pn_edge *curve) {
     const dp_polygons *const p = j->from;
     const uint32_t v[2] = {dp_corner_vertex(p, from), dp_corner_vertex(p, to)};
+    const dp_vec3 a = dp_v3f(dp_vertex_position(p, v[0])), b = dp_v3f(dp_vertex_position(p, v[1]));
+    if (is_far(j, v)) {
+        *curve = dp_pn_edge_straight(a, b);
+        return 1 | DP_NOTED_SMOOTH;
+    }
     uint32_t own[2] = {UINT32_MAX, UINT32_MAX};
     if (edge == UINT32_MAX) {
         own[0] = dp_corner_normal_number(&j->setup->normals, from, v[0]);
@@ -109,19 +123,8 @@ static uint32_t curve_between(const job *j, uint32_t from, uint32_t to, uint32_t
     }
     dp_pn_end ends[2];
     dp_edge_ends_at(&j->store->edges, &j->setup->normals, v, edge, own, ends);
-    const uint32_t parts = dp_curve_parts(&j->rule, dp_v3f(dp_vertex_position(p, v[0])),
-                                          dp_v3f(dp_vertex_position(p, v[1])), ends, curve);
+    const uint32_t parts = dp_curve_parts(&j->rule, a, b, ends, curve);
     return ends[0].count == 1 && ends[1].count == 1 ? parts | DP_NOTED_SMOOTH : parts;
-}
-
-/* For silhouettes alone: is the edge between two vertices known to be straight, by how these face the
- * eye? */
-static bool is_far(const job *j, uint32_t from, uint32_t to) {
-    const dp_smooth_store *const s = j->store;
-    if (j->rule.what != DP_SMOOTH_SILHOUETTES) return false;
-    const uint32_t a = dp_corner_vertex(j->from, from), b = dp_corner_vertex(j->from, to);
-    return dp_curve_is_far(dp_v3f(s->edges.smooth[a]), (double)s->facing[a],
-                           dp_v3f(s->edges.smooth[b]), (double)s->facing[b]);
 }
 
 /* Notes into how many parts its edges are cut; is any cut? */
@@ -134,8 +137,7 @@ static bool cut_edges(const job *j, uint32_t first, uint32_t n) {
     for (uint32_t i = 0; i < n; i++) {
         dp_pn_edge curve;
         const uint32_t edge = first + i, next = first + (i + 1 == n ? 0 : i + 1);
-        const uint32_t noted = is_far(j, edge, next) ? 1 | DP_NOTED_SMOOTH
-                                                     : curve_between(j, edge, next, edge, &curve);
+        const uint32_t noted = curve_between(j, edge, next, edge, &curve);
         j->store->parts[edge] = (uint8_t)noted;
         any |= (noted & DP_NOTED_PARTS) > 1;
     }
@@ -361,7 +363,7 @@ static dp_result smooth(job *j, dp_frame *f, dp_diag *diag) {
         dp_parallel(f->threads, vertex_blocks, face_block, j);
     dp_parallel(f->threads, j->blocks, count_block, j);
     const dp_smooth_block sum = number(j);
-    if (sum.polygons > MOST || sum.vertices > MOST)
+    if (sum.polygons > MOST || sum.vertices > MOST || sum.corners > UINT32_MAX)
         return dp_fail(diag, DP_ERR_LIMIT,
                        "smoothing makes %llu polygons of %u; %d are the most: choose a lower level",
                        (unsigned long long)sum.polygons, p->count, MOST);

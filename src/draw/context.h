@@ -92,6 +92,9 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
  * it is to stop. What is told must not fall (dp_context_desc). */
 dp_result dp_tell_progress(dp_context *context, double fraction, dp_diag *diag);
 
+/* Normals of the gathered polygons, smooth but for creases as the first style says; false: no memory. */
+bool dp_compute_normals(dp_context *context, dp_source *source, dp_attribute *out);
+
 /* Replaces the frame's gathered polygons by curved ones, as the first style says (draw/smooth.c). */
 dp_result dp_smooth_frame(dp_context *context, dp_source *source, dp_diag *diag);
 

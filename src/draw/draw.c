@@ -327,7 +327,7 @@ static dp_result place_vertices(dp_context *c, dp_diag *diag) {
     return result;
 }
 
-static bool compute_normals(dp_context *c, dp_source *source, dp_attribute *out) {
+bool dp_compute_normals(dp_context *c, dp_source *source, dp_attribute *out) {
     return dp_normals_make(&c->normals, &c->frame.polygons, c->frame.styles[0].shade.crease_angle,
                            source->constant ? &source->key : NULL, c->threads, &c->memory, out);
 }
@@ -338,11 +338,11 @@ static bool make_normals(dp_context *c, dp_source *source) {
     dp_attribute_store *const gathered = &c->polygons.normals;
     const size_t corners = dp_first_corner(p, p->count);
     dp_attribute made;
-    if (dp_shade_needs_normals(&c->shade)) return compute_normals(c, source, &p->normals);
+    if (dp_shade_needs_normals(&c->shade)) return dp_compute_normals(c, source, &p->normals);
     if (!dp_shade_uses_model_normals(&c->shade) || p->normals.values != gathered->values ||
         !dp_attribute_lacks(gathered, corners))
         return true;
-    if (!compute_normals(c, source, &made) ||
+    if (!dp_compute_normals(c, source, &made) ||
         !dp_attribute_fill(gathered, &made, 3, corners, &c->memory))
         return false;
     p->normals = dp_attribute_of_store(gathered, 3);

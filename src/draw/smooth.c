@@ -3,7 +3,6 @@
 #include "draw/context.h"
 
 #include "base/diag.h"
-#include "mesh/source.h"
 
 /* Does a corner lack a normal? */
 static bool lacks_any(const dp_polygons *p) {
@@ -21,9 +20,7 @@ static bool find_normals(dp_context *c, dp_source *source, dp_smooth_setup *setu
     const bool made = shade->normals == DP_NORMALS_SMOOTH;
     if (!made) setup->normals.given = p->normals;
     if (!made && !lacks_any(p)) return true;
-    return dp_normals_make(&c->normals, p, shade->crease_angle,
-                           source->constant ? &source->key : NULL, c->threads, &c->memory,
-                           &setup->normals.made);
+    return dp_compute_normals(c, source, &setup->normals.made);
 }
 
 dp_result dp_smooth_frame(dp_context *c, dp_source *source, dp_diag *diag) {

@@ -420,9 +420,7 @@ static finding judge_pair(const dp_finder *w, const emerging *e) {
                other_front = w->tile.polygons[other].flags & DP_POLYGON_FRONT;
     if (!front && !other_front) return NOTHING;
     return (finding){.line = -1,
-                     .behind = front == other_front ? UINT32_MAX
-                               : front              ? other
-                                                    : own,
+                     .behind = front == other_front ? UINT32_MAX : (front ? other : own),
                      .owner = e->unpaired,
                      .sides = {front ? own : UINT32_MAX, other_front ? other : UINT32_MAX}};
 }
@@ -431,6 +429,7 @@ static finding judge_pair(const dp_finder *w, const emerging *e) {
 static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const finding *before,
                   finding *f) {
     const dp_beheld *const b = &w->emergence.beheld[e->first + (k - e->k0) / e->step];
+    const uint32_t own = e->unpaired.polygon;
     finding here = {.line = -1, .behind = UINT32_MAX};
     for (int i = 0; i < 2; i++) here.sides[i] = b->nearest[i].polygon;
     const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
@@ -438,18 +437,16 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     if (left != right) here.behind = b->furthest[right];
     /* a partner seen edge-on covers nothing, but it is there */
     if (left != right && here.behind == here.sides[right] && e->unpaired.partner)
-        here.behind =
-            here.behind == e->unpaired.polygon ? e->unpaired.partner - 1 : e->unpaired.polygon;
+        here.behind = here.behind == own ? e->unpaired.partner - 1 : own;
     if (left != right && trusts_winding(w, e, b, right))
         here.behind = here.sides[right], here.sides[right] = furthest_on(b, right);
     /* else a sheet seen edge-on: both its borders are one line */
-    if (!left && !right) here.sides[0] = e->unpaired.polygon, here.owner = e->unpaired;
+    if (!left && !right) here.sides[0] = own, here.owner = e->unpaired;
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
         !is_own_edge(w, e, here.owner) || (left != right && are_hidden_backs(w, b, right)))
         here = NOTHING;
     if (is_plain_pair(b)) here = judge_pair(w, e);
     /* as the table would have it, so that tiles agree */
-    const uint32_t own = e->unpaired.polygon;
     if (here.sides[0] == own || here.sides[1] == own || here.behind == own)
         here.owner = e->unpaired;
     if (has_same_sides(&here, before)) return false;

@@ -356,12 +356,17 @@ void dp_find_intersections(dp_finder *w) {
 
 /* ------- crossings that nobody sees ------- */
 
+/* The most polygons that lie in one pixel, and in no other, of which crossings are looked for. All pairs
+ * of them would be tested, and nothing of a line in one pixel can be seen below more. */
+enum { CROWD = 512 };
+
 /* The tile's polygons by stripes of columns, those of each by the first row of their boxes. Large ones
- * lie in several stripes. */
+ * lie in several stripes; those that lie in a crowded pixel, in none. */
 typedef struct stripes {
     uint32_t count;
     uint32_t shift;                         /* their width is 1 << shift px */
     uint32_t first[DP_CELLS * DP_TILE + 1]; /* by stripe and row: its first polygon in the list */
+    uint16_t inside[DP_TILE * DP_TILE]; /* by pixel: how many lie in it alone, CROWD + 1 at most */
 } stripes;
 
 /* The first and the last stripe of a box (dp_tile_polygon.box), and the bin of it in the first. */
@@ -375,12 +380,28 @@ static inline uint32_t bin_of(uint32_t stripe, uint32_t box) {
     return stripe * DP_TILE + (box >> 8 & 255);
 }
 
+/* The pixel in which a box lies; false: it is larger. */
+static inline bool pixel_of(uint32_t box, uint32_t *pixel) {
+    *pixel = (box >> 8 & 255) * DP_TILE + (box & 255);
+    return (box & 0xffff) == box >> 16;
+}
+
+static void count_inside(const dp_finder *w, stripes *s) {
+    const uint32_t *const boxes = dp_seen_words(&w->tile, DP_SEEN_BOX);
+    uint32_t pixel;
+    memset(s->inside, 0, sizeof s->inside);
+    for (uint32_t i = 0; i < w->tile.seen_count; i++)
+        if (pixel_of(boxes[i], &pixel) && s->inside[pixel] <= CROWD) s->inside[pixel]++;
+}
+
 /* Counts the polygons of each bin, or lists them from the end of the bin's run towards its start. */
 static void visit_stripes(dp_finder *w, stripes *s, bool counting) {
     const uint32_t *const boxes = dp_seen_words(&w->tile, DP_SEEN_BOX);
     const uint32_t *const flags = dp_seen_words(&w->tile, DP_SEEN_FLAGS);
     for (uint32_t i = w->tile.seen_count; i-- > 0;) {
+        uint32_t pixel;
         if (!(flags[i] & DP_POLYGON_TOUCHES)) continue;
+        if (pixel_of(boxes[i], &pixel) && s->inside[pixel] > CROWD) continue;
         const uint32_t last = last_stripe(s, boxes[i]);
         for (uint32_t k = first_stripe(s, boxes[i]); k <= last; k++) {
             uint32_t *const bin = &s->first[bin_of(k, boxes[i])];
@@ -402,6 +423,7 @@ static bool list_by_stripe(dp_finder *w, stripes *s) {
     s->shift = (uint32_t)__builtin_ctz(DP_TILE / s->count);
     const uint32_t bins = s->count * DP_TILE;
     memset(s->first, 0, (bins + 1) * sizeof *s->first);
+    count_inside(w, s);
     visit_stripes(w, s, true);
     for (uint32_t i = 0; i < bins; i++) s->first[i] = sum += s->first[i];
     s->first[bins] = sum;
@@ -473,7 +495,7 @@ static void cross_in_stripe(dp_finder *w, const stripes *s, uint32_t stripe, con
     }
 }
 
-/* No sample says where these are: all pairs are tested whose boxes meet. */
+/* No sample says where these are: all pairs are tested whose boxes meet, but in crowded pixels. */
 void dp_find_crossings(dp_finder *w) {
     stripes s;
     w->intersecting.crossing_count = 0;

@@ -197,7 +197,8 @@ static void end(curvature_job *b, const dp_allocator *memory, uint32_t *first) {
 static void find_forms(curvature_job *b) {
     for_triangles(b, add_normals);
     for (uint32_t v = 0; v < b->polygons->vertex_count; v++) {
-        const dp_vec3 n = dp_unit(normal_at(b, v));
+        dp_vec3 n = dp_unit(normal_at(b, v));
+        if (!isfinite(dp_length(n))) n = dp_v3(0, 0, 0); /* of triangles next to nothing */
         b->normal[v][0] = (float)n.x, b->normal[v][1] = (float)n.y, b->normal[v][2] = (float)n.z;
     }
     for_triangles(b, add_forms);
@@ -280,9 +281,10 @@ static void make_tensor(const curvature_job *b, uint32_t v, double size, tensor 
     memset(q, 0, sizeof(tensor));
     if (!(dp_length(n) > 0)) return;
     /* 0 where both curvatures are equal or opposite; 0 where there is hardly any */
-    const double contrast = most > 0 ? (most - least) / most : 0,
-                 bent = most * size / (most * size + UNBENT);
-    add_cross(q, d, e, contrast * bent);
+    if (most > 0 && most < (double)INFINITY) { /* finite: not of triangles next to nothing */
+        const double contrast = (most - least) / most, bent = most * size / (most * size + UNBENT);
+        add_cross(q, d, e, contrast * bent);
+    }
     add_cross(q, f, dp_cross(n, f), STEADY);
 }
 

@@ -45,6 +45,11 @@ dp_pn_edge dp_pn_edge_between(dp_vec3 a, dp_vec3 b, const dp_pn_end *at_a, const
         {a, dp_add(a, third(dp_sub(b, a), at_a)), dp_add(b, third(dp_sub(a, b), at_b)), b}};
 }
 
+dp_pn_edge dp_pn_edge_straight(dp_vec3 a, dp_vec3 b) {
+    static const dp_pn_end straight = {.count = 0};
+    return dp_pn_edge_between(a, b, &straight, &straight);
+}
+
 void dp_pn_bend(const dp_pn_edge *edge, dp_vec3 bend[2]) {
     const dp_vec3 *const p = edge->at;
     bend[0] = dp_sub(p[1], dp_mix(p[0], p[3], 1.0 / 3));

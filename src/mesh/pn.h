@@ -25,6 +25,9 @@ typedef struct dp_pn_edge {
 /* The curve of the edge from a to b. The same the other way round, bit for bit. */
 dp_pn_edge dp_pn_edge_between(dp_vec3 a, dp_vec3 b, const dp_pn_end *at_a, const dp_pn_end *at_b);
 
+/* One that is not curved. */
+dp_pn_edge dp_pn_edge_straight(dp_vec3 a, dp_vec3 b);
+
 /* How far the curve's two inner control points lie from the chord's thirds. */
 void dp_pn_bend(const dp_pn_edge *edge, dp_vec3 bend[2]);
 

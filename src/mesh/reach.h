@@ -5,6 +5,8 @@
 #ifndef DP_MESH_REACH_H
 #define DP_MESH_REACH_H
 
+#include <drypoint/source.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -65,6 +67,10 @@ void dp_reach_add(dp_reach *reach, const double point[3]);
 
 /* Makes limits of what is known: useful after some points from all over the model. */
 void dp_reach_set_limits(dp_reach *reach);
+
+/* dp_source_extent, and in the same reading how far what is drawn reaches in a view: polygons that
+ * have an area and no bad corner. `reach` has just begun; NULL: only the extent (extent.c). */
+dp_result dp_source_measure(dp_source *source, dp_extent *extent, dp_reach *reach, dp_diag *diag);
 
 /* Adds what another one of the same view and origin has. Any order gives the same bits. */
 void dp_reach_join(dp_reach *reach, const dp_reach *other);

@@ -8,6 +8,7 @@
 #include "mesh/models.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct entry {
@@ -66,6 +67,18 @@ static const char *nearest_name(const char *name) {
     return best->name;
 }
 
+static dp_result refuse_name(const char *name, dp_diag *diag) {
+    char names[200] = "";
+    const char *const near = nearest_name(name);
+    if (2 * edit_distance(name, near) <= strlen(near))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "no shape is called \"%.64s\"; did you mean \"%s\"?",
+                       name, near);
+    for (size_t i = 0, n = 0; i < ENTRIES; i++)
+        n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", i ? ", " : "", entries[i].name);
+    return dp_fail(diag, DP_ERR_ARGUMENT, "no shape is called \"%.64s\"; there are %s", name,
+                   names);
+}
+
 static const entry *find(const char *name) {
     for (const entry *e = entries; e < entries + ENTRIES; e++)
         if (!strcmp(name, e->name)) return e;
@@ -102,9 +115,7 @@ static dp_result check(const dp_shape *shape, const entry **found, dp_diag *diag
     if (!shape || !shape->name)
         return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_from_shape: shape or its name is NULL");
     *found = find(shape->name);
-    if (!*found)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "no shape is called \"%.64s\"; did you mean \"%s\"?",
-                       shape->name, nearest_name(shape->name));
+    if (!*found) return refuse_name(shape->name, diag);
     if (!(shape->size >= 0) || shape->size > 1e30)
         return dp_fail(diag, DP_ERR_ARGUMENT, "a shape's size must lie between 0 and 1e30");
     if (shape->triangles > MOST_TRIANGLES)

@@ -48,11 +48,7 @@ dp_result dp_check_alignment(const dp_batch *batch, dp_diag *diag);
 /* Makes min and max of exact_min and exact_max; a box of nothing (from INFINITY on) becomes 0. */
 void dp_extent_round(dp_extent *extent);
 
-/* dp_source_extent, and in the same reading how far what is drawn reaches in a view: polygons that
- * have an area and no bad corner. `reach` has just begun; NULL: only the extent. */
-dp_result dp_source_measure(dp_source *source, dp_extent *extent, dp_reach *reach, dp_diag *diag);
-
-/* The same of a source with records, read in parallel (extent_records.c). */
+/* dp_source_measure of a source with records, read in parallel (extent_records.c). */
 dp_result dp_records_measure(dp_source *source, dp_extent *extent, dp_reach *reach, dp_diag *diag);
 
 /* Adds the polygon of a batch's corners [first, last), if it is drawn; `shift` moves its positions to

@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-enum { NONE = UINT32_MAX, MOST_AT_NODE = 12, SHORT = 64 /* links */ };
+enum { NONE = UINT32_MAX, MOST_AT_NODE = 12, MOST_OFFERS = 64, SHORT = 64 /* links */ };
 
 /* A way over a gap between two open ends. */
 typedef struct dp_bridge {
@@ -161,8 +161,11 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
            may_join(c, e, f);
 }
 
+/* Ways from an open end to those of higher numbers. From a crowd of ends, as of a model that is a dot, only
+ * some are offered: all pairs would take a square of the time and memory. */
 static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *memory,
                           dp_chain_store *store, size_t *n) {
+    const size_t most = *n + MOST_OFFERS;
     const dp_point p = end_point(c, e);
     const int32_t x = cell_of(c, p.x), y = cell_of(c, p.y);
     for (int32_t k = 0; k < 9; k++) {
@@ -174,6 +177,7 @@ static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *mem
                             sizeof *store->bridges))
                 return false;
             store->bridges[(*n)++] = (bridge){distance, e, f};
+            if (*n == most) return true;
         }
     }
     return true;

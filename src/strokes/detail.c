@@ -256,8 +256,10 @@ static void look(const dp_detail *c, dp_line_sample *s) {
     const bool is_outline = stroke->line == DP_LINE_SILHOUETTE;
     if (!(trait->length > 0) || !(is_outline || trait->hard > 0)) return;
     const dp_stroke_point point = dp_stroke_point_at(c->frame, stroke, s->at);
-    const uint32_t polygons[2] = {!is_outline || piece->seen & 1 ? piece->a : NONE,
-                                  !is_outline || piece->seen & 2 ? piece->b : NONE};
+    /* of an outline the one that is seen; where that is not known, either */
+    const bool either = !is_outline || !piece->seen;
+    const uint32_t polygons[2] = {either || piece->seen & 1 ? piece->a : NONE,
+                                  either || piece->seen & 2 ? piece->b : NONE};
     if (is_outline) {
         s->gap = dp_outline_gap(c->frame, &point, dp_maxf(BEYOND * c->unit, 2)) / c->unit;
         s->outline = outline_evidence(s->gap);

@@ -144,9 +144,10 @@ float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_poi
     }
     if (bend == INFINITY) return 0;
     /* sharp folds, and those of wide polygons, are meant, whatever is beside them */
-    const float meant = outline ? 0
-                                : 1 - (1 - dp_smooth_step(50, 80, s->turn)) *
-                                          (1 - dp_smooth_step(40 * unit, 100 * unit, widest));
+    const float sharpest =
+                    outline ? dp_smooth_step(70, 90, s->turn) : dp_smooth_step(50, 80, s->turn),
+                wide = outline ? 0 : dp_smooth_step(40 * unit, 100 * unit, widest);
+    const float meant = 1 - (1 - sharpest) * (1 - wide);
     /* a right angle at a wide, flat face is worth twice as much: few of them are chance */
     const float right = rightness(s) * dp_smooth_step(15 * unit, 30 * unit, widest) *
                         (1 - dp_smooth_step(0.05f, 0.2f, bend / s->turn));

@@ -16,12 +16,13 @@
 enum { FEW = 4 /* segments of a chain that do not tell whether it is regular */ };
 static const float ENOUGH = 24 /* evidence of a hard edge that a chain needs */,
                    LONG = 40 /* of a regular chain, which is an edge however little it is folded */,
+                   EDGE = 20 /* of one between others, which need not be as good */,
                    CRUMB = 8 /* shorter chains between others are not drawn for their sake */;
 
 bool dp_is_hard(const dp_detail *c, float hard) { return hard > ENOUGH * c->unit; }
 
 bool dp_is_good(const dp_detail *c, float hard, float length) {
-    return length >= CRUMB * c->unit && hard >= 0.7f * length;
+    return length >= CRUMB * c->unit && hard >= (length < EDGE * c->unit ? 0.7f : 0.3f) * length;
 }
 
 /* The mean of a segment's samples. */

@@ -240,12 +240,20 @@ static uint32_t source_edge(const dp_frame *frame, const dp_piece *piece) {
     return edge == DP_EDGE_INSIDE ? UINT32_MAX : edge;
 }
 
-/* Degrees between the normals of its two polygons. */
-static float turn_at(const dp_segment_batch *made, uint32_t i, const dp_piece *piece) {
-    double cosine = 0;
+/* Degrees between the normals of its two polygons, turned as the eye has them, whatever their winding:
+ * both to the eye at a crease, one away from it at an outline. */
+static float turn_at(const dp_view *view, const dp_segment_batch *made, uint32_t i,
+                     const dp_piece *piece) {
     if (piece->b == UINT32_MAX || piece->edge == DP_CROSSING) return 0;
-    for (int k = 0; k < 3; k++) cosine += made->normal[0][k][i] * made->normal[1][k][i];
-    return dp_degrees_of_cosine((float)cosine);
+    const float at[3] = {made->world[0][0][i], made->world[0][1][i], made->world[0][2][i]};
+    const dp_vec3 sight = dp_view_vector(view, dp_v3f(at));
+    dp_vec3 normal[2];
+    for (int k = 0; k < 2; k++)
+        normal[k] = dp_v3(made->normal[k][0][i], made->normal[k][1][i], made->normal[k][2][i]);
+    const bool alike = (dp_dot(normal[0], sight) < 0) == (dp_dot(normal[1], sight) < 0);
+    const double cosine = dp_dot(normal[0], normal[1]);
+    return dp_degrees_of_cosine(
+        (float)(alike == (piece->line != DP_LINE_SILHOUETTE) ? cosine : -cosine));
 }
 
 static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_segment_batch *made,
@@ -263,7 +271,7 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
     stroke->line = piece->line;
     dp_take_look(frame, piece, segment, stroke);
     for (int k = 0; k < 2; k++) take_plane(made, i, k, piece, stroke->plane[k]);
-    stroke->turn = turn_at(made, i, piece);
+    stroke->turn = turn_at(&frame->view, made, i, piece);
 }
 
 static void make_block(void *arg, uint32_t index, uint32_t worker) {

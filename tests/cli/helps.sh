@@ -70,6 +70,7 @@ topics() {
 }
 wrong_topics() {
     wrong --help camra -- '--help: "camra" is no topic; did you mean camera?'
+    wrong --help nosuch -- '--help: "nosuch" is neither a topic nor an option'
     wrong help linse -- 'did you mean lines?'
     wrong help xyzzyxyzzy -- 'neither a topic nor an option; "drypoint --help" lists topics'
 }

@@ -97,6 +97,9 @@ standard_input() {
         cat b.stl | "$program" - $small $given -q -o trace=piped.txt || fail "piped, $given"
         cmp -s file.txt piped.txt || fail "standard input from a pipe differs with $given"
     done
+    run 0 b.stl --size 640x480 --azimuth 70 --detail exact -o file.png
+    cat b.stl | "$program" - --size 640x480 --azimuth 70 --detail exact -o - >piped.png || fail "piped"
+    cmp -s file.png piped.png || fail "triangles from a pipe are drawn as polygons"
 }
 # A file that does not fit is read twice, in parts: the picture is the same.
 streamed() {
@@ -398,6 +401,8 @@ nearest_option() {
     wrong shape:cube --lines ridge,vally -o out.png -- 'did you mean valley?'
     wrong make geer -o out.ply -- 'did you mean "gear"?'
     wrong shape:gaer -o out.png -- 'did you mean "gear"?'
+    wrong make pyramid -o out.ply -- 'no shape is called "pyramid"; there are cube, '
+    wrong shape:cube --view under -o out.png -- '--view: "under" is none of front|back|'
 }
 wrong_values() {
     for value in nan inf 3x '' 1e999 0x10 180 0 -5; do
@@ -685,6 +690,14 @@ many_corners() {
     [ "$code" = 0 ] || fail "exit code $code: $(head -c 400 err)"
     says out '"triangles": 99998'
     says out '"dropped": 0'
+    is_png out.png
+}
+# A part in one pixel of a large scene: all pairs of its triangles would take minutes. Here, too, the limit is for
+# sanitizers.
+crowded_pixels() {
+    printf 'v -1e9 -1e9 -1e9\nv 1e9 -1e9 -1e9\nv 1e9 1e9 -1e9\nf 1 2 3\n' >ground.obj
+    interrupt TERM 60 ground.obj shape:torus:100000 -o out.png --hidden dashed
+    [ "$code" = 0 ] || fail "exit code $code: $(head -c 400 err)"
     is_png out.png
 }
 interrupted() {
@@ -1170,6 +1183,18 @@ vectors_that_fail() {
     "$program" shape:gear $small -o - --format svg >/dev/full 2>err && fail "no error on a full standard output"
     says err 'No space left on device'
 }
+empty_pictures() {
+    run 0 shape:cube $small --eye 0,0,5 --target 0,0,9 -o out.png
+    one_line
+    says err 'out.png: no line is in it: nothing of the model is seen'
+    run 0 shape:cube $small --eye 0,0,5 --target 0,0,9 -o -
+    says err 'standard output: no line is in it'
+    for option in '--quiet' '--lines none' '--edges map' '--ink quads'; do
+        run 0 shape:cube $small --eye 0,0,5 --target 0,0,9 $option -o out.png
+        grep -q 'no line is in it' err && fail "it is told with $option"
+    done
+    return 0
+}
 empty_vectors() {
     run 0 shape:cube $small --lines none -o out.svg
     is_vector svg out.svg
@@ -1379,9 +1404,9 @@ paper_presets() {
 . "$here/several.sh" # scenes, a drawing for each of several models
 . "$here/helps.sh"   # --help and its topics, completions
 
-tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects smoothing absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+tests="$look_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_pictures empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects smoothing absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
-    cut_files huge_counts many_corners dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
+    cut_files huge_counts many_corners crowded_pixels dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"
 
 for test in $tests; do

@@ -216,6 +216,24 @@ static void test_broken_meshes_are_survived(void **state) {
     unbend(&b);
 }
 
+/* From next to nothing to as large as floats go. */
+static void test_directions_are_finite_at_any_size(void **state) {
+    (void)state;
+    static const float sizes[] = {1e-38f, 1e-30f, 1e-22f, 1e-19f, 1e-15f,
+                                  1e15f,  1e19f,  1e30f,  2e38f};
+    curvature b;
+    memset(&b, 0, sizeof b);
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        const dp_polygons p = patch(torus_at, 8);
+        for (uint32_t v = 0; v < p.vertex_count; v++)
+            for (int k = 0; k < 3; k++) points[v][k] *= sizes[s] / 4;
+        bend(&b, &p);
+        for (uint32_t v = 0; v < p.vertex_count; v++)
+            assert_true(isfinite(dp_length(dp_v3f(b.store.along[v]))));
+    }
+    unbend(&b);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sphere),
@@ -226,6 +244,7 @@ int main(void) {
         cmocka_unit_test(test_umbilics_and_noise_get_a_steady_direction),
         cmocka_unit_test(test_directions_are_unit_tangent_and_kept),
         cmocka_unit_test(test_broken_meshes_are_survived),
+        cmocka_unit_test(test_directions_are_finite_at_any_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -474,6 +474,23 @@ static void test_strokes_out_of_range_are_refused(void **state) {
     }
 }
 
+/* A model that is a dot: thousands of ends lie within a gap of each other, and not all pairs are looked at. */
+static void test_a_crowd_of_ends_takes_little(void **state) {
+    (void)state;
+    enum { MANY = 8000 };
+    static dp_stroke strokes[MANY];
+    for (uint32_t i = 0; i < MANY; i++) {
+        const float x = 5 + (float)(i % 200) * 0.002f, y = 5 + (float)(i / 200) * 0.002f;
+        strokes[i] = stroke(x, y, x + 0.001f, y);
+    }
+    chain(strokes, MANY, 0.5f, 1);
+    assert_true(chains.bridges_cap < 200 * (size_t)MANY);
+    uint32_t links = 0;
+    for (uint32_t i = 0; i < chains.chain_count; i++) links += chains.chains[i].count;
+    assert_int_equal(links, MANY);
+    free_chains();
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_segments_are_chained_whatever_way_they_run),
@@ -491,6 +508,7 @@ int main(void) {
         cmocka_unit_test(test_creases_are_drawn_beside_extruded_outlines),
         cmocka_unit_test(test_dashed_lines_are_chained_after_the_picture),
         cmocka_unit_test(test_gaps_of_a_texture_stay_open),
+        cmocka_unit_test(test_a_crowd_of_ends_takes_little),
         cmocka_unit_test(test_extruded_silhouettes_have_no_gaps),
         cmocka_unit_test(test_memory_may_run_out),
         cmocka_unit_test(test_strokes_out_of_range_are_refused),
