@@ -140,7 +140,6 @@ effects() {
 --width 5 | --edges map | --edges both | --edges both adds them
 --color red | --lines none || leave out --lines none
 --detail 0.05 | --ink quads | --ink strokes | with --ink quads the added polygons are the lines
---detail exact | --lines border,intersection | --lines silhouette,border | borders and intersections are all drawn
 --detail 2 | --edges none | --edges both | --edges both adds them
 --detail 2 | --lines none || leave out --lines none
 --ridge-angle 80 | --lines silhouette || add them to --lines
@@ -228,6 +227,13 @@ options_without_effect() {
     bracket two.png --mirror-tint red --mirror-fade 0.1
     says err '--mirror-fade, --mirror-tint change nothing: there is no mirror'
     one_line
+    run 0 shape:boxes $small --lines border,intersection -o base.png
+    run 0 shape:boxes $small --lines border,intersection --detail 0.01 -o other.png
+    says err '--detail changes nothing: borders and intersections are all drawn; add others to --lines'
+    one_line
+    cmp -s base.png other.png || fail "--detail leaves out intersections"
+    run 0 shape:boxes $small --lines silhouette,intersection --detail 0.5 -o other.png
+    silent err
     run 0 shape:cube $small --title Cube -o titled.svg
     grep -q 'changes nothing' err && fail "an SVG has a title: $(cat err)"
     run 0 make cube --seed 3 -o cube.ply
