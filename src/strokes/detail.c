@@ -127,6 +127,9 @@ static void find_regularity(const dp_detail *c, const dp_chain *chain) {
 
 /* ------- samples ------- */
 
+/* px; the surface is known by the pixel. */
+static float step_of(const dp_detail *c) { return dp_maxf(STEP * c->unit, 1); }
+
 static bool put_sample(dp_detail *c, uint32_t segment, float at, float length) {
     dp_detail_store *const own = c->own;
     const dp_stroke *const s = &c->lines->strokes[segment];
@@ -148,7 +151,7 @@ static bool put_sample(dp_detail *c, uint32_t segment, float at, float length) {
  * sharp all along. */
 static bool sample_long(dp_detail *c, uint32_t segment) {
     dp_line_trait *const t = &c->own->trait[segment];
-    const float parts = ceilf(t->length / (STEP * c->unit));
+    const float parts = ceilf(t->length / (step_of(c)));
     const uint32_t n = c->lines->strokes[segment].line != DP_LINE_SILHOUETTE ? 1
                        : parts < 65536                                       ? (uint32_t)parts
                                                                              : 65536;
@@ -172,8 +175,8 @@ static uint32_t sample_short(dp_detail *c, const dp_chain *chain, uint32_t i) {
     const dp_link *const links = dp_links_of(c, chain);
     float length = 0, half = 0;
     uint32_t end = i, middle = i;
-    while (end < chain->count && length < 0.75f * STEP * c->unit &&
-           c->own->trait[links[end].segment].length <= STEP * c->unit &&
+    while (end < chain->count && length < 0.75f * step_of(c) &&
+           c->own->trait[links[end].segment].length <= step_of(c) &&
            is_alike(c, links[i].segment, links[end].segment))
         length += c->own->trait[links[end++].segment].length;
     while (middle + 1 < end && half + c->own->trait[links[middle].segment].length < length / 2)
@@ -188,7 +191,7 @@ static uint32_t sample_short(dp_detail *c, const dp_chain *chain, uint32_t i) {
 static bool sample_chain(dp_detail *c, const dp_chain *chain) {
     const dp_link *const links = dp_links_of(c, chain);
     for (uint32_t i = 0; i < chain->count;) {
-        if (c->own->trait[links[i].segment].length > STEP * c->unit) {
+        if (c->own->trait[links[i].segment].length > step_of(c)) {
             if (!sample_long(c, links[i++].segment)) return false;
         } else if (!(i = sample_short(c, chain, i))) {
             return false;

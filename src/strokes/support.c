@@ -12,8 +12,11 @@
 
 static const float NEIGHBOURHOOD = 24; /* px from which a sample has support */
 
+/* px; not so small that cells are more than what lies in them. */
+static float cell_size(const dp_detail *c) { return dp_maxf(NEIGHBOURHOOD * c->unit, 8); }
+
 static uint32_t cell_along(const dp_detail *c, float px, uint32_t count) {
-    const float cell = px / (NEIGHBOURHOOD * c->unit);
+    const float cell = px / cell_size(c);
     return !(cell > 0) ? 0 : cell >= (float)count ? count - 1 : (uint32_t)cell;
 }
 
@@ -25,8 +28,8 @@ static uint32_t cell_of(const dp_detail *c, const dp_line_sample *s) {
  * cells[i + 1]). */
 static bool sort_voters(dp_detail *c) {
     dp_detail_store *const own = c->own;
-    c->columns = (uint32_t)(c->frame->view.width / (double)(NEIGHBOURHOOD * c->unit)) + 1;
-    c->rows = (uint32_t)(c->frame->view.height / (double)(NEIGHBOURHOOD * c->unit)) + 1;
+    c->columns = (uint32_t)(c->frame->view.width / (double)cell_size(c)) + 1;
+    c->rows = (uint32_t)(c->frame->view.height / (double)cell_size(c)) + 1;
     const size_t cells = (size_t)c->columns * c->rows;
     if (!dp_reserve(c->frame->memory, &own->cells, &own->cells_cap, cells + 2,
                     sizeof *own->cells) ||
