@@ -137,13 +137,21 @@ static size_t cell_slot(const chaining *c, int32_t x, int32_t y) {
     return (h ^ h >> 15) & (c->slot_count - 1);
 }
 
-static int32_t cell_of(const chaining *c, float px) { return (int32_t)floorf(px / c->rule->gap); }
+/* Cells are as wide as the gap, or a pixel. */
+static int32_t cell_of(const chaining *c, float px) {
+    return (int32_t)floorf(px / dp_maxf(c->rule->gap, 1));
+}
+
+/* Is it an end from which a chain may go on over a gap? */
+static bool is_open(const chaining *c, uint32_t end) {
+    return c->partner[end] == NONE && c->strokes[end / 2].turn >= c->rule->sharp;
+}
 
 /* Open ends into lists by grid cell; cells that share a slot share a list. */
 static void find_cells(const chaining *c) {
     memset(c->cells, 0, c->slot_count * sizeof *c->cells);
     for (uint32_t i = 2 * c->count; i-- > 0;) {
-        if (c->partner[i] != NONE) continue;
+        if (!is_open(c, i)) continue;
         const dp_point p = end_point(c, i);
         uint32_t *const slot = &c->cells[cell_slot(c, cell_of(c, p.x), cell_of(c, p.y))];
         c->beside[i] = *slot ? *slot - 1 : NONE;
@@ -167,9 +175,11 @@ static bool offer_bridges(const chaining *c, uint32_t e, const dp_allocator *mem
                           dp_chain_store *store, size_t *n) {
     const size_t most = *n + MOST_OFFERS;
     const dp_point p = end_point(c, e);
-    const int32_t x = cell_of(c, p.x), y = cell_of(c, p.y);
-    for (int32_t k = 0; k < 9; k++) {
-        const uint32_t head = c->cells[cell_slot(c, x + k % 3 - 1, y + k / 3 - 1)];
+    const float gap = c->rule->gap;
+    const int32_t x0 = cell_of(c, p.x - gap), x1 = cell_of(c, p.x + gap),
+                  y0 = cell_of(c, p.y - gap), y1 = cell_of(c, p.y + gap), columns = x1 - x0 + 1;
+    for (int32_t k = 0; k < columns * (y1 - y0 + 1); k++) {
+        const uint32_t head = c->cells[cell_slot(c, x0 + k % columns, y0 + k / columns)];
         for (uint32_t f = head ? head - 1 : NONE; f != NONE; f = c->beside[f]) {
             float distance;
             if (f <= e || !may_bridge(c, e, f, &distance)) continue;
@@ -199,7 +209,7 @@ static bool bridge_gaps(const chaining *c, const dp_allocator *memory, dp_chain_
     if (!(c->rule->gap > 0)) return true;
     find_cells(c);
     for (uint32_t e = 0; e < 2 * c->count; e++)
-        if (c->partner[e] == NONE && !offer_bridges(c, e, memory, store, &n)) return false;
+        if (is_open(c, e) && !offer_bridges(c, e, memory, store, &n)) return false;
     if (n) dp_sort(store->bridges, n, sizeof *store->bridges, by_distance);
     for (size_t i = 0; i < n; i++) {
         const uint32_t e = store->bridges[i].e, f = store->bridges[i].f;

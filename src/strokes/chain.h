@@ -32,6 +32,7 @@ typedef struct dp_chain_rule {
                   of holes */
     float side_gap;     /* the same for segments with a side, at most `gap` */
     float step;         /* as far in depth d as that, at most */
+    float sharp;        /* degrees: only segments whose fold turns by so much go over gaps */
     bool any_class;     /* segments of all classes and colours are joined */
     const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must
                            stay on one side of a chain. 0: it has none. All of a class have one, or

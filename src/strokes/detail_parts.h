@@ -52,10 +52,10 @@ static inline const dp_link *dp_links_of(const dp_detail *c, const dp_chain *cha
     return c->own->chains.links + chain->first;
 }
 
-/* How segments are chained: whatever their class, at turns of up to 60 degrees, and over gaps that are
- * rounding. */
+/* How segments are chained: whatever their class, at turns of up to 60 degrees; sharp edges over
+ * gaps that are rounding, too, as at T-junctions. */
 static const dp_chain_rule dp_detail_rule = {
-    .sharpest = 0.5f, .gap = 0.25f, .step = 1e30f, .any_class = true};
+    .sharpest = 0.5f, .gap = 0.25f, .step = 1e30f, .sharp = 40, .any_class = true};
 
 /* Has a chain as much evidence of a hard edge, px, as it needs? Or is it good all along? (hard_edges.c) */
 bool dp_is_hard(const dp_detail *detail, float hard);
