@@ -143,9 +143,10 @@ float dp_fold_clarity(const dp_frame *f, const dp_stroke *s, const dp_stroke_poi
         widest = dp_maxf(widest, reach);
     }
     if (bend == INFINITY) return 0;
-    /* sharp folds, and those of wide polygons, are meant, whatever is beside them */
-    const float sharpest =
-                    outline ? dp_smooth_step(70, 90, s->turn) : dp_smooth_step(50, 80, s->turn),
+    /* sharp folds, outlines only beside wide polygons, and folds of wide polygons are meant in any case */
+    const float sharpest = outline ? dp_smooth_step(70, 90, s->turn) *
+                                         dp_smooth_step(8 * unit, 20 * unit, widest)
+                                   : dp_smooth_step(50, 80, s->turn),
                 wide = outline ? 0 : dp_smooth_step(40 * unit, 100 * unit, widest);
     const float meant = 1 - (1 - sharpest) * (1 - wide);
     /* a right angle at a wide, flat face is worth twice as much: few of them are chance */
