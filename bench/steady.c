@@ -161,11 +161,13 @@ int main(int argc, char **argv) {
     const int frames = argc == 5 ? atoi(argv[4]) : FRAMES;
     if (argc < 4 || argc > 5 || frames < 2)
         return fprintf(stderr, "usage: steady PROGRAM \"OPTIONS\" MODEL [FRAMES]\n"), 2;
-    char folder[] = "/tmp/steady-XXXXXX";
+    const char *const tmp = getenv("TMPDIR");
+    char folder[512];
+    snprintf(folder, sizeof folder, "%s/steady-XXXXXX", tmp && *tmp ? tmp : P_tmpdir);
     turn t = {.program = argv[1], .model = argv[3], .folder = folder};
     cut_options(&t, argv[2]);
     if (!find_distance(&t)) return EXIT_FAILURE;
-    if (!mkdtemp(folder)) return perror("steady: /tmp"), EXIT_FAILURE;
+    if (!mkdtemp(folder)) return perror("steady: TMPDIR"), EXIT_FAILURE;
     const double mean = measure(&t, frames);
     rmdir(folder);
     if (mean < 0) return fprintf(stderr, "steady: not all frames could be drawn\n"), EXIT_FAILURE;

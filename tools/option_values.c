@@ -78,8 +78,6 @@ static bool store_number(const option *o, const char *value, double *to) {
     return true;
 }
 
-static bool store_number(const option *o, const char *value, double *to);
-
 static bool store_detail(const option *o, const char *value, double *to) {
     if (!strcmp(value, "exact") || !strcmp(value, "auto")) {
         *to = !strcmp(value, "auto");
@@ -426,6 +424,7 @@ static bool store_hidden(const option *o, const char *value, tool_settings *sett
 
 /* ---- any ---- */
 
+/* A table: a case for each kind. */
 bool option_store(const option *o, const char *value, tool_settings *settings) {
     void *const to = (char *)settings + o->at;
     uint64_t count = 0;

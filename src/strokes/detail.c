@@ -24,10 +24,7 @@
  * drawing; borders and intersections are not touched. Nothing depends on threads. */
 #include "strokes/detail_parts.h"
 
-#include "core/spine.h"
 #include "strokes/evidence.h"
-
-#include <string.h>
 
 /* Lengths, px at a smaller side of 900. */
 static const float PICTURE = 900, STEP = 5 /* between samples */,
@@ -77,9 +74,8 @@ static void measure_lengths(const dp_detail *c, const dp_chain *chain) {
 
 /* Degrees by which a chain turns to the left from one link to the next. */
 static float bend_of(const dp_detail *c, const dp_link *from, const dp_link *to) {
-    const dp_stroke *const s = &c->lines->strokes[from->segment], *const t =
-                                                                      &c->lines
-                                                                           ->strokes[to->segment];
+    const dp_stroke *const s = &c->lines->strokes[from->segment];
+    const dp_stroke *const t = &c->lines->strokes[to->segment];
     const float back = from->reversed == to->reversed ? 1 : -1;
     const float sx = s->b.x - s->a.x, sy = s->b.y - s->a.y, tx = back * (t->b.x - t->a.x),
                 ty = back * (t->b.y - t->a.y);
@@ -151,7 +147,7 @@ static bool put_sample(dp_detail *c, uint32_t segment, float at, float length) {
  * sharp all along. */
 static bool sample_long(dp_detail *c, uint32_t segment) {
     dp_line_trait *const t = &c->own->trait[segment];
-    const float parts = ceilf(t->length / (step_of(c)));
+    const float parts = ceilf(t->length / step_of(c));
     const uint32_t n = c->lines->strokes[segment].line != DP_LINE_SILHOUETTE ? 1
                        : parts < 65536                                       ? (uint32_t)parts
                                                                              : 65536;
@@ -200,8 +196,8 @@ static bool sample_chain(dp_detail *c, const dp_chain *chain) {
     return true;
 }
 
-/* How regular a segment's chain is where that matters: an edge as sharp as of a box is one in any
- * case. */
+/* How regular a segment's chain is where that matters: an edge as sharp as of a box is good in any
+ * case, and that begins at 0.7 (hard_edges.c). */
 static float regular_or_sharp(const dp_line_trait *t, const dp_stroke *s) {
     return dp_maxf(t->regular, 0.705f * dp_smooth_step(65, 88, s->turn));
 }
@@ -403,11 +399,6 @@ static bool reserve(const dp_detail *c) {
            dp_reserve(memory, &own->turns, &own->turns_cap, c->count, sizeof *own->turns);
 }
 
-static void in_blocks(dp_detail *c, uint32_t count, dp_task *task) {
-    dp_parallel(c->frame->threads, count / DP_DETAIL_BLOCK + (count % DP_DETAIL_BLOCK != 0), task,
-                c);
-}
-
 /* px of this picture for one of the lengths above. */
 static float unit_of(const dp_frame *frame, float detail) {
     const float side = (float)dp_min(frame->view.width, frame->view.height);
@@ -425,10 +416,10 @@ bool dp_clean_lines(const dp_frame *frame, dp_lines *lines, dp_detail_store *sto
     if (!reserve(&c)) return false;
     if (!dp_make_chains(lines->strokes, c.count, &dp_detail_rule, frame->memory, &store->chains))
         return false;
-    in_blocks(&c, store->chains.chain_count, find_traits);
+    dp_in_blocks(&c, store->chains.chain_count, find_traits);
     for (uint32_t i = 0; i < store->chains.chain_count; i++)
         if (!sample_chain(&c, &store->chains.chains[i])) return false;
-    in_blocks(&c, c.sample_count, look_block);
+    dp_in_blocks(&c, c.sample_count, look_block);
     dp_judge_chains(&c);
     if (!dp_find_support(&c)) return false;
     return keep_what_is_drawn(&c);

@@ -11,10 +11,9 @@ enum { DP_DETAIL_BLOCK = DP_TUNED(64, 3) };
 
 /* Of a segment. */
 typedef struct dp_line_trait {
-    float length;  /* px */
-    float regular; /* 0 to 1 */
-    float
-        hard; /* evidence of a hard edge, in the mean, 0 to 2; before that is known, the most it can be */
+    float length;        /* px */
+    float regular;       /* 0 to 1 */
+    float hard;          /* mean evidence of a hard edge, 0 to 2; at first the most it can be */
     float weight;        /* by its whole chain, 0 to 1 */
     uint32_t first, end; /* samples */
     uint32_t chain;
@@ -50,6 +49,12 @@ typedef struct dp_detail {
 
 static inline const dp_link *dp_links_of(const dp_detail *c, const dp_chain *chain) {
     return c->own->chains.links + chain->first;
+}
+
+/* Runs a task for each block of DP_DETAIL_BLOCK of `count` items. */
+static inline void dp_in_blocks(dp_detail *c, uint32_t count, dp_task *task) {
+    dp_parallel(c->frame->threads, count / DP_DETAIL_BLOCK + (count % DP_DETAIL_BLOCK != 0), task,
+                c);
 }
 
 /* How segments are chained: whatever their class, at turns of up to 60 degrees; sharp edges over

@@ -96,9 +96,7 @@ static void support_block(void *arg, uint32_t index, uint32_t worker) {
 }
 
 bool dp_find_support(dp_detail *c) {
-    const uint32_t blocks =
-        c->sample_count / DP_DETAIL_BLOCK + (c->sample_count % DP_DETAIL_BLOCK != 0);
     if (!sort_voters(c)) return false;
-    dp_parallel(c->frame->threads, blocks, support_block, c);
+    dp_in_blocks(c, c->sample_count, support_block);
     return true;
 }
