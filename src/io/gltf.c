@@ -38,7 +38,8 @@ static bool open_binary(dp_gltf *g, dp_gltf_bytes *json) {
     size_t at = HEADER;
     uint32_t kind;
     dp_gltf_bytes chunk;
-    if (g->file.size < HEADER) return dp_gltf_fail(g, DP_ERR_FORMAT, "the file ends in its header: it is cut off");
+    if (g->file.size < HEADER)
+        return dp_gltf_fail(g, DP_ERR_FORMAT, "the file ends in its header: it is cut off");
     const uint32_t version = little32(g->file.data + 4);
     if (version == 1)
         return dp_gltf_fail(g, DP_ERR_UNSUPPORTED,
@@ -59,8 +60,7 @@ static bool parse(dp_gltf *g, dp_stream *stream) {
     json = g->file;
     if (g->file.size >= 4 && memcmp(g->file.data, "glTF", 4) == 0 && !open_binary(g, &json))
         return false;
-    g->result =
-        dp_json_parse((const char *)json.data, json.size, &g->arena, &g->root, g->diag);
+    g->result = dp_json_parse((const char *)json.data, json.size, &g->arena, &g->root, g->diag);
     if (g->result) return false;
     return g->root->kind == DP_JSON_OBJECT ||
            dp_gltf_fail(g, DP_ERR_FORMAT, "it is JSON, but no object, as glTF is");
@@ -93,8 +93,8 @@ static bool has_text(const dp_json *list, const char *text) {
 
 /* Extensions without which vertices cannot be read. */
 static bool check_extensions(dp_gltf *g) {
-    static const char *const compressed[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                             "KHR_meshopt_compression",
+    static const char *const compressed[] = {"KHR_draco_mesh_compression",
+                                             "EXT_meshopt_compression", "KHR_meshopt_compression",
                                              "MESHOPT_compression"};
     const dp_json *required;
     if (!dp_gltf_member(g, g->root, "extensionsRequired", DP_JSON_ARRAY, &required)) return false;
@@ -146,15 +146,17 @@ static bool make_source(dp_gltf *g, dp_source **out) {
                                 .remark = *g->remark ? g->remark : NULL,
                                 .color_remark = *g->color_remark ? g->color_remark : NULL};
     if (!count_polygons(g))
-        return dp_gltf_fail(g, DP_ERR_FORMAT,
-                            "no polygons: there is nothing to draw, export the model with its faces");
+        return dp_gltf_fail(
+            g, DP_ERR_FORMAT,
+            "no polygons: there is nothing to draw, export the model with its faces");
     g->result = dp_source_from_scene(&desc, &g->arena.memory, out, g->diag);
     return !g->result;
 }
 
 static void release(dp_gltf *g) {
     const dp_allocator memory = g->arena.memory;
-    for (uint32_t i = 0; g->buffer && i < g->buffer_count; i++) dp_free(&memory, g->buffer[i].owned);
+    for (uint32_t i = 0; g->buffer && i < g->buffer_count; i++)
+        dp_free(&memory, g->buffer[i].owned);
     dp_free(&memory, g->file.owned);
     dp_free(&memory, g->scene_meshes);
     dp_free(&memory, g->scene_nodes);

@@ -45,7 +45,8 @@ static bool find_components(dp_gltf *g, const dp_json *accessor, dp_gltf_accesso
 static bool find_type(dp_gltf *g, const dp_json *object, uint32_t *type) {
     if (!dp_gltf_uint(g, object, "componentType", 0, type)) return false;
     return size_of(*type) ||
-           dp_gltf_fail(g, DP_ERR_FORMAT, "\"componentType\" must be one of 5120 … 5123, 5125, 5126");
+           dp_gltf_fail(g, DP_ERR_FORMAT,
+                        "\"componentType\" must be one of 5120 … 5123, 5125, 5126");
 }
 
 static bool open_sparse(dp_gltf *g, const dp_json *sparse, dp_gltf_accessor *a) {
@@ -86,8 +87,8 @@ static bool open_data(dp_gltf *g, const dp_json *accessor, uint32_t view, dp_glt
 static bool fill(dp_gltf *g, dp_gltf_accessor *a) {
     const dp_json *const accessor = dp_json_item(g->accessors, a->number), *sparse, *normalized;
     uint32_t view;
-    if (!dp_gltf_uint(g, accessor, "count", 0, &a->count) ||
-        !find_type(g, accessor, &a->type) || !find_components(g, accessor, a) ||
+    if (!dp_gltf_uint(g, accessor, "count", 0, &a->count) || !find_type(g, accessor, &a->type) ||
+        !find_components(g, accessor, a) ||
         !dp_gltf_member(g, accessor, "normalized", DP_JSON_BOOL, &normalized) ||
         !dp_gltf_member(g, accessor, "sparse", DP_JSON_OBJECT, &sparse) ||
         !dp_gltf_index(g, accessor, "bufferView", g->views, "bufferView", &view))
@@ -95,8 +96,9 @@ static bool fill(dp_gltf *g, dp_gltf_accessor *a) {
     a->normalized = normalized && normalized->as.truth;
     if (view && !open_data(g, accessor, view - 1, a)) return false;
     if (!view && a->count > g->bytes)
-        return dp_gltf_fail(g, DP_ERR_FORMAT, "\"count\" is %u without a bufferView: there are not "
-                                              "that many",
+        return dp_gltf_fail(g, DP_ERR_FORMAT,
+                            "\"count\" is %u without a bufferView: there are not "
+                            "that many",
                             a->count);
     return !sparse || open_sparse(g, sparse, a);
 }

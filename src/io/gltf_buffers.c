@@ -49,7 +49,8 @@ static bool decode(dp_gltf *g, const char *text, size_t size, dp_gltf_bytes *to)
         if (value < 0)
             return dp_gltf_fail(g, DP_ERR_FORMAT, "its data: URI is not base64 at letter %zu", i);
         bits = bits << 6 | (uint32_t)value;
-        if (++letters % 4 != 1) data[count++] = (uint8_t)(bits >> (8 - 2 * ((letters - 1) % 4 + 1)));
+        if (++letters % 4 != 1)
+            data[count++] = (uint8_t)(bits >> (8 - 2 * ((letters - 1) % 4 + 1)));
     }
     to->data = data, to->size = count;
     return true;
@@ -143,8 +144,7 @@ static const dp_gltf_bytes *open_buffer(dp_gltf *g, uint32_t number) {
     return b;
 }
 
-bool dp_gltf_view(dp_gltf *g, uint32_t number, uint64_t offset, uint64_t size,
-                  const uint8_t **to) {
+bool dp_gltf_view(dp_gltf *g, uint32_t number, uint64_t offset, uint64_t size, const uint8_t **to) {
     const dp_json *const view = dp_json_item(g->views, number);
     uint32_t buffer, start, length;
     if (!dp_gltf_index(g, view, "buffer", g->buffers, "buffer", &buffer) ||

@@ -32,8 +32,7 @@ static bool find_interpolation(dp_gltf *g, const dp_json *json, dp_interpolation
     if (!text) return true;
     for (int k = 0; k < 3; k++)
         if (dp_json_is(text, names[k])) return *to = (dp_interpolation)k, true;
-    return dp_gltf_fail(g, DP_ERR_FORMAT,
-                        "\"interpolation\" must be LINEAR, STEP or CUBICSPLINE");
+    return dp_gltf_fail(g, DP_ERR_FORMAT, "\"interpolation\" must be LINEAR, STEP or CUBICSPLINE");
 }
 
 /* How many numbers a key has: `width`, of splines three times as many. */

@@ -153,8 +153,7 @@ static bool read_material(dp_gltf *g, const primitive *p, float rgb[3]) {
 
 static bool read_colors(dp_gltf *g, const primitive *p) {
     float rgb[3] = {1, 1, 1}, *values;
-    if (!read_material(g, p, rgb) ||
-        !read_attribute(g, p, p->attributes, "COLOR_0", 3, &values))
+    if (!read_material(g, p, rgb) || !read_attribute(g, p, p->attributes, "COLOR_0", 3, &values))
         return false;
     p->mesh->color = dp_color_of(rgb, 1);
     if (!values) return true;
@@ -270,7 +269,8 @@ static bool find_vertices(dp_gltf *g, primitive *p) {
         !find_attribute(g, p->attributes, "POSITION", &number))
         return false;
     if (!number) return true;
-    if (is_compressed(p->json) && !dp_json_find(dp_json_item(g->accessors, number - 1), "bufferView"))
+    if (is_compressed(p->json) &&
+        !dp_json_find(dp_json_item(g->accessors, number - 1), "bufferView"))
         return dp_gltf_fail(g, DP_ERR_UNSUPPORTED,
                             "it is compressed with Draco: export the model without compression");
     if (!dp_gltf_accessor_open(g, number - 1, &a)) return false;

@@ -28,8 +28,7 @@ static bool read_matrix(dp_gltf *g, const dp_json *json, dp_scene_node *node) {
 }
 
 static void keep_small(double scale[3]) {
-    if (scale[0] == 0 && scale[1] == 0 && scale[2] == 0)
-        scale[0] = scale[1] = scale[2] = nothing;
+    if (scale[0] == 0 && scale[1] == 0 && scale[2] == 0) scale[0] = scale[1] = scale[2] = nothing;
 }
 
 static bool read_transform(dp_gltf *g, const dp_json *json, dp_scene_node *node) {
@@ -44,8 +43,7 @@ static bool read_transform(dp_gltf *g, const dp_json *json, dp_scene_node *node)
 }
 
 static bool add_node(dp_gltf *g, const dp_scene_node *node) {
-    if (g->scene_node_count == UINT32_MAX)
-        return dp_gltf_fail(g, DP_ERR_LIMIT, "too many nodes");
+    if (g->scene_node_count == UINT32_MAX) return dp_gltf_fail(g, DP_ERR_LIMIT, "too many nodes");
     if (!dp_reserve(&g->arena.memory, &g->scene_nodes, &g->scene_nodes_cap,
                     (size_t)g->scene_node_count + 1, sizeof *g->scene_nodes))
         return dp_gltf_out_of_memory(g);
@@ -150,7 +148,8 @@ static bool add_copies(dp_gltf *g, const dp_json *attributes, const place *p, ui
         return false;
     for (size_t i = 0; i < count; i++) {
         dp_scene_node copy = {.name = g->scene_nodes[node - 1].name, .parent = node};
-        for (size_t k = 0; translations && k < 3; k++) copy.translation[k] = translations[3 * i + k];
+        for (size_t k = 0; translations && k < 3; k++)
+            copy.translation[k] = translations[3 * i + k];
         for (size_t k = 0; rotations && k < 4; k++) copy.rotation[k] = rotations[4 * i + k];
         for (size_t k = 0; scales && k < 3; k++) copy.scale[k] = scales[3 * i + k];
         if (scales) keep_small(copy.scale);
@@ -228,7 +227,8 @@ static bool visit(dp_gltf *g, walk *w) {
     while (w->count) {
         const uint32_t node = w->stack[--w->count];
         if (w->seen[node])
-            return dp_gltf_fail(g, DP_ERR_FORMAT, "it is in the scene twice: nodes must form trees");
+            return dp_gltf_fail(g, DP_ERR_FORMAT,
+                                "it is in the scene twice: nodes must form trees");
         w->seen[node] = true;
         if (!read_mesh_of(g, node) ||
             !push_all(g, w, dp_json_find(dp_json_item(g->nodes, node), "children")))
@@ -279,8 +279,7 @@ static bool read_binds(dp_gltf *g, const dp_json *json, dp_scene_skin *skin) {
                             "accessor %u must be a MAT4 for each of the %u joints", number - 1,
                             skin->joint_count);
     const float *const columns = dp_gltf_floats(g, &a, 0, skin->joint_count, 16);
-    double *const rows =
-        dp_arena_take(&g->arena, dp_times(12, skin->joint_count), sizeof *rows);
+    double *const rows = dp_arena_take(&g->arena, dp_times(12, skin->joint_count), sizeof *rows);
     if (!columns) return false;
     if (!rows) return dp_gltf_out_of_memory(g);
     for (size_t j = 0; j < skin->joint_count; j++)
