@@ -17,8 +17,8 @@ static void put_corner(const dp_batch *b, size_t corner) {
         for (int k = 0; k < 3; k++) row[k] = b->origin[k] + (double)p[k];
     }
     if (b->normals.values && n < b->normals.count) {
-        const float *const p = (const float *)(const void *)((const char *)b->normals.values +
-                                                             n * b->normals.stride);
+        const float *const p =
+            (const float *)(const void *)((const char *)b->normals.values + n * b->normals.stride);
         for (int k = 0; k < 3; k++) row[3 + k] = p[k];
     }
     fwrite(row, sizeof row, 1, stdout);
