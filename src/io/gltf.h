@@ -77,6 +77,8 @@ const char *dp_gltf_name(dp_gltf *g, const dp_json *object, const char *table, u
 
 /* Reads a stream to its end, into memory that *to owns. */
 bool dp_gltf_read_all(dp_gltf *g, dp_stream *stream, dp_gltf_bytes *to);
+/* Reads all buffers that were not asked for yet, so that g->bytes is all that there is. */
+bool dp_gltf_read_buffers(dp_gltf *g);
 /* Bytes [offset, offset + size) of a view. */
 bool dp_gltf_view(dp_gltf *g, uint32_t view, uint64_t offset, uint64_t size, const uint8_t **to);
 /* A view's stride, 0 where it has none. */

@@ -95,6 +95,7 @@ static bool fill(dp_gltf *g, dp_gltf_accessor *a) {
         return false;
     a->normalized = normalized && normalized->as.truth;
     if (view && !open_data(g, accessor, view - 1, a)) return false;
+    if (!view && a->count > g->bytes && !dp_gltf_read_buffers(g)) return false;
     if (!view && a->count > g->bytes)
         return dp_gltf_fail(g, DP_ERR_FORMAT,
                             "\"count\" is %u without a bufferView: there are not "

@@ -144,6 +144,12 @@ static const dp_gltf_bytes *open_buffer(dp_gltf *g, uint32_t number) {
     return b;
 }
 
+bool dp_gltf_read_buffers(dp_gltf *g) {
+    for (uint32_t i = 0; i < g->buffer_count; i++)
+        if (!open_buffer(g, i)) return false;
+    return true;
+}
+
 bool dp_gltf_view(dp_gltf *g, uint32_t number, uint64_t offset, uint64_t size, const uint8_t **to) {
     const dp_json *const view = dp_json_item(g->views, number);
     uint32_t buffer, start, length;

@@ -12,6 +12,8 @@
 /* For a node of which nothing is to be seen: 0 0 0 would mean that its scale is not given. */
 static const double nothing = 1e-200;
 
+enum { MOST_INSTANCES = 1 << 24 /* a small file may ask for more than any memory holds */ };
+
 /* ------- transforms ------- */
 
 static bool read_matrix(dp_gltf *g, const dp_json *json, dp_scene_node *node) {
@@ -94,6 +96,8 @@ typedef struct place {
 
 static bool add_instances(dp_gltf *g, const place *p, uint32_t node) {
     const dp_gltf_mesh *const mesh = &g->mesh[p->mesh - 1];
+    if (mesh->count > MOST_INSTANCES - g->instance_count)
+        return dp_gltf_fail(g, DP_ERR_LIMIT, "a scene of more than %d parts", (int)MOST_INSTANCES);
     for (uint32_t i = 0; i < mesh->count; i++) {
         if (!dp_reserve(&g->arena.memory, &g->instances, &g->instances_cap,
                         (size_t)g->instance_count + 1, sizeof *g->instances))

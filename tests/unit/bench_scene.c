@@ -196,7 +196,8 @@ static void bench_skin(void) {
     check(dp_source_set_time(source, 0.05, &diag), &diag);
     const double begun = now();
     check(dp_source_next(source, &batch, &diag), &diag);
-    printf("a skin of %zu polygons: %.1f ms a frame that moves, %.1f ms one that does not; x %.2f; the pose alone, by one "
+    printf("a skin of %zu polygons: %.1f ms a frame that moves, %.1f ms one that does not; x %.2f; "
+           "the pose alone, by one "
            "thread, %.1f ms\n",
            batch.polygon_count, moving, still, moving / still, now() - begun);
     dp_context_destroy(context);

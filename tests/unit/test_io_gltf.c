@@ -27,7 +27,8 @@
     "{\"bufferView\":2,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},"                   \
     "{\"bufferView\":3,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"                     \
     "{\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"},"                                      \
-    "{\"bufferView\":4,\"componentType\":5121,\"normalized\":true,\"count\":3,\"type\":\"VEC4\"}]}"
+    "{\"bufferView\":4,\"componentType\":5121,\"normalized\":true,\"count\":3,\"type\":\"VEC4\"}]" \
+    "}"
 
 static const struct {
     float positions[9];
@@ -124,7 +125,8 @@ static void binary_files_are_read(void **state) {
     const char *const json = edited("\"uri\":\"t.bin\",", "");
     const size_t size = binary_of(json, file, 2);
     assert_string_equal(trace_bytes(file, size, NULL, DP_FORMAT_AUTO), TRIANGLE);
-    for (size_t cut = 4; cut < size - 2; cut += cut < 30 ? 1 : 97) /* 130 bytes are said to be there */
+    for (size_t cut = 4; cut < size - 2;
+         cut += cut < 30 ? 1 : 97) /* 130 bytes are said to be there */
         assert_contains(trace_bytes(file, cut, NULL, DP_FORMAT_AUTO), "bad file content");
     binary_of(json, file, 1);
     assert_contains(trace_bytes(file, size, NULL, DP_FORMAT_AUTO), "not supported");
@@ -172,9 +174,9 @@ static void what_is_not_drawn_is_passed_over(void **state) {
                     "no polygons");
     assert_string_equal(trace_model(edited("\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", "")),
                         TRIANGLE); /* all roots */
-    assert_string_equal(trace_model(edited("\"skins\":[{\"joints\":[0]}]",
-                                           "\"skins\":[{\"joints\":[]}]")),
-                        TRIANGLE); /* follows its node */
+    assert_string_equal(
+        trace_model(edited("\"skins\":[{\"joints\":[0]}]", "\"skins\":[{\"joints\":[]}]")),
+        TRIANGLE); /* follows its node */
 }
 
 static void indices_of_nothing_stay_for_the_engine(void **state) {
@@ -258,7 +260,8 @@ static void bad_files_are_told(void **state) {
 static void odd_clips_are_sound(void **state) {
     (void)state;
     dp_source *source = NULL;
-    const char *const text = edited("\"count\":2,\"type\":\"VEC3\"", "\"count\":1,\"type\":\"VEC3\"");
+    const char *const text =
+        edited("\"count\":2,\"type\":\"VEC3\"", "\"count\":1,\"type\":\"VEC3\"");
     assert_int_equal(open_text(text, strlen(text), &source, NULL), DP_OK);
     assert_contains(dp_source_remark(source), "accessor 3 has values for 1 of 2 keys");
     assert_int_equal(dp_scene_of(source)->clips[0].channels[0].key_count, 1);
