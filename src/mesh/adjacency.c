@@ -24,7 +24,7 @@
 #include "base/vec.h"
 #include "mesh/fingerprint.h"
 #include "mesh/places.h"
-#include "mesh/source.h"
+#include "mesh/batch.h"
 #include <drypoint/adjacency.h>
 
 #include "base/diag.h"
