@@ -7,6 +7,7 @@
  *
  * Not handled: channels that go on before their first key; keys that are not joined by lines or arcs
  * (Assimp's readers cut such curves into short lines). */
+#include "io/assimp_look.h"
 #include "io/assimp_scene.h"
 
 #include <math.h>
@@ -14,7 +15,8 @@
 
 enum { REPEATED_MOST = 1 << 16 /* keys that repeating may add to a channel */ };
 
-static const double usual_ticks = 25; /* a second, where the file does not say: as Assimp's viewers */
+static const double usual_ticks =
+    25; /* a second, where the file does not say: as Assimp's viewers */
 
 /* ------- keys ------- */
 
@@ -100,8 +102,7 @@ static bool add_vectors(filling *f, uint32_t node, dp_scene_path path,
                         enum aiAnimBehaviour after) {
     keys k;
     if (!count || !from) return true;
-    const uint32_t added =
-        keys_after(after, count, from[0].mTime, from[count - 1].mTime, f->end);
+    const uint32_t added = keys_after(after, count, from[0].mTime, from[count - 1].mTime, f->end);
     if (!begin_keys(f->tables, &k, count + added, 3)) return false;
     for (uint32_t i = 0; i < count; i++) {
         const struct aiVector3D v = from[i].mValue;
@@ -196,6 +197,12 @@ static bool add_morph_channel(filling *f, const struct aiMeshMorphAnim *from) {
 
 /* ------- clips ------- */
 
+/* Assimp's reader of Half-Life's models (5.2) says frames * frames a second for a duration: the last key
+ * tells. */
+static bool counts_frames_twice(const struct aiScene *scene) {
+    return dp_assimp_is_from(scene, "Quake Mesh / 3D GameStudio Mesh Importer");
+}
+
 static bool fill_clip(dp_assimp_tables *t, const struct aiAnimation *from, dp_scene_clip *to) {
     filling f = {.tables = t, .ticks = from->mTicksPerSecond, .end = from->mDuration};
     const size_t most = 3 * (size_t)from->mNumChannels + from->mNumMorphMeshChannels;
@@ -207,7 +214,7 @@ static bool fill_clip(dp_assimp_tables *t, const struct aiAnimation *from, dp_sc
     for (unsigned i = 0; i < from->mNumMorphMeshChannels; i++)
         if (!add_morph_channel(&f, from->mMorphMeshChannels[i])) return false;
     t->flaws[DP_FLAW_MESH_CHANNELS] += from->mNumMeshChannels;
-    const double duration = from->mDuration / f.ticks;
+    const double duration = counts_frames_twice(t->from) ? 0 : from->mDuration / f.ticks;
     *to = (dp_scene_clip){.name = *from->mName.data ? from->mName.data : NULL,
                           .channels = f.channels,
                           .channel_count = f.count,

@@ -91,15 +91,14 @@ static bool fill_morphs(dp_assimp_tables *t, const struct aiMesh *from, dp_scene
     const bool relative = from->mMethod == aiMorphingMethod_MORPH_RELATIVE &&
                           dp_assimp_is_from(t->from, "Collada Importer");
     const unsigned count = from->mNumVertices;
-    dp_scene_morph *const morphs =
-        dp_arena_take(&t->arena, from->mNumAnimMeshes, sizeof *morphs);
+    dp_scene_morph *const morphs = dp_arena_take(&t->arena, from->mNumAnimMeshes, sizeof *morphs);
     if (!morphs) return false;
     for (unsigned k = 0; k < from->mNumAnimMeshes; k++) {
         const struct aiAnimMesh *const target = from->mAnimMeshes[k];
         if (!target || target->mNumVertices != count) continue;
-        if (target->mVertices && !(morphs[k].positions = subtract(t, target->mVertices,
-                                                                  relative ? NULL : from->mVertices,
-                                                                  count)))
+        if (target->mVertices &&
+            !(morphs[k].positions =
+                  subtract(t, target->mVertices, relative ? NULL : from->mVertices, count)))
             return false;
         if (target->mNormals && from->mNormals &&
             !(morphs[k].normals =
@@ -117,7 +116,8 @@ static double spacing_of(const struct aiMesh *from) {
     double farthest = 0;
     for (unsigned i = 0; i < from->mNumVertices; i++) {
         const struct aiVector3D p = from->mVertices[i];
-        farthest = fmax(farthest, fmax(fabs((double)p.x), fmax(fabs((double)p.y), fabs((double)p.z))));
+        farthest =
+            fmax(farthest, fmax(fabs((double)p.x), fmax(fabs((double)p.y), fabs((double)p.z))));
     }
     return sizeof(ai_real) == sizeof(float) && isfinite(farthest) ? dp_float_spacing(farthest) : 0;
 }
@@ -146,8 +146,7 @@ bool dp_assimp_fill_meshes(dp_assimp_tables *t) {
     t->parts = dp_arena_take(&t->arena, count, sizeof *t->parts);
     if (!t->meshes || !t->parts) return false;
     for (unsigned i = 0; i < count; i++)
-        if (t->from->mMeshes[i] &&
-            !fill_mesh(t, t->from->mMeshes[i], &t->meshes[i], &t->parts[i]))
+        if (t->from->mMeshes[i] && !fill_mesh(t, t->from->mMeshes[i], &t->meshes[i], &t->parts[i]))
             return false;
     return true;
 }

@@ -68,6 +68,18 @@ static bool add_nodes(dp_assimp_tables *t, const struct aiNode *node, uint32_t p
     return true;
 }
 
+/* A node's parent is who holds it, but for Half-Life's models, where Assimp (5.2) hangs all bones under
+ * one node: there it is whom the node itself names. */
+static void correct_parents(dp_assimp_tables *t) {
+    for (uint32_t n = 0; n < t->node_count; n++) {
+        const struct aiNode *const named = t->sources[n]->mParent;
+        const uint32_t holder = t->nodes[n].parent;
+        if (!named || !holder || t->sources[holder - 1] == named) continue;
+        for (uint32_t k = 0; k < t->node_count; k++)
+            if (t->sources[k] == named) t->nodes[n].parent = k + 1;
+    }
+}
+
 static int compare_names(const void *left, const void *right) {
     const dp_assimp_name *const a = left, *const b = right;
     const int order = strcmp(a->text, b->text);
@@ -78,8 +90,7 @@ static bool sort_names(dp_assimp_tables *t) {
     t->names = dp_arena_take(&t->arena, t->node_count, sizeof *t->names);
     if (!t->names) return false;
     for (uint32_t n = 0; n < t->node_count; n++)
-        if (t->nodes[n].name)
-            t->names[t->name_count++] = (dp_assimp_name){t->nodes[n].name, n + 1};
+        if (t->nodes[n].name) t->names[t->name_count++] = (dp_assimp_name){t->nodes[n].name, n + 1};
     dp_sort(t->names, t->name_count, sizeof *t->names, compare_names);
     return true;
 }
@@ -101,7 +112,9 @@ static bool fill_nodes(dp_assimp_tables *t) {
     t->sources = dp_arena_take(&t->arena, t->node_count, sizeof *t->sources);
     if (!t->nodes || !t->sources) return false;
     t->node_count = 0;
-    return add_nodes(t, t->from->mRootNode, 0) && sort_names(t);
+    if (!add_nodes(t, t->from->mRootNode, 0)) return false;
+    correct_parents(t);
+    return sort_names(t);
 }
 
 /* ------- instances ------- */
@@ -178,9 +191,9 @@ static void write_remark(const dp_assimp_tables *t, char *text, size_t size) {
     size_t length = 0;
     for (int k = 0; k < DP_FLAWS && length < size; k++)
         if (t->flaws[k])
-            length += (size_t)snprintf(text + length, size - length, "%s%llu %s",
-                                       length ? "; " : "", (unsigned long long)t->flaws[k],
-                                       what[k]);
+            length +=
+                (size_t)snprintf(text + length, size - length, "%s%llu %s", length ? "; " : "",
+                                 (unsigned long long)t->flaws[k], what[k]);
 }
 
 static dp_result make_source(dp_assimp_tables *t, const dp_allocator *allocator, dp_source **out,
@@ -208,14 +221,15 @@ dp_result dp_assimp_make_scene(const struct aiScene *scene, const dp_allocator *
     dp_assimp_tables t = {.from = scene, .arena.memory = dp_allocator_resolve(allocator)};
     dp_result result = DP_OK;
     if (!count_nodes(&t, scene->mRootNode, 0))
-        result = dp_fail(diag, DP_ERR_LIMIT,
-                         "nodes are nested more than %d deep: flatten the scene",
-                         (int)DP_ASSIMP_DEEPEST);
+        result =
+            dp_fail(diag, DP_ERR_LIMIT, "nodes are nested more than %d deep: flatten the scene",
+                    (int)DP_ASSIMP_DEEPEST);
     else if (!fill_nodes(&t) || !dp_assimp_fill_meshes(&t) || !fill_instances(&t) ||
              !dp_assimp_fill_clips(&t))
         result = dp_fail(diag, DP_ERR_MEMORY, "out of memory for the scene");
     else if (!t.instance_count)
-        result = dp_fail(diag, DP_ERR_FORMAT, "there are no polygons in it: export the model again");
+        result =
+            dp_fail(diag, DP_ERR_FORMAT, "there are no polygons in it: export the model again");
     else
         result = make_source(&t, allocator, out, diag);
     dp_arena_free(&t.arena);

@@ -33,12 +33,6 @@ static double ticks_of(const struct aiAnimation *a) {
     return a->mTicksPerSecond > 0 ? a->mTicksPerSecond : 25;
 }
 
-/* Seconds of an animation. */
-static double pose_duration(const struct aiScene *scene, unsigned animation) {
-    const struct aiAnimation *const a = scene->mAnimations[animation];
-    return a->mDuration / ticks_of(a);
-}
-
 /* ---- channels ---- */
 
 static void mix(const struct aiVectorKey *keys, unsigned count, double t, double to[3]) {
