@@ -55,7 +55,7 @@ static void add_repeated(keys *k, uint32_t count, uint32_t added) {
         const uint32_t from = i % count;
         const double round = 1 + (double)(i / count);
         const double time = k->times[from] + round * period;
-        add_key(k, from ? time : time + 1e-6 * period, k->values + (size_t)from * k->width);
+        add_key(k, from ? time : time + 1e-9 * period, k->values + (size_t)from * k->width);
     }
 }
 

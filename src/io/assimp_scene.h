@@ -25,16 +25,16 @@ typedef struct dp_assimp_name {
 
 /* What can be said only once, however often it is met. */
 typedef enum dp_assimp_flaw {
-    DP_FLAW_BONES = 0,      /* bones that name no node, or have no matrix */
-    DP_FLAW_INFLUENCES,     /* influences on a vertex beyond those kept */
-    DP_FLAW_CHANNELS,       /* channels that name no node */
-    DP_FLAW_MESH_CHANNELS,  /* channels of whole meshes */
+    DP_FLAW_BONES = 0,     /* bones that name no node, or have no matrix */
+    DP_FLAW_INFLUENCES,    /* influences on a vertex beyond those kept */
+    DP_FLAW_CHANNELS,      /* channels that name no node */
+    DP_FLAW_MESH_CHANNELS, /* channels of whole meshes */
     DP_FLAWS
 } dp_assimp_flaw;
 
 /* A mesh, as far as its instances want to know. */
 typedef struct dp_assimp_mesh {
-    const uint32_t *joints; /* [joint_count] 1 + numbers of the bones' nodes */
+    const uint32_t *joints;     /* [joint_count] 1 + numbers of the bones' nodes */
     const double *inverse_bind; /* [joint_count][3][4] */
     uint32_t joint_count;
     bool has_loose; /* some vertices follow no bone, but the joint after the last */
