@@ -11,6 +11,8 @@
 #include <time.h>
 #include <unistd.h>
 
+enum { FIRST_ROOM = 1 << 20 /* bytes of a block before more have come */ };
+
 bool pipe_send(int to, const void *bytes, size_t count) {
     const char *p = bytes;
     while (count) {
@@ -53,27 +55,45 @@ bool pipe_receive(pipe_end *end, void *bytes, size_t count) {
     return true;
 }
 
+/* Makes room for one more in the list of blocks. */
 static bool make_room(pipe_end *end) {
     if (end->block_count < end->block_room) return true;
     const size_t room = 2 * end->block_room + 64;
     void **const longer = realloc(end->blocks, room * sizeof *longer);
+    end->full |= !longer;
     if (!longer) return false;
     end->blocks = longer;
     end->block_room = room;
     return true;
 }
 
-void *pipe_take_block(pipe_end *end, size_t count, size_t size) {
-    const bool fits = !count || size < PTRDIFF_MAX / count;
-    char *const block = fits && make_room(end) ? calloc(1, count * size + 1) : NULL;
-    end->full |= !block;
-    if (block) end->blocks[end->block_count++] = block;
-    return block;
+/* Makes a block longer, in its place of the list. False: no memory is left. */
+static bool grow_block(pipe_end *end, void **block, size_t bytes) {
+    void *const longer = realloc(*block, bytes + 1);
+    if (longer) *block = longer;
+    end->full |= !longer;
+    return longer;
 }
 
 void *pipe_receive_block(pipe_end *end, size_t count, size_t size) {
-    char *const block = pipe_take_block(end, count, size);
-    return block && pipe_receive(end, block, count * size) ? block : NULL;
+    if (count && size >= PTRDIFF_MAX / count) {
+        end->full = true;
+        return NULL;
+    }
+    if (!make_room(end)) return NULL;
+    void **const block = &end->blocks[end->block_count++];
+    const size_t bytes = count * size;
+    size_t got = 0, room = bytes < FIRST_ROOM ? bytes : FIRST_ROOM;
+    *block = NULL;
+    if (!grow_block(end, block, room)) return NULL;
+    while (got < bytes) {
+        if (got == room) room = bytes - room < room ? bytes : 2 * room;
+        if (!grow_block(end, block, room) || !pipe_receive(end, (char *)*block + got, room - got))
+            return NULL;
+        got = room;
+    }
+    ((char *)*block)[bytes] = 0;
+    return *block;
 }
 
 void pipe_free(pipe_end *end) {

@@ -21,9 +21,8 @@ double pipe_clock(void); /* s */
 
 /* Receives count bytes, and moves the progress bar meanwhile. False: they do not come whole. */
 bool pipe_receive(pipe_end *end, void *bytes, size_t count);
-/* A block of count items of a size, zeros. NULL: no memory is left. */
-void *pipe_take_block(pipe_end *end, size_t count, size_t size);
-/* Receives count items of a size as a block, with a 0 behind it. NULL: they do not come whole. */
+/* Receives count items of a size as a block, with a 0 behind it, which takes at most about twice the
+ * memory of what comes. NULL: they do not come whole. */
 void *pipe_receive_block(pipe_end *end, size_t count, size_t size);
 /* Frees all blocks. */
 void pipe_free(pipe_end *end);

@@ -62,14 +62,30 @@ static bool send_morphs(int to, const dp_scene_mesh *m) {
     return sent;
 }
 
-static bool send_mesh(int to, const dp_scene_mesh *mesh) {
+static bool send_mesh(int to, const dp_scene_mesh *m) {
+    const size_t influences = times(m->batch.vertex_count, m->influences);
+    return send_text(to, m->name) && transfer_send_batch(to, &m->batch) && send_morphs(to, m) &&
+           send_array(to, m->joints, influences, sizeof *m->joints) &&
+           send_array(to, m->weights, influences, sizeof *m->weights);
+}
+
+static dp_scene_mesh settled(const dp_scene_mesh *mesh) {
     dp_scene_mesh m = *mesh;
     transfer_settle_batch(&m.batch);
-    const size_t influences = times(m.batch.vertex_count, m.influences);
-    return pipe_send(to, &m, sizeof m) && send_text(to, m.name) &&
-           transfer_send_batch(to, &m.batch) && send_morphs(to, &m) &&
-           send_array(to, m.joints, influences, sizeof *m.joints) &&
-           send_array(to, m.weights, influences, sizeof *m.weights);
+    return m;
+}
+
+static bool send_meshes(int to, const dp_scene_desc *d) {
+    bool sent = true;
+    for (uint32_t i = 0; sent && i < d->mesh_count; i++) {
+        const dp_scene_mesh m = settled(&d->meshes[i]);
+        sent = pipe_send(to, &m, sizeof m);
+    }
+    for (uint32_t i = 0; sent && i < d->mesh_count; i++) {
+        const dp_scene_mesh m = settled(&d->meshes[i]);
+        sent = send_mesh(to, &m);
+    }
+    return sent;
 }
 
 static bool send_instances(int to, const dp_scene_desc *d) {
@@ -102,10 +118,9 @@ static bool send_clip(int to, const dp_scene_clip *clip) {
 
 bool transfer_send_scene(int to, const dp_scene_desc *d) {
     bool sent = pipe_send(to, d, sizeof *d) && send_text(to, d->remark) &&
-                send_text(to, d->color_remark) && send_nodes(to, d);
-    for (uint32_t i = 0; sent && i < d->mesh_count; i++) sent = send_mesh(to, &d->meshes[i]);
-    sent = sent && send_instances(to, d) && send_skins(to, d) &&
-           send_array(to, d->clips, d->clip_count, sizeof *d->clips);
+                send_text(to, d->color_remark) && send_nodes(to, d) && send_meshes(to, d) &&
+                send_instances(to, d) && send_skins(to, d) &&
+                send_array(to, d->clips, d->clip_count, sizeof *d->clips);
     for (uint32_t i = 0; sent && i < d->clip_count; i++) sent = send_clip(to, &d->clips[i]);
     return sent;
 }
@@ -155,8 +170,8 @@ static bool receive_morphs(pipe_end *end, dp_scene_mesh *m) {
 }
 
 static bool receive_mesh(pipe_end *end, dp_scene_mesh *m) {
-    if (!pipe_receive(end, m, sizeof *m) || !receive_text(end, &m->name) ||
-        !transfer_receive_batch(end, &m->batch) || !receive_morphs(end, m))
+    if (!receive_text(end, &m->name) || !transfer_receive_batch(end, &m->batch) ||
+        !receive_morphs(end, m))
         return false;
     const size_t influences = times(m->batch.vertex_count, m->influences);
     return receive_array(end, &m->joints, influences, sizeof *m->joints) &&
@@ -164,7 +179,7 @@ static bool receive_mesh(pipe_end *end, dp_scene_mesh *m) {
 }
 
 static bool receive_meshes(pipe_end *end, dp_scene_desc *d) {
-    dp_scene_mesh *const meshes = pipe_take_block(end, d->mesh_count, sizeof *meshes);
+    dp_scene_mesh *const meshes = receive_table(end, d->meshes, d->mesh_count, sizeof *meshes);
     bool whole = meshes;
     for (uint32_t i = 0; whole && i < d->mesh_count; i++) whole = receive_mesh(end, &meshes[i]);
     d->meshes = meshes;
