@@ -305,6 +305,9 @@ const option option_table[] = {
     {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
      "Do not paint back faces: faster for closed models, holes in open ones."},
 
+    {"animation", 0, "NAME|N|none", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(animation), 0, 0, 0,
+     "The animation that plays, by its name or number (\"drypoint info\" lists them); before its start and past its end "
+     "it stands still. Of several models each plays its own. Default: none, and with --time the first."},
     {"time", 0, "T", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
      "Seconds at which a model that moves is drawn. Default: 0."},
 

@@ -192,6 +192,7 @@ typedef struct tool_settings {
 
     double time[2]; /* s: from and to, the same for a picture */
     bool has_time;
+    const char *animation; /* name or number, from 1; "none" */
 
     stats_kind stats;
     bool json, quiet;
