@@ -35,7 +35,8 @@ static const member directions[] = {{"axis", offsetof(dp_deform, axis), ALL},
 static const char *const names_of[] = {"amplitude|length|speed|axis|across",
                                        "amplitude|length|speed|axis|at", "angle|length|speed|axis"};
 
-static const member *find(const member *members, size_t count, const char *name, dp_deform_kind kind) {
+static const member *find(const member *members, size_t count, const char *name,
+                          dp_deform_kind kind) {
     for (size_t k = 0; k < count; k++)
         if (!strcmp(members[k].name, name) && members[k].kinds >> kind & 1) return &members[k];
     return NULL;
@@ -93,8 +94,8 @@ bool store_deform(const option *o, const char *value, dp_deform *to) {
     snprintf(kind, sizeof kind, "%.*s", (int)(at - value), value);
     const int word = word_index(kind_words, kind);
     if (!word)
-        return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, kind, kind_words,
-                           nearest_word(kind_words, kind, best, sizeof best));
+        return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, kind,
+                           kind_words, nearest_word(kind_words, kind, best, sizeof best));
     to->kind = (dp_deform_kind)(word - 1);
     while (*at) {
         const char *const first = at + 1, *const end = first + strcspn(first, ",");

@@ -45,10 +45,11 @@ typedef struct dp_vertex_run {
 typedef void dp_vertex_function(void *user, const dp_vertex_run *run);
 
 typedef enum dp_deform_kind {
-    DP_DEFORM_WAVE = 0, /* a flag: waves run along `axis`, from its low end, which is fixed, and move
+    DP_DEFORM_WAVE =
+        0,             /* a flag: waves run along `axis`, from its low end, which is fixed, and move
                            the vertices sideways, along `across` */
-    DP_DEFORM_BREATHE,  /* a chest: swells away from a line along `axis`, and sinks */
-    DP_DEFORM_TWIST     /* turned around a line along `axis`, from its low end on */
+    DP_DEFORM_BREATHE, /* a chest: swells away from a line along `axis`, and sinks */
+    DP_DEFORM_TWIST    /* turned around a line along `axis`, from its low end on */
 } dp_deform_kind;
 
 /* How a source is deformed. 0 is a default throughout; shares are of the model's extent along `axis`,
@@ -71,10 +72,10 @@ typedef struct dp_deform {
      * twist: by what angle at the high end, degrees, at most 36000; 0: 90. The angle is amplitude *
      * min(u / length, 1) * cos(2 pi speed t), right-handed around the line through the box's centre */
     double amplitude;
-    double length;    /* a share, 0.001 to 1000. Of a wave: from crest to crest; 0: 0.6. breathe: how
+    double length; /* a share, 0.001 to 1000. Of a wave: from crest to crest; 0: 0.6. breathe: how
                          far the swelling reaches to either side; 0: 0.5. twist: over what it grows;
                          0: 1 */
-    double speed;     /* 1/s, within 1e6 of 0. wave: waves that pass; below 0 they run towards the fixed
+    double speed; /* 1/s, within 1e6 of 0. wave: waves that pass; below 0 they run towards the fixed
                          end; 0: 1. breathe: breaths; 0: 0.25. twist: swings; 0: it stands */
     double axis[3];   /* a direction, any length; 0: along the box's longest side */
     double across[3]; /* of waves: which way they move, any length; 0: along the shortest side other

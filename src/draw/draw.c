@@ -349,12 +349,18 @@ static bool make_normals(dp_context *c, dp_source *source) {
     return true;
 }
 
+/* What is made of a model that moves is made again in each frame, and keeps its scratch. */
+static void expect_motion(dp_context *c, bool moves) {
+    c->normals.moves = c->smooth.edges.moves = c->shade.pencil.curvature.moves = moves;
+}
+
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, since, diag);
+    expect_motion(c, source->moves);
     if (f->styles[0].smooth && (result = dp_smooth_frame(c, source, diag))) return result;
     c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);

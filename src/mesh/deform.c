@@ -13,7 +13,7 @@ static const double TURN = 6.283185307179586; /* radians */
 
 typedef struct deformer {
     dp_allocator memory;
-    dp_deform given; /* with defaults filled in */
+    dp_deform given;  /* with defaults filled in */
     double centre[3]; /* of the box, world space */
     double half;      /* of the extent along the axis, world units; 0: nothing moves */
 } deformer;
@@ -71,8 +71,8 @@ static void move_shaped(void *user, const dp_vertex_run *run, const dp_batch *ot
                        .extent = 2 * f->half,
                        .share = f->half > 0 ? 0.5 / f->half : 0,
                        .turns = fmod(f->given.speed * run->time, 1)};
-    const dp_vec3 from =
-        dp_v3(run->origin[0] - f->centre[0], run->origin[1] - f->centre[1], run->origin[2] - f->centre[2]);
+    const dp_vec3 from = dp_v3(run->origin[0] - f->centre[0], run->origin[1] - f->centre[1],
+                               run->origin[2] - f->centre[2]);
     const char *at = (const char *)run->positions;
     (void)other, (void)first_of_batch;
     for (size_t i = 0; i < run->count; i++, at += run->stride) {
@@ -133,7 +133,8 @@ static dp_result check_direction(const char *kind, const char *name, const doubl
 static dp_result check(const dp_deform *d, dp_diag *diag) {
     if (d->vertices) return DP_OK;
     if ((unsigned)d->kind >= KINDS)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_deform: there is no kind %d", (int)d->kind);
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_source_deform: there is no kind %d",
+                       (int)d->kind);
     const char *const kind = kinds[d->kind].name;
     dp_result result = check_number(kind, "amplitude", d->amplitude, kinds[d->kind].least,
                                     kinds[d->kind].most, diag);

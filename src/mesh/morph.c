@@ -1,6 +1,7 @@
 /* Vertex morphing: the vertices of one model on their way to those of another, of one topology. */
 #include "base/diag.h"
 #include "base/vec.h"
+#include "mesh/batch.h"
 #include "mesh/moved.h"
 
 typedef struct morpher {
@@ -16,7 +17,7 @@ static void blend_run(void *user, const dp_vertex_run *run, const dp_batch *othe
     const char *from = (const char *)run->positions;
     const char *to = (const char *)other->positions + first_of_batch * other->position_stride;
     double shift[3]; /* of the other's positions, to the first's origin */
-    for (int k = 0; k < 3; k++) shift[k] = other->origin[k] - run->origin[k];
+    dp_batch_shift(other, run->origin, shift);
     for (size_t i = 0; i < run->count; i++, from += run->stride, to += other->position_stride) {
         const float *const a = (const float *)(const void *)from;
         const float *const b = (const float *)(const void *)to;
@@ -54,10 +55,11 @@ static void morph_destroy(void *user) {
 /* ------- are they of one topology? ------- */
 
 static dp_result refuse(dp_diag *diag, const char *what, size_t a, size_t b) {
-    return dp_fail(diag, DP_ERR_FORMAT,
-                   "two models can be blended only vertex by vertex: the first has %zu %s, the second "
-                   "%zu; export both from one mesh",
-                   a, what, b);
+    return dp_fail(
+        diag, DP_ERR_FORMAT,
+        "two models can be blended only vertex by vertex: the first has %zu %s, the second "
+        "%zu; export both from one mesh",
+        a, what, b);
 }
 
 static uint32_t corner_vertex(const dp_batch *batch, size_t corner) {
@@ -74,10 +76,11 @@ static dp_result compare_corners(const dp_batch *a, const dp_batch *b, uint64_t 
         for (size_t c = first; same && c < last; c++)
             same = corner_vertex(a, c) == corner_vertex(b, other + (c - first));
         if (!same)
-            return dp_fail(diag, DP_ERR_FORMAT,
-                           "two models can be blended only vertex by vertex: the corners of polygon "
-                           "%llu are not the same vertices in both; export both from one mesh",
-                           (unsigned long long)(polygons + i + 1));
+            return dp_fail(
+                diag, DP_ERR_FORMAT,
+                "two models can be blended only vertex by vertex: the corners of polygon "
+                "%llu are not the same vertices in both; export both from one mesh",
+                (unsigned long long)(polygons + i + 1));
     }
     return DP_OK;
 }
@@ -156,8 +159,9 @@ dp_result dp_source_morph(dp_source *a, dp_source *b, const dp_morph *morph,
 dp_result dp_morph_set(dp_source *source, const dp_morph *morph, dp_diag *diag) {
     morpher *const m = dp_moved_user(source, blend_run);
     if (!m || !morph)
-        return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "dp_morph_set: the source was not made by dp_source_morph, or morph is NULL");
+        return dp_fail(
+            diag, DP_ERR_ARGUMENT,
+            "dp_morph_set: the source was not made by dp_source_morph, or morph is NULL");
     const dp_result result = check_morph(morph, diag);
     if (result) return result;
     m->given = *morph;

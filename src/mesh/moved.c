@@ -43,16 +43,16 @@ static void move_run(void *arg, uint32_t index, uint32_t worker) {
     moved *const m = j->self;
     const size_t first = (size_t)index * RUN, left = j->rest->vertex_count - first;
     (void)worker;
-    const dp_vertex_run run = {
-        .time = m->time,
-        .origin = j->rest->origin,
-        .first = m->handed_out + first,
-        .count = left < RUN ? left : RUN,
-        .positions = (const float *)(const void *)((const char *)j->rest->positions +
-                                                   first * j->rest->position_stride),
-        .stride = j->rest->position_stride,
-        .moved = m->positions + first,
-        .normals = m->desc.normals ? m->normals + first : NULL};
+    const dp_vertex_run run = {.time = m->time,
+                               .origin = j->rest->origin,
+                               .first = m->handed_out + first,
+                               .count = left < RUN ? left : RUN,
+                               .positions =
+                                   (const float *)(const void *)((const char *)j->rest->positions +
+                                                                 first * j->rest->position_stride),
+                               .stride = j->rest->position_stride,
+                               .moved = m->positions + first,
+                               .normals = m->desc.normals ? m->normals + first : NULL};
     m->desc.move(m->desc.user, &run, j->other, first);
 }
 
@@ -74,10 +74,11 @@ static dp_result out_of_memory(size_t vertices, dp_diag *diag) {
 static dp_result next_of_partner(moved *m, const dp_batch *rest, dp_batch *other, dp_diag *diag) {
     const dp_result result = dp_source_next(m->desc.partner, other, diag);
     if (result || other->vertex_count == rest->vertex_count) return result;
-    return dp_fail(diag, DP_ERR_FORMAT,
-                   "two models can be blended only vertex by vertex, but where one has %zu vertices "
-                   "the other has %zu",
-                   rest->vertex_count, other->vertex_count);
+    return dp_fail(
+        diag, DP_ERR_FORMAT,
+        "two models can be blended only vertex by vertex, but where one has %zu vertices "
+        "the other has %zu",
+        rest->vertex_count, other->vertex_count);
 }
 
 /* Replaces a batch's positions and normals. */
@@ -97,8 +98,7 @@ static dp_result move_batch(moved *m, dp_batch *batch, bool stable, dp_diag *dia
     batch->positions = n ? m->positions[0] : NULL;
     batch->position_stride = sizeof *m->positions;
     batch->normals = (dp_attribute){0};
-    if (m->desc.normals && n)
-        batch->normals = (dp_attribute){.values = m->normals[0], .count = n};
+    if (m->desc.normals && n) batch->normals = (dp_attribute){.values = m->normals[0], .count = n};
     batch->stable = stable;
     return DP_OK;
 }

@@ -14,11 +14,11 @@ typedef struct dp_moved_desc {
     dp_source *inner;
     dp_source *partner; /* read batch for batch with `inner`; NULL: none */
     dp_mover *move;
-    void *user;                                                       /* owned */
-    dp_result (*set_time)(void *user, double time, dp_diag *diag);    /* NULL allowed */
-    double (*duration)(void *user);                                   /* NULL allowed */
-    void (*destroy)(void *user);                                      /* NULL allowed */
-    bool normals;                                                     /* `move` writes them */
+    void *user;                                                    /* owned */
+    dp_result (*set_time)(void *user, double time, dp_diag *diag); /* NULL allowed */
+    double (*duration)(void *user);                                /* NULL allowed */
+    void (*destroy)(void *user);                                   /* NULL allowed */
+    bool normals;                                                  /* `move` writes them */
 } dp_moved_desc;
 
 /* On success *out owns the sources and `user`. */

@@ -79,7 +79,8 @@ static dp_batch batch_at(dp_source *source, double time) {
 }
 
 static const float *vertex(const dp_batch *batch, size_t v) {
-    return (const float *)(const void *)((const char *)batch->positions + v * batch->position_stride);
+    return (const float *)(const void *)((const char *)batch->positions +
+                                         v * batch->position_stride);
 }
 
 /* Does each vertex lie where the formula has it? */
@@ -392,8 +393,10 @@ static void wrong_numbers_are_named(void **state) {
     dp_source *source;
     assert_refused(&(dp_deform){.amplitude = 11}, "wave: amplitude is 11");
     assert_refused(&(dp_deform){.amplitude = NAN}, "wave: amplitude is nan");
-    assert_refused(&(dp_deform){.kind = DP_DEFORM_BREATHE, .amplitude = -1.5}, "breathe: amplitude");
-    assert_refused(&(dp_deform){.kind = DP_DEFORM_TWIST, .amplitude = INFINITY}, "twist: amplitude");
+    assert_refused(&(dp_deform){.kind = DP_DEFORM_BREATHE, .amplitude = -1.5},
+                   "breathe: amplitude");
+    assert_refused(&(dp_deform){.kind = DP_DEFORM_TWIST, .amplitude = INFINITY},
+                   "twist: amplitude");
     assert_refused(&(dp_deform){.length = -1}, "wave: length is -1; it must lie between 0.001 and");
     assert_refused(&(dp_deform){.speed = 1e7}, "wave: speed");
     assert_refused(&(dp_deform){.at = INFINITY}, "wave: at");
@@ -423,8 +426,8 @@ static void absurd_times_are_refused(void **state) {
 static void twice_as_high(void *user, const dp_vertex_run *run) {
     (void)user;
     for (size_t i = 0; i < run->count; i++) {
-        const float *const p = (const float *)(const void *)((const char *)run->positions +
-                                                             i * run->stride);
+        const float *const p =
+            (const float *)(const void *)((const char *)run->positions + i * run->stride);
         run->moved[i][0] = p[0], run->moved[i][1] = 2 * p[1], run->moved[i][2] = p[2] - 1;
     }
 }
@@ -443,7 +446,8 @@ static void assert_blend(const dp_batch *batch, const sheet *s, double f) {
         const double to[3] = {x, y * (1 + f), z - f};
         for (int k = 0; k < 3; k++)
             if (fabs((double)vertex(batch, v)[k] - to[k]) > 1e-5)
-                fail_msg("blend %g, vertex %zu: %g, not %g", f, v, (double)vertex(batch, v)[k], to[k]);
+                fail_msg("blend %g, vertex %zu: %g, not %g", f, v, (double)vertex(batch, v)[k],
+                         to[k]);
     }
 }
 
@@ -590,7 +594,8 @@ static void memory_may_fail_anywhere(void **state) {
         const dp_deform deform = {.vertices = number_vertices, .normals = true};
         result = dp_source_morph(a, b, NULL, &memory, &source, &diag);
         if (!result) a = source, b = NULL;
-        if (!result && !(result = dp_source_deform(a, &deform, &memory, &source, &diag))) a = source;
+        if (!result && !(result = dp_source_deform(a, &deform, &memory, &source, &diag)))
+            a = source;
         if (!result) result = dp_source_next(a, &batch, &diag);
         if (result) assert_int_equal(result, DP_ERR_MEMORY);
         if (result) assert_non_null(strstr(diag.message, "out of memory"));
