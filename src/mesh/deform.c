@@ -26,6 +26,7 @@ typedef struct setting {
     dp_vec3 axis, across;
     double extent, share; /* along the axis; 1 / that, or 0 */
     double turns;         /* speed * time, its fraction */
+    double now;           /* how much it swells or turns at that time, of 1 */
 } setting;
 
 /* What is added to the vertex at p, seen from the box's centre. u: as in dp_deform. */
@@ -45,13 +46,13 @@ static dp_vec3 radius_of(const setting *s, dp_vec3 p) {
 
 static dp_vec3 breathe(const setting *s, dp_vec3 p, double u) {
     const double h = (u - s->d->at) / s->d->length, falls = dp_max(1 - h * h, 0);
-    const double swells = s->d->amplitude * falls * falls * dp_sin(TURN * s->turns);
+    const double swells = s->d->amplitude * falls * falls * s->now;
     return dp_scale(radius_of(s, p), swells);
 }
 
 static dp_vec3 twist(const setting *s, dp_vec3 p, double u) {
     const double grown = dp_max(dp_min(u / s->d->length, 1), 0);
-    const double angle = s->d->amplitude / 360 * TURN * grown * dp_cos(TURN * s->turns);
+    const double angle = s->d->amplitude / 360 * TURN * grown * s->now;
     const dp_vec3 r = radius_of(s, p), aside = dp_cross(s->axis, r);
     return dp_sub(dp_mad(dp_scale(r, dp_cos(angle)), aside, dp_sin(angle)), r);
 }
@@ -65,12 +66,15 @@ static void move_shaped(void *user, const dp_vertex_run *run, const dp_batch *ot
                         size_t first_of_batch) {
     const deformer *const f = user;
     displacement *const displace = displacements[f->given.kind];
+    const double turns = fmod(f->given.speed * run->time, 1);
+    const bool begins_full = f->given.kind == DP_DEFORM_TWIST;
     const setting s = {.d = &f->given,
                        .axis = direction(f->given.axis),
                        .across = direction(f->given.across),
                        .extent = 2 * f->half,
                        .share = f->half > 0 ? 0.5 / f->half : 0,
-                       .turns = fmod(f->given.speed * run->time, 1)};
+                       .turns = turns,
+                       .now = begins_full ? dp_cos(TURN * turns) : dp_sin(TURN * turns)};
     const dp_vec3 from = dp_v3(run->origin[0] - f->centre[0], run->origin[1] - f->centre[1],
                                run->origin[2] - f->centre[2]);
     const char *at = (const char *)run->positions;
