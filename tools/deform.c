@@ -29,10 +29,11 @@ static const member numbers[] = {{"amplitude", offsetof(dp_deform, amplitude), W
                                  {"angle", offsetof(dp_deform, amplitude), TWIST},
                                  {"length", offsetof(dp_deform, length), ALL},
                                  {"speed", offsetof(dp_deform, speed), ALL},
+                                 {"slant", offsetof(dp_deform, slant), WAVE},
                                  {"at", offsetof(dp_deform, at), BREATHE}};
 static const member directions[] = {{"axis", offsetof(dp_deform, axis), ALL},
                                     {"across", offsetof(dp_deform, across), WAVE}};
-static const char *const names_of[] = {"amplitude|length|speed|axis|across",
+static const char *const names_of[] = {"amplitude|length|speed|axis|across|slant",
                                        "amplitude|length|speed|axis|at", "angle|length|speed|axis"};
 
 static const member *find(const member *members, size_t count, const char *name,

@@ -314,7 +314,8 @@ const option option_table[] = {
      "share of the model's length along its axis (wave), or of its girth (breathe); twist has angle=90, in "
      "degrees. length=0.6: from crest to crest, or how far breathing reaches, as such a share. speed=1: "
      "waves, breaths or swings in a second; twists stand still without. axis=x, y, z, -x ...: along which it "
-     "goes; default: the longest side. across=z: which way waves move. at=0.5: where breathing is deepest, "
+     "goes; default: the longest side. across=z: which way waves move. slant=0.5: how "
+     "much their crests lean. at=0.5: where breathing is deepest, "
      "from 0 to 1 along the axis. Of several models all parts are one. --time says when; at 0 a chest is at "
      "rest."},
     {"morph", 0, "MODEL", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(morph), 0, 0, 0,

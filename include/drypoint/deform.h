@@ -65,7 +65,8 @@ typedef struct dp_deform {
 
     dp_deform_kind kind;
     /* wave: how far to either side, a share, at most 10; 0: 0.08. v = u (2 - u) times that is reached,
-     * so that the fixed end (u = 0) stays: p + across * v * amplitude * sin(2 pi (u / length - speed t))
+     * so that the fixed end (u = 0) stays: p + across * v * amplitude * sin(2 pi (w / length - speed t)),
+     * w = u + slant * (how far p is beside the box's centre, along across x axis, such a share)
      * breathe: by what share it swells, -1 to 10; 0: 0.08. A vertex is 1 + amplitude * bump *
      * sin(2 pi speed t) times as far from the line through the box's centre; bump = (1 - h^2)^2 where
      * h = (u - at) / length is within -1 and 1
@@ -80,7 +81,9 @@ typedef struct dp_deform {
     double axis[3];   /* a direction, any length; 0: along the box's longest side */
     double across[3]; /* of waves: which way they move, any length; 0: along the shortest side other
                          than the axis */
-    double at;        /* breathe: where it swells most, u, -100 to 100; 0: 0.5 */
+    double
+        slant; /* of waves: by how much crests lean, as a tangent, -10 to 10; 0: they are upright */
+    double at; /* breathe: where it swells most, u, -100 to 100; 0: 0.5 */
 } dp_deform;
 
 /* Makes a source of another one's polygons with moved vertices; `deform` is copied. Its time is set by

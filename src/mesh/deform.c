@@ -23,20 +23,19 @@ typedef struct deformer {
 /* What is the same for a run's vertices. */
 typedef struct setting {
     const dp_deform *d;
-    dp_vec3 axis, across;
-    double extent, share; /* along the axis; 1 / that, or 0 */
-    double turns;         /* speed * time, its fraction */
-    double now;           /* how much it swells or turns at that time, of 1 */
+    dp_vec3 axis, across, beside; /* beside: across both */
+    double extent, share;         /* along the axis; 1 / that, or 0 */
+    double turns;                 /* speed * time, its fraction */
+    double now;                   /* how much it swells or turns at that time, of 1 */
 } setting;
 
 /* What is added to the vertex at p, seen from the box's centre. u: as in dp_deform. */
 typedef dp_vec3 displacement(const setting *s, dp_vec3 p, double u);
 
 static dp_vec3 wave(const setting *s, dp_vec3 p, double u) {
-    (void)p;
-    const double rises = u * (2 - u);
+    const double rises = u * (2 - u), along = u + s->d->slant * dp_dot(p, s->beside) * s->share;
     const double height = s->d->amplitude * s->extent * rises;
-    return dp_scale(s->across, height * dp_sin(TURN * (u / s->d->length - s->turns)));
+    return dp_scale(s->across, height * dp_sin(TURN * (along / s->d->length - s->turns)));
 }
 
 /* From the line through the centre to p. */
@@ -67,10 +66,12 @@ static void move_shaped(void *user, const dp_vertex_run *run, const dp_batch *ot
     const deformer *const f = user;
     displacement *const displace = displacements[f->given.kind];
     const double turns = fmod(f->given.speed * run->time, 1);
+    const dp_vec3 axis = direction(f->given.axis), across = direction(f->given.across);
     const bool begins_full = f->given.kind == DP_DEFORM_TWIST;
     const setting s = {.d = &f->given,
-                       .axis = direction(f->given.axis),
-                       .across = direction(f->given.across),
+                       .axis = axis,
+                       .across = across,
+                       .beside = dp_unit(dp_cross(across, axis)),
                        .extent = 2 * f->half,
                        .share = f->half > 0 ? 0.5 / f->half : 0,
                        .turns = turns,
@@ -144,6 +145,7 @@ static dp_result check(const dp_deform *d, dp_diag *diag) {
                                     kinds[d->kind].most, diag);
     if (!result) result = check_number(kind, "length", d->length, 0.001, 1000, diag);
     if (!result) result = check_number(kind, "speed", d->speed, -1e6, 1e6, diag);
+    if (!result) result = check_number(kind, "slant", d->slant, -10, 10, diag);
     if (!result) result = check_number(kind, "at", d->at, -100, 100, diag);
     if (!result) result = check_direction(kind, "axis", d->axis, diag);
     if (!result) result = check_direction(kind, "across", d->across, diag);

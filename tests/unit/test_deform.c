@@ -128,7 +128,8 @@ static void waves_run_along_the_longest_side(void **state) {
 
 /* Down y, towards +x and +y. */
 static void other_wave(const double p[3], double t, double to[3]) {
-    const double u = (7 - p[1]) / 2, h = 0.25 * 2 * u * (2 - u) * sin(TURN * (u / 1.5 + 2 * t));
+    const double u = (7 - p[1]) / 2, w = u + 0.7 * (p[2] - 0.5) / 2;
+    const double h = 0.25 * 2 * u * (2 - u) * sin(TURN * (w / 1.5 + 2 * t));
     to[0] = p[0] + 0.6 * h, to[1] = p[1] + 0.8 * h, to[2] = p[2];
 }
 
@@ -139,7 +140,8 @@ static void waves_run_any_way(void **state) {
                               .length = 1.5,
                               .speed = -2,
                               .axis = {0, -1e-200, 0},
-                              .across = {3, 4, 0}};
+                              .across = {3, 4, 0},
+                              .slant = -0.7};
     dp_source *const source = deformed(source_of(&s->batch), &deform);
     const dp_batch batch = batch_at(source, 0.7);
     assert_at(&batch, s, other_wave, 0.7);
@@ -399,6 +401,7 @@ static void wrong_numbers_are_named(void **state) {
                    "twist: amplitude");
     assert_refused(&(dp_deform){.length = -1}, "wave: length is -1; it must lie between 0.001 and");
     assert_refused(&(dp_deform){.speed = 1e7}, "wave: speed");
+    assert_refused(&(dp_deform){.slant = -11}, "wave: slant is -11");
     assert_refused(&(dp_deform){.at = INFINITY}, "wave: at");
     assert_refused(&(dp_deform){.axis = {0, NAN, 0}}, "wave: axis is not finite");
     assert_refused(&(dp_deform){.across = {INFINITY, 0, 0}}, "wave: across");
