@@ -110,6 +110,16 @@ static bool check_sheet(const tool_settings *s) {
     return true;
 }
 
+static bool check_motion(const tool_settings *s) {
+    if (s->morph && s->model_count > 1)
+        return wrong_usage(
+            "--morph blends one model with another, but %u are given; leave the others "
+            "out",
+            s->model_count);
+    return true;
+}
+
 bool options_check(const tool_settings *s) {
-    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) && check_sheet(s);
+    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
+           check_sheet(s) && check_motion(s);
 }

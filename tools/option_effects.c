@@ -88,6 +88,13 @@ static bool has_normals(const tool_settings *s) {
     return is_shaded(s) || makes_map(s) || s->outputs[PLANE_NORMALS] || has_smooth(s);
 }
 
+static bool has_morph(const tool_settings *s) { return s->morph != NULL; }
+/* Only breathing begins at rest. */
+static bool is_deformed(const tool_settings *s) {
+    return s->command == COMMAND_BENCH || s->deform.kind != DP_DEFORM_BREATHE ||
+           (s->has_time && (s->time[0] != 0 || s->time[1] != 0));
+}
+
 static bool is_terrain(const tool_settings *s) { return !strcmp(s->model, "terrain"); }
 
 /* ---- the rules ---- */
@@ -158,6 +165,9 @@ static const rule drawing_rules[] = {
     {"c1-passes", is_c1, "it is of the C1 operator; add --edge-map c1"},
     {"edge-sides|inner-angle|inner-softness|profile-softness", is_scaled,
      "--edge-measure paper has no thresholds and both sides; leave it out"},
+
+    {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
+    {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

@@ -310,6 +310,23 @@ const option option_table[] = {
      "it stands still. Of several models each plays its own. Default: none, and with --time the first."},
     {"time", 0, "T", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
      "Seconds at which a model that moves is drawn. Default: 0."},
+    {"deform", 0, "KIND[:NAME=VALUE,...]", OPTION_DEFORM, GROUP_MOTION, PICTURE | INFO, AT(deform),
+     AT(has_deform), 0, 0,
+     "Move the model's vertices: \"wave\", like a flag in the wind; \"breathe\": it swells and sinks, like "
+     "a chest; \"twist\": it is turned around its axis, further and further. amplitude=0.08: how far, as a "
+     "share of the model's length along its axis (wave), or of its girth (breathe); twist has angle=90, in "
+     "degrees. length=0.6: from crest to crest, or how far breathing reaches, as such a share. speed=1: "
+     "waves, breaths or swings in a second; twists stand still without. axis=x, y, z, -x ...: along which it "
+     "goes; default: the longest side. across=z: which way waves move. slant=0.5: how "
+     "much their crests lean. at=0.5: where breathing is deepest, "
+     "from 0 to 1 along the axis. Of several models all parts are one. --time says when; at 0 a chest is at "
+     "rest."},
+    {"morph", 0, "MODEL", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(morph), 0, 0, 0,
+     "Blend the model with another of the same polygons (with --blend), or let it become that within a "
+     "second (with --time)."},
+    {"blend", 0, "F", OPTION_NUMBER, GROUP_MOTION, PICTURE | INFO, AT(blend), AT(has_blend), -1000, 1000,
+     "With --morph: 0 is the model, 1 the other; below and beyond, what tells them apart is exaggerated. "
+     "Default: 0.5, or the seconds of --time."},
 
     {"triangles", 0, "N", OPTION_COUNT64, GROUP_MODEL, MAKE, AT(triangles), 0, 1, 1e11,
      "About how many triangles. Default: the shape's own number."},

@@ -193,6 +193,10 @@ typedef struct tool_settings {
     double time[2]; /* s: from and to, the same for a picture */
     bool has_time;
     const char *animation; /* name or number, from 1; "none" */
+    dp_deform deform;
+    const char *morph; /* a model */
+    double blend;
+    bool has_deform, has_blend;
 
     stats_kind stats;
     bool json, quiet;
@@ -214,6 +218,7 @@ typedef enum option_kind {
     OPTION_UP,            /* double[3]: a direction, or the word for one */
     OPTION_ANGLES,        /* double[2] */
     OPTION_TIME,          /* double[2]: a time, s, or from and to */
+    OPTION_DEFORM,        /* dp_deform */
     OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
     OPTION_OUTPUT,        /* tool_settings.files, .outputs, or of make .output */
     OPTION_WORD,          /* int: which of the argument's words */
@@ -290,6 +295,8 @@ bool store_margin(const option *o, const char *value, double to[4]);
 bool store_scale(const option *o, const char *value, tool_scale *to);
 bool store_sheet(const option *o, const char *value, tool_sheet *to);
 bool store_length(const option *o, const char *value, tool_length *to);
+/* KIND:NAME=VALUE,... (deform.c). */
+bool store_deform(const option *o, const char *value, dp_deform *to);
 
 /* Reads a plain decimal number, and nothing else, up to `end`. */
 bool read_number(const char *text, const char *end, double *number);

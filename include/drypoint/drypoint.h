@@ -5,6 +5,7 @@
 #include <drypoint/adjacency.h>
 #include <drypoint/base.h>
 #include <drypoint/camera.h>
+#include <drypoint/deform.h>
 #include <drypoint/draw.h>
 #include <drypoint/drawing.h>
 #include <drypoint/immediate.h>

@@ -190,6 +190,7 @@ dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag) {
                        "dp_source_set_time: source is NULL, or the time is not finite");
     if (!source->callbacks.set_time) return DP_OK;
     source->holds = false;
+    source->moves = true;
     diag->result = DP_OK;
     const dp_result result = source->callbacks.set_time(source->callbacks.user, time, diag);
     if (result && diag->result != result)

@@ -25,6 +25,7 @@ struct dp_source {
     dp_allocator allocator;
     dp_records records; /* read NULL: only batch by batch */
     bool constant;      /* its batches never change (an application's arrays may) */
+    bool moves;         /* dp_source_set_time has moved it: what is made of it will be made again */
     uint64_t key;       /* fingerprint of a constant source (mesh/normals.c); 0: not computed yet */
     bool holds;         /* dp_source_next is to return this batch, read ahead by dp_source_begin */
     dp_batch held;
