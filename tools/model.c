@@ -1,6 +1,7 @@
 /* Opens models for every command: files, standard input, generated shapes; several as one scene. */
 #include "apart.h"
 #include "commands.h"
+#include "film.h"
 #include "keep.h"
 #include "models.h"
 #include "progress.h"
@@ -48,7 +49,7 @@ static int open_shape(const char *text, dp_source **out) {
 /* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
-           s->ink != 2;
+           s->ink != 2 && !film_wanted(s);
 }
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be

@@ -1,6 +1,7 @@
 /* What the options must say, and what they cannot say together. No option is ignored without a
  * message. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -111,5 +112,6 @@ static bool check_sheet(const tool_settings *s) {
 }
 
 bool options_check(const tool_settings *s) {
-    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) && check_sheet(s);
+    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
+           check_sheet(s) && film_check(s);
 }
