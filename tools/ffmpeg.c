@@ -58,16 +58,15 @@ static void filter_gif(const ffmpeg_film *f, char *filter, size_t size) {
 }
 
 static const char *const mp4[] = {
-    "-c:v",   "libx264",          "-preset", "medium",     "-crf",  "16",           "-colorspace",
-    "bt709",  "-color_primaries", "bt709",   "-color_trc", "bt709", "-color_range", "tv",
+    "-c:v",  "libx264",          "-preset", "medium",     "-crf",  "16",           "-colorspace",
+    "bt709", "-color_primaries", "bt709",   "-color_trc", "bt709", "-color_range", "tv",
     NULL};
 static const char *const mp4_in_file[] = {"-movflags", "+faststart", "-f", "mp4", NULL};
 static const char *const mp4_in_pipe[] = {"-movflags", "frag_keyframe+empty_moov", "-f", "mp4",
                                           NULL};
-static const char *const webm[] = {"-c:v",      "libvpx-vp9", "-crf",      "20",
-                                   "-b:v",      "0",          "-row-mt",   "1",
-                                   "-deadline", "good",       "-cpu-used", "4",
-                                   "-f",        "webm",       NULL};
+static const char *const webm[] = {"-c:v",      "libvpx-vp9", "-crf", "20",        "-b:v",
+                                   "0",         "-row-mt",    "1",    "-deadline", "good",
+                                   "-cpu-used", "4",          "-f",   "webm",      NULL};
 static const char *const gif[] = {"-loop", "0", "-f", "gif", NULL};
 static const char *const apng[] = {"-plays", "0", "-pred", "mixed", "-f", "apng", NULL};
 
@@ -100,9 +99,9 @@ static void make_command(command *c, const ffmpeg_film *f) {
     /* a name could have a colon in it, or begin with a dash */
     snprintf(c->file, sizeof c->file, "%s%s", f->file ? "file:" : "pipe:1", f->file ? f->file : "");
     const char *const input[] = {
-        "ffmpeg",   "-hide_banner", "-loglevel",   "error", "-nostdin",   "-y",   "-f", "rawvideo",
-        "-pixel_format", "rgba",    "-video_size", c->size, "-framerate", c->rate, "-i", "pipe:0",
-        "-an",      NULL};
+        "ffmpeg",   "-hide_banner",  "-loglevel", "error",       "-nostdin", "-y",         "-f",
+        "rawvideo", "-pixel_format", "rgba",      "-video_size", c->size,    "-framerate", c->rate,
+        "-i",       "pipe:0",        "-an",       NULL};
     add(c, input);
     add_format(c, f);
     add(c, (const char *const[]){c->file, NULL});
@@ -135,30 +134,4 @@ pid_t ffmpeg_start(const ffmpeg_film *film, int frames, int target, int words) {
     if (child == 0) become(program, c, frames, target, words);
     free(c);
     return child;
-}
-
-/* ---- its words ---- */
-
-enum { TAIL = 480, LINES = 4 };
-
-void ffmpeg_words(int words, char *text, size_t size) {
-    char tail[TAIL + 1];
-    const off_t end = lseek(words, 0, SEEK_END), begin = end > TAIL ? end - TAIL : 0;
-    const ssize_t count = end > 0 ? pread(words, tail, TAIL, begin) : 0;
-    size_t length = count > 0 ? (size_t)count : 0;
-    while (length && strchr(" \t\r\n", tail[length - 1])) length--;
-    size_t from = length;
-    for (int lines = 0; from > 0; from--)
-        if (tail[from - 1] == '\n' && ++lines == LINES) break;
-    if (from == 0 && begin > 0) /* the first line is cut */
-        while (from < length && tail[from] != '\n') from++;
-    *text = 0;
-    size_t at = 0;
-    for (; from < length && at + 3 < size; from++) {
-        const bool line_ends = tail[from] == '\n' || tail[from] == '\r';
-        if (line_ends && at && text[at - 1] != ' ') text[at++] = ';', text[at++] = ' ';
-        if (!line_ends && ((unsigned char)tail[from] >= ' ' || tail[from] == '\t'))
-            text[at++] = tail[from];
-    }
-    text[at] = 0;
 }

@@ -22,7 +22,5 @@ bool ffmpeg_find(char *program, size_t size);
 /* Starts it with a pipe of frames (RGBA) as input, a target as standard output, and a file for its
  * words. Its process, or below 0: errno says why not. */
 pid_t ffmpeg_start(const ffmpeg_film *film, int frames, int target, int words);
-/* The last lines of its words, as one. */
-void ffmpeg_words(int words, char *text, size_t size);
 
 #endif

@@ -107,8 +107,7 @@ static int see(film *f) {
         code = film_seen_make(&f->plan, d->source, true, &turned);
     }
     if (!code) code = drawing_prepare(s, d, turned ? turned : seen, &f->model);
-    for (int k = 0; k < d->plan.view_count && !code; k++)
-        f->cameras[k] = d->plan.views[k].camera;
+    for (int k = 0; k < d->plan.view_count && !code; k++) f->cameras[k] = d->plan.views[k].camera;
     dp_source_destroy(turned);
     dp_source_destroy(seen);
     return code;
@@ -123,15 +122,24 @@ static int begin(void *user) {
     return drawing_open(f->s, d, f->threads);
 }
 
+/* Where eye and target are given nothing is fitted, and a frame is what a picture at its time is,
+ * bit for bit: near and far are those of the model at this time alone. */
+static bool is_as_a_picture(const film *f) {
+    return f->s->has_eye && f->s->has_target && !f->s->has_mirror && f->plan.turn == 0;
+}
+
 static int aim(film *f, uint32_t number) {
     drawing *const d = &f->drawing;
+    dp_extent extent = f->model.extent;
+    dp_diag diag = {0};
     int code = 0;
+    if (is_as_a_picture(f) && dp_source_extent(d->source, &extent, &diag))
+        return report_model(f->s, &diag);
     for (int k = 0; k < d->plan.view_count && !code; k++) {
         page_view *const v = &d->plan.views[k];
         v->camera = f->cameras[k];
-        code = film_camera(&f->plan, number, (double)v->width / v->height, &f->model.extent,
-                           &v->camera);
-        if (!code) look_deepen(&d->style, &f->model.extent, &v->camera);
+        code = film_camera(&f->plan, number, (double)v->width / v->height, &extent, &v->camera);
+        if (!code) look_deepen(&d->style, &extent, &v->camera);
     }
     return code;
 }
@@ -193,8 +201,8 @@ static int take(void *user, const film_frame *frame, const uint8_t *pixels) {
 static int finish(film *f, int code) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    f->stats.seconds = (double)(now.tv_sec - f->begin.tv_sec) +
-                       1e-9 * (double)(now.tv_nsec - f->begin.tv_nsec);
+    f->stats.seconds =
+        (double)(now.tv_sec - f->begin.tv_sec) + 1e-9 * (double)(now.tv_nsec - f->begin.tv_nsec);
     for (uint32_t k = 0; k < f->pipe_count && !code; k++) code = film_pipe_finish(&f->pipes[k]);
     for (uint32_t k = 0; k < f->pipe_count && code; k++) film_pipe_abandon(&f->pipes[k]);
     progress_end();
@@ -217,17 +225,16 @@ static void choose_jobs(film *f) {
 }
 
 static int draw_frames(film *f) {
-    const film_jobs jobs = {.frames = f->frames,
-                            .count = f->count,
-                            .jobs = f->jobs,
-                            .bytes = f->pipe_count ? (size_t)f->drawing.plan.width *
-                                                         f->drawing.plan.height * 4
-                                                   : 0,
-                            .user = f,
-                            .begin = begin,
-                            .draw = draw,
-                            .ready = ready,
-                            .take = take};
+    const film_jobs jobs = {
+        .frames = f->frames,
+        .count = f->count,
+        .jobs = f->jobs,
+        .bytes = f->pipe_count ? (size_t)f->drawing.plan.width * f->drawing.plan.height * 4 : 0,
+        .user = f,
+        .begin = begin,
+        .draw = draw,
+        .ready = ready,
+        .take = take};
     signal(SIGPIPE, SIG_IGN);
     return finish(f, film_jobs_run(&jobs));
 }

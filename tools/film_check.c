@@ -44,9 +44,10 @@ static bool not_one_picture(const tool_settings *s, int k) {
                            name, endings[k >= FILES_MOST]);
     const int stem = output_stem(path);
     const bool picture = k < FILES_MOST && files_format(s, path) == FORMAT_PNG;
-    return wrong_usage("-o %s%s is one picture, and a film has many: name it -o %s%.*s-%%04d%s%s%.*s%s",
-                       name, path, name, stem, path, path + stem, picture ? ", or -o " : "",
-                       picture ? stem : 0, path, picture ? ".mp4 (.webm, .gif, .apng)" : "");
+    return wrong_usage(
+        "-o %s%s is one picture, and a film has many: name it -o %s%.*s-%%04d%s%s%.*s%s", name,
+        path, name, stem, path, path + stem, picture ? ", or -o " : "", picture ? stem : 0, path,
+        picture ? ".mp4 (.webm, .gif, .apng)" : "");
 }
 
 static bool check_outputs(const tool_settings *s) {

@@ -16,6 +16,7 @@
 #include "options.h"
 #include "progress.h"
 #include "report.h"
+#include "words.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -42,6 +43,7 @@ typedef struct result {
 typedef struct job {
     pid_t process;
     int orders, results; /* this program's ends; -1: closed */
+    int words;           /* its stderr: said once, of the first job that fails */
     int waiting;         /* orders without a result */
 } job;
 
@@ -83,25 +85,27 @@ static uint8_t *slot_pixels(const crew *c, uint32_t slot) {
     return c->jobs->bytes ? c->pixels + slot * c->jobs->bytes : NULL;
 }
 
-static void work(const crew *c, int orders, int results) {
+static void work(const crew *c, int orders, int results, int words) {
     const film_jobs *const jobs = c->jobs;
+    dup2(words, STDERR_FILENO);
     signal(SIGINT, SIG_IGN); /* the program sees to it that jobs end */
     const int begun = jobs->begin(jobs->user);
     for (result r = {0}; get(orders, &r.order, sizeof r.order); r = (result){0}) {
         r.frame.number = jobs->frames[r.order.frame];
-        r.frame.code = begun ? begun
-                             : jobs->draw(jobs->user, r.frame.number,
-                                          slot_pixels(c, r.order.slot), &r.frame);
+        r.frame.code =
+            begun ? begun
+                  : jobs->draw(jobs->user, r.frame.number, slot_pixels(c, r.order.slot), &r.frame);
+        fflush(stderr);
         if (!put(results, &r, sizeof r)) break;
     }
-    fflush(stderr);
     _exit(0);
 }
 
 static void close_job(job *j) {
     if (j->orders >= 0) close(j->orders);
     if (j->results >= 0) close(j->results);
-    j->orders = j->results = -1;
+    if (j->words >= 0) close(j->words);
+    j->orders = j->results = j->words = -1;
 }
 
 static int no_process(void) {
@@ -115,10 +119,12 @@ static int start_job(crew *c) {
     if (pipe(results)) return close(orders[0]), close(orders[1]), no_process();
     job *const j = &c->job[c->job_count];
     fcntl(orders[1], F_SETFD, FD_CLOEXEC), fcntl(results[0], F_SETFD, FD_CLOEXEC);
-    *j = (job){.process = fork(), .orders = orders[1], .results = results[0]};
+    *j = (job){.orders = orders[1], .results = results[0], .words = words_open()};
+    j->process = j->words < 0 ? -1 : fork();
     if (j->process == 0) {
+        const int words = dup(j->words);
         for (uint32_t k = 0; k <= c->job_count; k++) close_job(&c->job[k]);
-        work(c, orders[0], results[1]);
+        work(c, orders[0], results[1], words);
     }
     close(orders[0]), close(results[1]);
     if (j->process < 0) return close_job(j), no_process();
@@ -191,6 +197,7 @@ static int lost_job(job *j) {
     }
     j->process = 0;
     if (progress_report(NULL, -1)) return EXIT_FAILED; /* Ctrl-C */
+    words_show(j->words);
     wrong_usage("a process that draws frames was ended%s%s; if memory is short, give fewer --jobs, "
                 "or a smaller --size",
                 WIFSIGNALED(status) ? ": " : "",
@@ -204,6 +211,7 @@ static int receive(crew *c, job *j) {
     j->waiting--;
     c->drawn[r.order.slot] = r;
     c->state[r.order.slot] = SLOT_DRAWN;
+    if (r.frame.code) words_show(j->words);
     return r.frame.code;
 }
 

@@ -13,6 +13,7 @@
 #include "output.h"
 #include "progress.h"
 #include "report.h"
+#include "words.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -86,9 +87,7 @@ static int open_target(film_pipe *p) {
 
 static int start_ffmpeg(film_pipe *p, int target) {
     int ends[2];
-    FILE *const words = tmpfile();
-    p->words = words ? fcntl(fileno(words), F_DUPFD_CLOEXEC, 3) : -1;
-    if (words) fclose(words);
+    p->words = words_open();
     if (p->words < 0 || pipe(ends)) return fail(p, errno);
     for (int k = 0; k < 2; k++) fcntl(ends[k], F_SETFD, FD_CLOEXEC);
     const ffmpeg_film film = {.width = p->shape.width,
@@ -118,7 +117,7 @@ static int report_ffmpeg(const film_pipe *p, int status) {
         snprintf(how, sizeof how, "failed with exit code %d", WEXITSTATUS(status));
     else
         snprintf(how, sizeof how, "ended before the film did");
-    ffmpeg_words(p->words, words, sizeof words);
+    words_tail(p->words, words, sizeof words);
     wrong_usage("%s: ffmpeg %s%s%s", spoken(p->path), how, *words ? ": " : "", words);
     return EXIT_FAILED;
 }
@@ -147,8 +146,8 @@ static int lost_ffmpeg(film_pipe *p) {
 /* ---- frames ---- */
 
 int film_pipe_open(const char *path, int format, const film_shape *shape, film_pipe *p) {
-    *p = (film_pipe){
-        .path = path, .format = format, .shape = *shape, .descriptor = -1, .words = -1};
+    *p =
+        (film_pipe){.path = path, .format = format, .shape = *shape, .descriptor = -1, .words = -1};
     const int target = open_target(p);
     if (target < 0) return fail(p, errno);
     if (format == FORMAT_MP4 && !shape->opaque) {
@@ -214,7 +213,8 @@ static void forget(film_pipe *p) {
 
 void film_pipe_abandon(film_pipe *p) {
     if (p->ffmpeg > 0) {
-        kill(p->ffmpeg, SIGKILL);
+        kill(-p->ffmpeg, SIGKILL); /* and what it has started */
+        kill(p->ffmpeg, SIGKILL);  /* it may not have a group yet */
         while (waitpid(p->ffmpeg, NULL, 0) < 0 && errno == EINTR) {
         }
     }

@@ -98,9 +98,9 @@ void film_plan_free(film_plan *plan) {
 
 void film_plan_centre(const tool_settings *s, const dp_extent *extent, film_plan *plan) {
     for (int k = 0; k < 3; k++)
-        plan->centre[k] =
-            s->has_target ? s->target[k]
-                          : extent->exact_min[k] + 0.5 * (extent->exact_max[k] - extent->exact_min[k]);
+        plan->centre[k] = s->has_target ? s->target[k]
+                                        : extent->exact_min[k] +
+                                              0.5 * (extent->exact_max[k] - extent->exact_min[k]);
 }
 
 /* ---- frames ---- */

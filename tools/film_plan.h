@@ -9,9 +9,9 @@
 typedef struct film_plan {
     uint32_t count; /* frames, numbered from 0 */
     double fps;
-    double time[2];       /* s: of frame 0, and of frame `count`, which there is not */
-    double turn;          /* degrees; 0: the camera does not turn */
-    dp_camera_path *path; /* or NULL */
+    double time[2];            /* s: of frame 0, and of frame `count`, which there is not */
+    double turn;               /* degrees; 0: the camera does not turn */
+    dp_camera_path *path;      /* or NULL */
     double centre[3], axis[3]; /* what the camera turns about */
 } film_plan;
 

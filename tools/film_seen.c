@@ -67,8 +67,8 @@ static dp_result seen_next(void *user, dp_batch *batch, dp_diag *diag) {
         if (result || !batch->polygon_count || !w->turned) return result;
         batch->normals = batch->texcoords = (dp_attribute){0};
         if (turn_batch(w, batch)) return DP_OK;
-        *diag = (dp_diag){.result = DP_ERR_MEMORY,
-                          .message = "out of memory for what a film shows"};
+        *diag =
+            (dp_diag){.result = DP_ERR_MEMORY, .message = "out of memory for what a film shows"};
         return DP_ERR_MEMORY;
     }
 }

@@ -10,10 +10,10 @@ typedef struct film_stats {
     double *frame_ms;   /* [count] */
     uint64_t *segments; /* [count] */
     uint32_t count, room;
-    uint32_t empty;    /* frames without a line */
-    dp_stats dropping; /* of the first frame that polygons were dropped from, or edges lost */
+    uint32_t empty;     /* frames without a line */
+    dp_stats dropping;  /* of the first frame that polygons were dropped from, or edges lost */
     uint64_t triangles; /* of the last frame */
-    double seconds;    /* from the first order to the last frame's end */
+    double seconds;     /* from the first order to the last frame's end */
     uint32_t jobs, threads, width, height, samples;
 } film_stats;
 

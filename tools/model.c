@@ -49,7 +49,7 @@ static int open_shape(const char *text, dp_source **out) {
 /* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
-           s->ink != 2 && !film_wanted(s);
+           s->ink != 2;
 }
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be
@@ -77,7 +77,7 @@ static int open_one(const tool_settings *s, const char *model, dp_source **out) 
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
     dp_result result = open_file(s, model, out, &diag);
-    if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
+    if (!result && !dp_source_rewindable(*out) && (film_wanted(s) || !is_drawn_unseen(s)))
         result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();
     if (!result) return 0;

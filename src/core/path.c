@@ -33,7 +33,8 @@ static const double usual_fov = 35; /* degrees, as dp_fit's */
 /* ---- making ---- */
 
 static dp_result refuse(dp_diag *diag, size_t view, const char *what) {
-    const dp_result result = dp_fail(diag, DP_ERR_ARGUMENT, "view %zu of a path %s", view + 1, what);
+    const dp_result result =
+        dp_fail(diag, DP_ERR_ARGUMENT, "view %zu of a path %s", view + 1, what);
     if (diag) diag->item = view;
     return result;
 }
@@ -57,8 +58,7 @@ const char *dp_key_view_mistake(const dp_key_view *view, const dp_key_view *befo
     if (same_point(view->eye, view->target)) return "has its eye where it looks at; move one";
     if (!(view->fov_y >= 0 && view->fov_y < 180))
         return "has a field of view that is not between 0 and 180 degrees";
-    if (!(view->height >= 0 && isfinite(view->height)))
-        return "has a height that is not above 0";
+    if (!(view->height >= 0 && isfinite(view->height))) return "has a height that is not above 0";
     if (before && (view->height > 0) != (before->height > 0))
         return "has another projection than the one before it; give all of them a fov, or all a "
                "height";
@@ -251,9 +251,9 @@ dp_result dp_camera_path_at(const dp_camera_path *path, double time, double aspe
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "at %.6g s the path's eye meets its target; move one of them", time);
     dp_camera_near_far(camera, min, max, &near_z, &far_z);
-    const dp_result wrong =
-        v.height > 0 ? dp_camera_orthographic(camera, v.height, aspect, near_z, far_z)
-                     : dp_camera_perspective(camera, v.fov_y, aspect, near_z, far_z);
+    const dp_result wrong = v.height > 0
+                                ? dp_camera_orthographic(camera, v.height, aspect, near_z, far_z)
+                                : dp_camera_perspective(camera, v.fov_y, aspect, near_z, far_z);
     if (!wrong) return DP_OK;
     return dp_fail(diag, DP_ERR_ARGUMENT, "at %.6g s the path's camera cannot see anything", time);
 }
