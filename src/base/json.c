@@ -266,8 +266,7 @@ static bool read_items(parser *p, int level, char close, dp_json *to) {
     const size_t base = p->depth;
     const bool named = close == '}';
     if (level >= DEEPEST) {
-        p->result =
-            dp_fail(p->diag, DP_ERR_LIMIT, "JSON nested more than %d deep", (int)DEEPEST);
+        p->result = dp_fail(p->diag, DP_ERR_LIMIT, "JSON nested more than %d deep", (int)DEEPEST);
         return false;
     }
     skip_spaces(p);

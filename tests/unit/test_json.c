@@ -53,7 +53,8 @@ static void assert_string(const char *text, const char *expected) {
 
 static void values_are_read(void **state) {
     (void)state;
-    const dp_json *const v = parse("\xef\xbb\xbf {\"a\": [1, true, null, \"x\"], \"b\":{}, \"a\":2}\n");
+    const dp_json *const v =
+        parse("\xef\xbb\xbf {\"a\": [1, true, null, \"x\"], \"b\":{}, \"a\":2}\n");
     const dp_json *const a = dp_json_find(v, "a");
     assert_int_equal(v->kind, DP_JSON_OBJECT), assert_int_equal(v->count, 3);
     assert_int_equal(dp_json_count(a), 4);
@@ -87,7 +88,8 @@ static void strings_are_read(void **state) {
     assert_string("\"a\\\"\\\\\\/\\n\\u0041\"", "a\"\\/\nA");
     assert_string("\"\\u00e9\\u20ac\\ud83d\\ude00\"", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
     assert_string("\"\\ud83dx\\ude00\"", "\xef\xbf\xbdx\xef\xbf\xbd");
-    assert_string("\"\\ud83d\\u0041\"", "\xef\xbf\xbd" "A");
+    assert_string("\"\\ud83d\\u0041\"", "\xef\xbf\xbd"
+                                        "A");
     assert_true(dp_json_find(parse("{\"\\u0061b\": 1}"), "ab") != NULL);
 }
 
