@@ -26,8 +26,8 @@ static bool has_film_output(const tool_settings *s) {
 
 bool film_wanted(const tool_settings *s) {
     if (s->command != COMMAND_DRAW) return false;
-    return s->frames || s->fps > 0 || s->has_turn || s->path || s->has_frame || s->resume ||
-           s->jobs || (s->has_time && s->time[0] != s->time[1]) || has_film_output(s);
+    return s->frames || s->has_turn || s->path || s->has_frame ||
+           (s->has_time && s->time[0] != s->time[1]) || has_film_output(s);
 }
 
 /* ---- outputs ---- */
@@ -87,7 +87,7 @@ static bool check_cameras(const tool_settings *s) {
 
 bool film_check(const tool_settings *s) {
     if (!film_wanted(s)) return true;
-    if (s->frame && s->resume)
+    if (s->has_frame && s->resume)
         return wrong_usage("--resume draws what is missing of all frames, and --frame one of them; "
                            "leave one out");
     return check_outputs(s) && check_cameras(s);

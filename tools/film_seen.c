@@ -28,7 +28,8 @@ static uint32_t frame_of(const seen *w) {
 static dp_result begin_look(seen *w, uint32_t at, dp_diag *diag) {
     w->at = at;
     if (w->turned) film_turn_back(w->plan, frame_of(w), w->rotation);
-    return dp_source_set_time(w->source, film_time(w->plan, frame_of(w)), diag);
+    const dp_result result = dp_source_set_time(w->source, film_time(w->plan, frame_of(w)), diag);
+    return result ? result : dp_source_rewind(w->source, diag);
 }
 
 /* Turns a batch's positions, in memory of our own. */
@@ -82,15 +83,17 @@ static void seen_destroy(void *user) {
 }
 
 /* How many frames are looked at. */
-static dp_result count_looks(seen *w, dp_diag *diag) {
+static dp_result count_looks(seen *w, uint64_t *polygons, dp_diag *diag) {
     dp_extent extent;
     const dp_result result = dp_source_extent(w->source, &extent, diag);
     const uint32_t most = extent.polygons > MUCH ? LOOKS_AT_MUCH : LOOKS;
     w->looks = w->plan->count < most ? w->plan->count : most;
+    if (polygons) *polygons = extent.polygons;
     return result;
 }
 
-int film_seen_make(const film_plan *plan, dp_source *source, bool turned, dp_source **out) {
+int film_seen_make(const film_plan *plan, dp_source *source, bool turned, dp_source **out,
+                   uint64_t *polygons) {
     dp_diag diag = {0};
     seen *const w = calloc(1, sizeof *w);
     *out = NULL;
@@ -99,7 +102,7 @@ int film_seen_make(const film_plan *plan, dp_source *source, bool turned, dp_sou
     dp_source_callbacks callbacks = {
         .user = w, .next = seen_next, .rewind = seen_rewind, .destroy = seen_destroy};
     callbacks.up_assumed = !dp_source_up(source, callbacks.up);
-    dp_result result = count_looks(w, &diag);
+    dp_result result = count_looks(w, polygons, &diag);
     if (!result) result = begin_look(w, 0, &diag);
     if (!result) result = dp_source_from_callbacks(&callbacks, NULL, out, &diag);
     if (!result) return 0;

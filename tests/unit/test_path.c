@@ -183,10 +183,11 @@ static dp_result read_text(const char *text, dp_camera_path **path, dp_diag *dia
 }
 
 static void test_read(void **state) {
-    static const char text[] = "{\"views\": [\n"
-                               " {\"eye\": [3, 2, 4], \"target\": [0, 0, 0]},\n"
-                               " {\"eye\": [-3, 2.5, 4e0], \"target\": [0, 1, 0], \"fov\": 20},\n"
-                               " {\"eye\": [3, 2, 5], \"target\": [0, 0, 0], \"up\": [0, 2, 0]}]}\n";
+    static const char text[] =
+        "{\"views\": [\n"
+        " {\"eye\": [3, 2, 4], \"target\": [0, 0, 0]},\n"
+        " {\"eye\": [-3, 2.5, 4e0], \"target\": [0, 1, 0], \"fov\": 20},\n"
+        " {\"eye\": [3, 2, 5], \"target\": [0, 0, 0], \"up\": [0, 2, 0]}]}\n";
     dp_camera_path *path;
     dp_diag diag = {0};
     (void)state;
@@ -257,10 +258,10 @@ static void test_read_mistakes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_keys_are_met),     cmocka_unit_test(test_parabola),
-        cmocka_unit_test(test_smooth),           cmocka_unit_test(test_no_swing),
-        cmocka_unit_test(test_camera),           cmocka_unit_test(test_eye_meets_target),
-        cmocka_unit_test(test_wrong_views),      cmocka_unit_test(test_read),
+        cmocka_unit_test(test_keys_are_met), cmocka_unit_test(test_parabola),
+        cmocka_unit_test(test_smooth),       cmocka_unit_test(test_no_swing),
+        cmocka_unit_test(test_camera),       cmocka_unit_test(test_eye_meets_target),
+        cmocka_unit_test(test_wrong_views),  cmocka_unit_test(test_read),
         cmocka_unit_test(test_read_mistakes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
