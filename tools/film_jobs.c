@@ -196,7 +196,7 @@ static int lost_job(job *j) {
     while (waitpid(j->process, &status, 0) < 0 && errno == EINTR) {
     }
     j->process = 0;
-    if (progress_report(NULL, -1)) return EXIT_FAILED; /* Ctrl-C */
+    if (interrupt_seen()) return EXIT_FAILED; /* Ctrl-C */
     words_show(j->words);
     wrong_usage("a process that draws frames was ended%s%s; if memory is short, give fewer --jobs, "
                 "or a smaller --size",

@@ -28,8 +28,6 @@
 
 enum { TRIES = 1000, WAIT = 200 /* ms */ };
 
-static bool interrupted(void) { return progress_report(NULL, -1) != 0; }
-
 static const char *spoken(const char *path) { return strcmp(path, "-") ? path : "standard output"; }
 
 static int fail(const film_pipe *p, int error) {
@@ -128,7 +126,7 @@ static bool await_ffmpeg(film_pipe *p, int *status) {
     for (;;) {
         const pid_t ended = waitpid(p->ffmpeg, status, WNOHANG);
         if (ended > 0 || (ended < 0 && errno != EINTR)) break;
-        if (interrupted()) return false;
+        if (interrupt_seen()) return false;
         nanosleep(&moment, NULL);
     }
     p->ffmpeg = 0;
@@ -192,7 +190,7 @@ int film_pipe_write(film_pipe *p, const uint8_t *rgba) {
     const uint8_t *const bytes = flatten(p, rgba);
     for (size_t done = 0; done < size;) {
         const ssize_t count = write_some(p, bytes + done, size - done);
-        if (interrupted()) return EXIT_FAILED;
+        if (interrupt_seen()) return EXIT_FAILED;
         if (count < 0 && p->ffmpeg) return lost_ffmpeg(p);
         if (count < 0) return fail(p, errno);
         done += (size_t)count;
