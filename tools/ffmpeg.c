@@ -37,13 +37,13 @@ static void add(command *c, const char *const *words) {
     for (; *words && c->count < WORDS_MOST - 1; words++) c->words[c->count++] = *words;
 }
 
-/* H.264 with halved colours wants even sides: a last row and column of paper. Rec. 709's colours are
- * what players expect. */
+/* Rec. 709's colours are what players expect of films. */
+#define REC_709 "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int"
+
+/* H.264 with halved colours wants even sides: a last row and column of paper. */
 static void filter_mp4(const ffmpeg_film *f, char *filter, size_t size) {
     const uint32_t paper = f->opaque && f->paper ? f->paper >> 8 : 0xFFFFFF;
-    snprintf(filter, size,
-             "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:0x%06X,scale=out_color_matrix=bt709:out_range=tv,"
-             "format=yuv420p",
+    snprintf(filter, size, "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:0x%06X," REC_709 ",format=yuv420p",
              (unsigned)paper);
 }
 
@@ -57,10 +57,10 @@ static void filter_gif(const ffmpeg_film *f, char *filter, size_t size) {
              whole ? "full" : "single", !f->opaque, whole ? "" : ":new=1");
 }
 
-static const char *const mp4[] = {
-    "-c:v",  "libx264",          "-preset", "medium",     "-crf",  "16",           "-colorspace",
-    "bt709", "-color_primaries", "bt709",   "-color_trc", "bt709", "-color_range", "tv",
-    NULL};
+static const char *const rec_709[] = {"-colorspace",  "bt709",      "-color_primaries",
+                                      "bt709",        "-color_trc", "bt709",
+                                      "-color_range", "tv",         NULL};
+static const char *const mp4[] = {"-c:v", "libx264", "-preset", "medium", "-crf", "16", NULL};
 static const char *const mp4_in_file[] = {"-movflags", "+faststart", "-f", "mp4", NULL};
 static const char *const mp4_in_pipe[] = {"-movflags", "frag_keyframe+empty_moov", "-f", "mp4",
                                           NULL};
@@ -77,10 +77,13 @@ static void add_format(command *c, const ffmpeg_film *f) {
     case FORMAT_MP4:
         filter_mp4(f, c->filter, sizeof c->filter);
         add(c, mp4);
+        add(c, rec_709);
         add(c, f->file ? mp4_in_file : mp4_in_pipe);
         break;
     case FORMAT_WEBM:
-        snprintf(c->filter, sizeof c->filter, "format=%s", f->opaque ? "yuv420p" : "yuva420p");
+        snprintf(c->filter, sizeof c->filter, REC_709 ",format=%s",
+                 f->opaque ? "yuv420p" : "yuva420p");
+        add(c, rec_709);
         add(c, webm);
         break;
     case FORMAT_GIF:

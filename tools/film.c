@@ -171,6 +171,11 @@ static bool is_opaque(const tool_settings *s) {
     return !s->style.paper || (s->style.paper & 0xFF) == 0xFF;
 }
 
+static void warn_formats(const film *f) {
+    if (!f->s->quiet && !is_opaque(f->s) && files_have(f->s, FORMAT_MP4))
+        warn("MP4 has no transparency: its paper is white; .webm, .gif and .apng have some");
+}
+
 static int ready(void *user) {
     film *const f = user;
     const film_shape shape = {.width = f->drawing.plan.width,
@@ -280,6 +285,7 @@ static int run(film *f) {
     if (code) return code;
     for (uint32_t k = 0; k < s->file_count; k++) f->pipe_count += files_is_film(s, s->files[k]);
     choose_jobs(f);
+    warn_formats(f);
     code = draw_frames(f);
     if (!code) tell(f);
     return code;

@@ -309,7 +309,7 @@ const option option_table[] = {
      "Seconds at which a model that moves is drawn; of a film, from and to: of N frames, frame 0 is at T0, and frame k at "
      "T0 + (T1 - T0) k / N, so that a film of one round loops. Default: 0; of a film, from 0 on as long as it lasts."},
     {"frames", 0, "N", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frames), 0, 1, 1000000,
-     "Draw a film of that many frames: to out-%04d.png (or .svg, trace=…: any output, where %04d is the frame's number, from 0 "
+     "Draw a film of that many frames: to out-%04d.png (or .svg, trace=...: any output, where %04d is the frame's number, from 0 "
      "on), or to out.mp4, .webm, .gif or .apng, by ffmpeg, or as plain pixels to .rgba. Default: as many as --time, --path "
      "or the model's own motion last, or 120 with --turn."},
     {"fps", 0, "F", OPTION_INSIDE, GROUP_MOTION, DRAW, AT(fps), 0, 0, 1001,
@@ -319,7 +319,7 @@ const option option_table[] = {
      "rounds (360) loop; any other turn ends with its last frame."},
     {"path", 0, "FILE", OPTION_TEXT, GROUP_MOTION, DRAW, AT(path), 0, 0, 0,
      "A film in which the camera goes smoothly through the views of a JSON file: {\"views\": [{\"time\": 0, \"eye\": [3, 2, 4], "
-     "\"target\": [0, 0, 0], \"fov\": 35}, …]}, with up where it is not the model's, and height instead of fov without "
+     "\"target\": [0, 0, 0], \"fov\": 35}, ...]}, with up where it is not the model's, and height instead of fov without "
      "perspective. The first view twice, at the end too, makes it loop."},
     {"frame", 0, "K", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frame), AT(has_frame), 0, 999999,
      "Draw only this one of a film's frames, from 0 on, as a picture."},
@@ -380,6 +380,7 @@ const command_text command_table[COMMAND_COUNT] = {
                        "drypoint 'parts/*.stl' -o '%s.svg'", "a drawing for each of many files",
                        "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
                        "a generated model, in colour",
+                       "drypoint gear.stl --turn 360 -o gear.mp4", "a film, by ffmpeg",
                        "drypoint scan.stl -o scan.png --memory 100M", "a file larger than memory",
                        "drypoint - -o - < model.ply > model.png", "in a pipe", NULL}},
     [COMMAND_INFO] = {"info",

@@ -256,12 +256,53 @@ static void test_read_mistakes(void **state) {
     }
 }
 
+/* ---- memory ---- */
+
+static int blocks_left, blocks_held;
+
+static void *take_block(size_t size, void *user) {
+    (void)user;
+    if (blocks_left-- <= 0) return NULL;
+    blocks_held++;
+    return malloc(size);
+}
+static void *grow_block(void *block, size_t size, void *user) {
+    (void)user;
+    if (blocks_left-- <= 0) return NULL;
+    blocks_held += !block;
+    return realloc(block, size);
+}
+static void free_block(void *block, void *user) {
+    (void)user;
+    blocks_held -= block != NULL;
+    free(block);
+}
+
+/* Whichever block is not to be had, the reader says so and keeps none. */
+static void test_memory(void **state) {
+    static const char text[] = "[{\"eye\": [3, 2, 4], \"target\": [0, 0, 0]}]";
+    const dp_allocator few = {take_block, grow_block, free_block, NULL};
+    dp_result result = DP_ERR_MEMORY;
+    (void)state;
+    for (int n = 0; result == DP_ERR_MEMORY; n++) {
+        dp_camera_path *path;
+        dp_diag diag = {0};
+        assert_true(n < 100);
+        blocks_left = n;
+        result = dp_camera_path_read(text, sizeof text - 1, NULL, &few, &path, &diag);
+        assert_true(result ? !path && diag.result == result : n > 0 && path != NULL);
+        dp_camera_path_destroy(path);
+        assert_int_equal(blocks_held, 0);
+    }
+    assert_int_equal(result, DP_OK);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_keys_are_met), cmocka_unit_test(test_parabola),
-        cmocka_unit_test(test_smooth),       cmocka_unit_test(test_no_swing),
-        cmocka_unit_test(test_camera),       cmocka_unit_test(test_eye_meets_target),
-        cmocka_unit_test(test_wrong_views),  cmocka_unit_test(test_read),
-        cmocka_unit_test(test_read_mistakes)};
+        cmocka_unit_test(test_keys_are_met),  cmocka_unit_test(test_parabola),
+        cmocka_unit_test(test_smooth),        cmocka_unit_test(test_no_swing),
+        cmocka_unit_test(test_camera),        cmocka_unit_test(test_eye_meets_target),
+        cmocka_unit_test(test_wrong_views),   cmocka_unit_test(test_read),
+        cmocka_unit_test(test_read_mistakes), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
