@@ -3,6 +3,7 @@
 #include "clips.h"
 #include "commands.h"
 #include "deform.h"
+#include "film.h"
 #include "keep.h"
 #include "models.h"
 #include "progress.h"
@@ -78,7 +79,7 @@ static int open_named(const tool_settings *s, const char *model, dp_source **out
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
     dp_result result = open_file(s, model, out, &diag);
-    if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
+    if (!result && !dp_source_rewindable(*out) && (film_wanted(s) || !is_drawn_unseen(s)))
         result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();
     if (!result) return 0;

@@ -1,6 +1,7 @@
 /* What the options must say, and what they cannot say together. No option is ignored without a
  * message. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -121,5 +122,5 @@ static bool check_motion(const tool_settings *s) {
 
 bool options_check(const tool_settings *s) {
     return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && check_motion(s);
+           check_sheet(s) && check_motion(s) && film_check(s);
 }

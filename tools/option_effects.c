@@ -4,6 +4,7 @@
  * The rules are data: what must be so for some options to count, and what to say if it is not. An
  * option is told of by the first rule that it breaks. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -168,6 +169,7 @@ static const rule drawing_rules[] = {
 
     {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
     {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
+    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

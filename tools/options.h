@@ -197,11 +197,15 @@ typedef struct tool_settings {
     const char *morph; /* a model */
     double blend;
     bool has_deform, has_blend;
+    double fps, turn; /* turn: degrees */
+    const char *path; /* of the camera: a file */
+    uint32_t frame, jobs;
+    bool has_turn, has_frame, resume;
 
     stats_kind stats;
     bool json, quiet;
     double read_time; /* s */
-    uint32_t frames;
+    uint32_t frames;  /* of a film, or of bench */
     uint64_t triangles;
     double shape_size;
     uint32_t seed;

@@ -10,6 +10,7 @@
 #include <drypoint/drawing.h>
 #include <drypoint/immediate.h>
 #include <drypoint/scene.h>
+#include <drypoint/path.h>
 #include <drypoint/shade.h>
 #include <drypoint/shapes.h>
 #include <drypoint/sink.h>
