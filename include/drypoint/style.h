@@ -91,8 +91,8 @@ enum { DP_LEVELS = 8 /* the most that are told apart */ };
 
 /* Hidden lines, drawn below visible ones, which they do not change. A line's level says how many
  * front-facing surfaces lie between it and the eye, and is 1 at least where anything hides it;
- * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Of
- * groups (immediate.h) the first one's look, levels and smooth are those of all. */
+ * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Look,
+ * levels and smooth hold for all groups (dp_draw_grouped, immediate.h). */
 typedef struct dp_hidden {
     dp_hidden_look look;
     uint32_t levels; /* 1 to DP_LEVELS; 0 means 1: hidden by anything */
