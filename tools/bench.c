@@ -2,6 +2,7 @@
  * time. Loading and the first frame, in which the context's memory grows, are not counted. */
 #include "commands.h"
 #include "look.h"
+#include "objects.h"
 #include "page.h"
 #include "report.h"
 
@@ -14,6 +15,7 @@ typedef struct bench {
     dp_texture *texture;
     dp_target target;
     look_data look;
+    object_styles objects;
     dp_stats *frames; /* [count] */
     uint32_t count;
 } bench;
@@ -52,7 +54,9 @@ static int draw_frames(const tool_settings *s, bench *b, const dp_camera *camera
                        const dp_style *style) {
     for (uint32_t k = 0; k <= b->count; k++) { /* frame 0 is not counted */
         dp_diag diag = {0};
-        const dp_result result = dp_draw(b->context, b->source, camera, style, &b->target, &diag);
+        const dp_result result =
+            dp_draw_grouped(b->context, b->source, camera, style, b->objects.styles,
+                            b->objects.count, &b->target, &diag);
         if (result)
             return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
         if (k) dp_stats_of(b->context, &b->frames[k - 1]);
@@ -76,6 +80,7 @@ static int measure(const tool_settings *s, bench *b) {
     if (!code) look_deepen(&style, &model.extent, camera);
     if (!code) code = make_stroke(s, &plan, &style, &b->texture);
     if (!code) code = look_make(s, b->source, &b->look, &style);
+    if (!code) code = objects_style(s, b->source, &plan, &style, &b->objects);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
     return draw_frames(s, b, camera, &style);
@@ -105,6 +110,7 @@ int command_bench(const tool_settings *s) {
     dp_texture_destroy(b.texture);
     dp_source_destroy(b.source);
     look_free(&b.look);
+    objects_free(&b.objects);
     free(b.frames);
     free(b.target.rgba);
     return code;

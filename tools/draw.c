@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "files.h"
 #include "look.h"
+#include "objects.h"
 #include "output.h"
 #include "page_ink.h"
 #include "paths.h"
@@ -24,7 +25,8 @@ typedef struct drawing {
     dp_context *context;
     dp_texture *texture;
     dp_style style;
-    dp_target target; /* planes of the only view; rgba is the whole page */
+    object_styles objects; /* of those that have their own */
+    dp_target target;      /* planes of the only view; rgba is the whole page */
     look_data look;
     page_plan plan;
     bool pixels, paths; /* what is wanted */
@@ -75,6 +77,7 @@ static int prepare(const tool_settings *s, drawing *d, measured *model) {
     code = make_stroke(s, &d->plan, &d->style, &d->texture);
     if (code) return code;
     code = look_make(s, d->source, &d->look, &d->style);
+    if (!code) code = objects_style(s, d->source, &d->plan, &d->style, &d->objects);
     d->target.samples = make_target(s).samples;
     d->target.width = d->plan.views[0].width, d->target.height = d->plan.views[0].height;
     if (!code) code = planes_prepare(s, &d->target);
@@ -88,10 +91,11 @@ static int prepare(const tool_settings *s, drawing *d, measured *model) {
 /* ---- drawing ---- */
 
 static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
-                     const dp_target *target) {
+                     const object_styles *objects, const dp_target *target) {
     dp_diag diag = {0};
     progress_begin("drawing", s->quiet);
-    const dp_result result = dp_draw(d->context, d->source, &v->camera, style, target, &diag);
+    const dp_result result = dp_draw_grouped(d->context, d->source, &v->camera, style,
+                                             objects->styles, objects->count, target, &diag);
     progress_end();
     if (!result) return 0;
     return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
@@ -113,7 +117,11 @@ static int draw_ground(const tool_settings *s, drawing *d, int k) {
                               .height = v->height,
                               .samples = d->target.samples,
                               .rgba = d->views[k].ground};
-    return draw_into(s, d, v, &style, &target);
+    object_styles bare;
+    if (!objects_without_lines(&d->objects, &bare)) return EXIT_FAILED;
+    const int code = draw_into(s, d, v, &style, &bare, &target);
+    objects_free(&bare);
+    return code;
 }
 
 static int draw_lines(const tool_settings *s, drawing *d, int k) {
@@ -124,7 +132,7 @@ static int draw_lines(const tool_settings *s, drawing *d, int k) {
     target.width = v->width, target.height = v->height;
     if (target.rgba) target.rgba += v->y * stride + (size_t)4 * v->x, target.rgba_stride = stride;
     if (v->bare) style.hidden.look = DP_HIDDEN_NONE;
-    int code = draw_into(s, d, v, &style, &target);
+    int code = draw_into(s, d, v, &style, &d->objects, &target);
     if (!code) dp_stats_of(d->context, &d->stats[k]);
     if (!code && d->paths) code = paths_make(s, &d->plan, d->context, &d->views[k].lines);
     return code;
@@ -238,5 +246,6 @@ int draw_scene(const tool_settings *s) {
     free(d.target.rgba);
     planes_free(&d.target);
     look_free(&d.look);
+    objects_free(&d.objects);
     return code;
 }

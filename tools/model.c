@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "keep.h"
 #include "models.h"
+#include "objects.h"
 #include "progress.h"
 #include "report.h"
 
@@ -48,7 +49,7 @@ static int open_shape(const char *text, dp_source **out) {
 /* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
-           s->ink != 2;
+           s->ink != 2 && !objects_asked(s);
 }
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be
@@ -144,8 +145,9 @@ static int move_model(const tool_settings *s, dp_source **source) {
 
 int open_model(const tool_settings *s, dp_source **out) {
     *out = NULL;
-    const int code = s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
-    return code ? code : move_model(s, out);
+    int code = s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
+    if (!code) code = move_model(s, out);
+    return code || !objects_asked(s) ? code : objects_arrange(s, out);
 }
 
 /* A scene's messages name the model already. */

@@ -73,6 +73,9 @@ static bool has_highlight(const tool_settings *s) {
     return s->shading >= SHADING_LAMBERT && s->shading <= SHADING_TOON;
 }
 
+static bool is_exploded(const tool_settings *s) { return s->explode > 0; }
+static bool is_listing(const tool_settings *s) { return s->list; }
+
 static bool has_mirror(const tool_settings *s) { return s->has_mirror; }
 static bool has_tint(const tool_settings *s) {
     return s->mirror_tint_share > 0 || !s->has_mirror_tint_share;
@@ -158,6 +161,10 @@ static const rule drawing_rules[] = {
     {"c1-passes", is_c1, "it is of the C1 operator; add --edge-map c1"},
     {"edge-sides|inner-angle|inner-softness|profile-softness", is_scaled,
      "--edge-measure paper has no thresholds and both sides; leave it out"},
+
+    {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
+    {"json", is_listing,
+     "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

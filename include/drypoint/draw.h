@@ -116,7 +116,8 @@ DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera
  * mirror has `style`, and what is seen in it the groups' own.
  *
  * Drawn from memory, whatever the model's size. Keeps a copy of the styles in the context. Errors of
- * dp_draw; DP_ERR_ARGUMENT names the group whose style is refused; DP_ERR_LIMIT for more than 65536. */
+ * dp_draw; DP_ERR_ARGUMENT names the group whose style is refused; DP_ERR_LIMIT for more than 65536, and with a
+ * mirror for more than DP_MIRROR_GROUP. */
 DP_API dp_result dp_draw_grouped(dp_context *context, dp_source *source, const dp_camera *camera,
                                  const dp_style *style, const dp_style *groups, uint32_t count,
                                  const dp_target *target, dp_diag *diag);

@@ -58,6 +58,10 @@ dp_result dp_draw_grouped(dp_context *context, dp_source *source, const dp_camer
     if (count > MOST)
         return dp_fail(diag, DP_ERR_LIMIT, "styles of %u groups; there are %d groups at most",
                        count, MOST);
+    if (style && style->mirror.size > 0 && count > DP_MIRROR_GROUP)
+        return dp_fail(diag, DP_ERR_LIMIT,
+                       "styles of %u groups leave the mirror none, which is group %u", count,
+                       DP_MIRROR_GROUP);
     dp_result result = resolve_styles(context, style, groups, count, diag);
     if (!result)
         result =

@@ -46,14 +46,10 @@ typedef struct arranged {
 } arranged;
 
 static const dp_array arrays[] = {
-    DP_ARRAY(arranged, positions, positions_cap),
-    DP_ARRAY(arranged, moved, moved_cap),
-    DP_ARRAY(arranged, colors, colors_cap),
-    DP_ARRAY(arranged, indices, indices_cap),
-    DP_ARRAY(arranged, firsts, firsts_cap),
-    DP_ARRAY(arranged, values[0], values_cap[0]),
-    DP_ARRAY(arranged, values[1], values_cap[1]),
-    DP_ARRAY(arranged, flags, flags_cap),
+    DP_ARRAY(arranged, positions, positions_cap), DP_ARRAY(arranged, moved, moved_cap),
+    DP_ARRAY(arranged, colors, colors_cap),       DP_ARRAY(arranged, indices, indices_cap),
+    DP_ARRAY(arranged, firsts, firsts_cap),       DP_ARRAY(arranged, values[0], values_cap[0]),
+    DP_ARRAY(arranged, values[1], values_cap[1]), DP_ARRAY(arranged, flags, flags_cap),
     DP_ARRAY(arranged, groups, groups_cap),
 };
 
@@ -117,13 +113,12 @@ static bool lists_values(const copying *c, int which) {
 
 static bool add_vertex(copying *c, uint32_t vertex, const dp_placement *placement) {
     arranged *const a = c->to;
-    const float *const p =
-        (const float *)(const void *)((const char *)c->from->positions +
-                                      vertex * c->from->position_stride);
+    const float *const p = (const float *)(const void *)((const char *)c->from->positions +
+                                                         vertex * c->from->position_stride);
     if (!dp_reserve(&a->memory, &a->positions, &a->positions_cap, 3 * (c->vertices + 1),
                     sizeof *a->positions) ||
-        (c->from->colors && !dp_reserve(&a->memory, &a->colors, &a->colors_cap, c->vertices + 1,
-                                        sizeof *a->colors)))
+        (c->from->colors &&
+         !dp_reserve(&a->memory, &a->colors, &a->colors_cap, c->vertices + 1, sizeof *a->colors)))
         return false;
     for (int k = 0; k < 3; k++)
         a->positions[3 * c->vertices + (size_t)k] = (float)((double)p[k] + placement->offset[k]);
@@ -152,7 +147,9 @@ static bool find_vertex(copying *c, uint32_t vertex, uint32_t group, uint32_t *n
 static bool add_corner(copying *c, size_t corner, uint32_t group) {
     const dp_batch *const from = c->from;
     arranged *const a = c->to;
-    const uint32_t vertex = from->indices ? from->indices[corner] : (uint32_t)corner;
+    const uint32_t vertex = from->indices         ? from->indices[corner]
+                            : corner < UINT32_MAX ? (uint32_t)corner
+                                                  : UINT32_MAX;
     if (!find_vertex(c, vertex, group, &a->indices[c->corners])) return false;
     for (int k = 0; k < ATTRIBUTES; k++) {
         const uint32_t *const values = attribute_of(from, k)->indices;
@@ -193,7 +190,7 @@ static bool begin_copy(const copying *c) {
     if (!RESERVE(indices, corners) || (from->edge_flags && !RESERVE(flags, corners)) ||
         (from->groups && !RESERVE(groups, from->polygon_count)) ||
         (from->firsts && !RESERVE(firsts, from->polygon_count + 1)) ||
-        (c->moves && !RESERVE(moved, from->vertex_count)))
+        (c->moves && (!RESERVE(moved, from->vertex_count) || !RESERVE(positions, 3))))
         return false;
     if (from->firsts) a->firsts[0] = 0;
     for (size_t v = 0; v < from->vertex_count && c->moves; v++) a->moved[v].number = UINT32_MAX;

@@ -66,10 +66,10 @@ static size_t list_members(const dp_source *source, const dp_group *groups, uint
     for (uint32_t g = 0; g < count; g++) {
         if (!(groups[g].min[0] <= groups[g].max[0])) continue;
         const bool joined = source->part_of_group != NULL;
-        members[listed++] = (member){
-            .name = joined ? NULL : dp_source_group_name(source, g),
-            .number = joined ? source->part_of_group(source->callbacks.user, g) : g,
-            .group = g};
+        members[listed++] =
+            (member){.name = joined ? NULL : dp_source_group_name(source, g),
+                     .number = joined ? source->part_of_group(source->callbacks.user, g) : g,
+                     .group = g};
     }
     cut_names(members, listed);
     return listed;

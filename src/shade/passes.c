@@ -177,8 +177,8 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
 
 static dp_color surface_of(const dp_shade_store *s, uint16_t id) {
     const uint32_t group = id - 1u;
-    const dp_style *const styles = s->frame->styles,
-                          *const style = &styles[dp_style_number(s->frame, group)];
+    const dp_style *const styles = s->frame->styles, *const style =
+                                                         &styles[dp_style_number(s->frame, group)];
     const dp_color own = style->shade.model_colors && style->shade.shading != DP_SHADING_PAPER
                              ? dp_source_group_color(s->source, group)
                              : 0;
