@@ -5,7 +5,7 @@
  *     for each part: the box around its groups; offset = factor * (its centre - the assembly's)
  *
  * Invariant: offsets depend on the groups' names and boxes alone, not on their order. */
-#include "mesh/source.h"
+#include "mesh/parts.h"
 
 #include "base/diag.h"
 #include "base/sort.h"
@@ -65,11 +65,9 @@ static size_t list_members(const dp_source *source, const dp_group *groups, uint
     size_t listed = 0;
     for (uint32_t g = 0; g < count; g++) {
         if (!(groups[g].min[0] <= groups[g].max[0])) continue;
-        const bool joined = source->part_of_group != NULL;
-        members[listed++] =
-            (member){.name = joined ? NULL : dp_source_group_name(source, g),
-                     .number = joined ? source->part_of_group(source->callbacks.user, g) : g,
-                     .group = g};
+        member *const m = &members[listed++];
+        *m = (member){.number = g, .group = g};
+        if (!dp_source_part(source, g, &m->number)) m->name = dp_source_group_name(source, g);
     }
     cut_names(members, listed);
     return listed;
@@ -138,11 +136,12 @@ dp_result dp_source_explode(const dp_source *source, const dp_group *groups, uin
         !isfinite(axis[2]))
         return dp_fail(diag, DP_ERR_ARGUMENT, "the explosion's factor or axis is not finite");
     if (!count) return DP_OK;
-    member *const members = dp_alloc(&source->allocator, dp_times(count, sizeof *members));
+    const dp_allocator *const memory = dp_source_memory(source);
+    member *const members = dp_alloc_array(memory, count, sizeof *members);
     if (!members) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for %u groups", count);
     const size_t listed = list_members(source, groups, count, members);
     dp_sort(members, listed, sizeof *members, by_part);
     move_parts(groups, members, listed, explosion, placements);
-    dp_free(&source->allocator, members);
+    dp_free(memory, members);
     return DP_OK;
 }

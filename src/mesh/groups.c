@@ -1,6 +1,4 @@
 /* What each group of a source holds: its polygons, and the box around them. */
-#include "mesh/source.h"
-
 #include "base/diag.h"
 #include "base/vec.h"
 
@@ -43,7 +41,7 @@ dp_result dp_source_groups(dp_source *source, dp_group *groups, uint32_t most, u
         groups[g] = (dp_group){.min = {INFINITY, INFINITY, INFINITY},
                                .max = {-INFINITY, -INFINITY, -INFINITY}};
     *count = 0;
-    dp_result result = dp_source_begun(source, diag);
+    dp_result result = dp_source_rewindable(source) ? dp_source_rewind(source, diag) : DP_OK;
     while (!result) {
         dp_batch batch;
         result = dp_source_next(source, &batch, diag);

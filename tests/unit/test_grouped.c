@@ -12,15 +12,19 @@
 
 #include <cmocka.h>
 
-enum { RED = 0xC02020FF, BLUE = 0x2040C0FF, GREEN = 0x20A040FF, PIXELS = SCENE_WIDTH * SCENE_HEIGHT };
+enum {
+    RED = 0xC02020FF,
+    BLUE = 0x2040C0FF,
+    GREEN = 0x20A040FF,
+    PIXELS = SCENE_WIDTH * SCENE_HEIGHT
+};
 
 static scene boxes; /* two that stand apart, and one behind them: groups 0, 1, 2 */
 static uint16_t box_groups[SCENE_POLYGONS];
 
 static void fill_boxes(void) {
-    static const float places[3][2][3] = {{{-3, -1, -1}, {-1, 1, 1}},
-                                          {{1, -1, -1}, {3, 1, 1}},
-                                          {{-2, -1.5f, -5}, {2, 1.5f, -3}}};
+    static const float places[3][2][3] = {
+        {{-3, -1, -1}, {-1, 1, 1}}, {{1, -1, -1}, {3, 1, 1}}, {{-2, -1.5f, -5}, {2, 1.5f, -3}}};
     if (boxes.polygons) return;
     for (int k = 0; k < 3; k++) {
         const size_t first = boxes.polygons;
@@ -120,7 +124,8 @@ static void groups_like_the_picture_change_nothing(void **state) {
         {"smooth", {.smooth = DP_SMOOTH_SURFACE, .smooth_level = 2}},
         {"detail", {.detail = 1}},
         {"backs", {.cull_back_faces = true}},
-        {"mirror", {.mirror = {.normal = {0, 1, 0}, .offset = -1.6, .size = 14, .tint_share = 0.2f}}},
+        {"mirror",
+         {.mirror = {.normal = {0, 1, 0}, .offset = -1.6, .size = 14, .tint_share = 0.2f}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         dp_style groups[3];
@@ -158,7 +163,8 @@ static void other_members_of_groups_are_not_looked_at(void **state) {
 
 /* ------- lines ------- */
 
-static const dp_style plain = {.line = {{2, GREEN}, {2, GREEN}, {2, GREEN}, {2, GREEN}, {2, GREEN}}};
+static const dp_style plain = {
+    .line = {{2, GREEN}, {2, GREEN}, {2, GREEN}, {2, GREEN}, {2, GREEN}}};
 
 static void lines_have_the_style_of_their_group(void **state) {
     (void)state;
@@ -244,14 +250,12 @@ static void shared_edges_are_the_first_polygon_s(void **state) {
         for (size_t i = 0; i < count; i++) {
             assert_int_equal(s[i].group, groups[s[i].polygon]);
             assert_int_equal(s[i].color, s[i].group ? RED : GREEN);
-            if (all.edges != DP_EDGES_EMERGENT || all.edge_table_off ||
-                s[i].other == UINT64_MAX)
+            if (all.edges != DP_EDGES_EMERGENT || all.edge_table_off || s[i].other == UINT64_MAX)
                 continue;
             assert_true(s[i].polygon < s[i].other);
             seen[groups[s[i].other] != s[i].group]++;
         }
-        if (all.edges == DP_EDGES_EMERGENT && !all.edge_table_off)
-            assert_true(seen[0] && seen[1]);
+        if (all.edges == DP_EDGES_EMERGENT && !all.edge_table_off) assert_true(seen[0] && seen[1]);
         dp_source_destroy(source);
     }
 }
@@ -318,7 +322,8 @@ static void immediate_mode_draws_the_same(void **state) {
 /* ------- surfaces ------- */
 
 /* Pixels whose neighbours are of the same group look as if all were in that group's colour. */
-static size_t compare_insides(const drawn *d, const drawn *wholes, uint16_t group, const char *what) {
+static size_t compare_insides(const drawn *d, const drawn *wholes, uint16_t group,
+                              const char *what) {
     size_t compared = 0;
     for (size_t y = 2; y < SCENE_HEIGHT - 2; y++)
         for (size_t x = 2; x < SCENE_WIDTH - 2; x++) {
@@ -339,9 +344,9 @@ static void surfaces_have_the_colour_of_their_group(void **state) {
     const dp_color colors[3] = {RED, BLUE, DP_COLOR_NONE};
     for (int shading = 0; shading < DP_SHADING_COUNT; shading++) {
         const dp_style all = {.lines = DP_NO_LINES,
-                                  .surface = GREEN,
-                                  .paper = 0xFFF0C0FF,
-                                  .shade = {.shading = (dp_shading)shading}};
+                              .surface = GREEN,
+                              .paper = 0xFFF0C0FF,
+                              .shade = {.shading = (dp_shading)shading}};
         dp_style groups[3] = {all, all, all};
         for (int g = 0; g < 3; g++) groups[g].surface = colors[g];
         draw(&one, &all, groups, 3);
@@ -386,7 +391,7 @@ static void model_s_colours_are_a_group_s_own(void **state) {
 static void mirrors_show_the_groups_own_styles(void **state) {
     (void)state;
     dp_style all = {.mirror = {.normal = {0, 1, 0}, .offset = -1.6, .size = 14},
-                        .lines = DP_NO_LINES};
+                    .lines = DP_NO_LINES};
     dp_style groups[2] = {{.lines = DP_NO_LINES, .surface = RED},
                           {.lines = DP_NO_LINES, .surface = BLUE}};
     size_t red = 0, blue = 0;
@@ -419,8 +424,8 @@ static void wrong_calls_are_refused(void **state) {
     assert_null(dp_segments(one.context, NULL));
     many[1].line[DP_LINE_VALLEY].width = 0;
     all.mirror = (dp_mirror){.normal = {0, 1, 0}, .offset = -1.6, .size = 9};
-    assert_int_equal(
-        draw_source(&one, source, &all, many, DP_MIRROR_GROUP + 1, true, &diag), DP_ERR_LIMIT);
+    assert_int_equal(draw_source(&one, source, &all, many, DP_MIRROR_GROUP + 1, true, &diag),
+                     DP_ERR_LIMIT);
     dp_source_destroy(source);
     free(many);
 }
@@ -443,8 +448,7 @@ static void all_groups_may_have_a_style(void **state) {
         dp_diag diag = {0};
         batch.groups = groups;
         assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
-        if (draw_source(&one, source, &all, styles, ALL, true, &diag))
-            fail_msg("%s", diag.message);
+        if (draw_source(&one, source, &all, styles, ALL, true, &diag)) fail_msg("%s", diag.message);
         draw(&other, &all, near, 3);
         assert_memory_equal(&one.picture, &other.picture, sizeof one.picture);
         dp_source_destroy(source);
@@ -493,8 +497,8 @@ static void memory_is_counted_and_stays(void **state) {
     assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
     for (int frame = 0; frame < 4; frame++) {
         if (frame == 1) first = l.calls;
-        assert_int_equal(
-            dp_draw_grouped(context, source, &camera, NULL, groups, 3, &target, NULL), DP_OK);
+        assert_int_equal(dp_draw_grouped(context, source, &camera, NULL, groups, 3, &target, NULL),
+                         DP_OK);
         dp_stats_of(context, &stats);
         assert_int_equal(stats.bytes, l.bytes);
     }

@@ -37,8 +37,7 @@ static dp_batch full_batch(void) {
     batch.edge_flags = flags;
     batch.colors = colors;
     batch.normals = (dp_attribute){.values = normals, .count = 6};
-    batch.texcoords =
-        (dp_attribute){.values = texcoords, .count = 2, .indices = texcoord_numbers};
+    batch.texcoords = (dp_attribute){.values = texcoords, .count = 2, .indices = texcoord_numbers};
     batch.origin[1] = 500000;
     return batch;
 }
@@ -229,8 +228,7 @@ static void empty_batches_are_passed_over(void **state) {
     dp_extent extent;
     assert_int_equal(dp_source_extent(joined, &extent, NULL), DP_OK); /* groups are numbered */
     dp_placement places[6] = {{0}};
-    for (uint32_t g = 0; g < 6; g++)
-        places[g].hidden = dp_source_group_name(joined, g)[0] == 'a';
+    for (uint32_t g = 0; g < 6; g++) places[g].hidden = dp_source_group_name(joined, g)[0] == 'a';
     dp_source *const source = arranged(joined, places, 6);
     assert_int_equal(next(source).polygon_count, 4);
     assert_int_equal(next(source).polygon_count, 0);
@@ -352,8 +350,8 @@ static void assert_offset(const dp_placement *place, double x, double y, double 
 #define FACES     "f -3 -2 -1\n"
 
 /* Centres at 0, 4 and 10; the whole box reaches from 0 to 10. */
-static const char parts_text[] = "o a/left\n" SQUARE(0) FACES "o b\ng\n" SQUARE(4) FACES
-                                 "o c\n" SQUARE(10) FACES;
+static const char parts_text[] =
+    "o a/left\n" SQUARE(0) FACES "o b\ng\n" SQUARE(4) FACES "o c\n" SQUARE(10) FACES;
 
 static void parts_move_away_from_the_centre(void **state) {
     (void)state;
@@ -402,8 +400,8 @@ static void names_tell_what_is_one_part(void **state) {
     assert_offset(&places[1], 4, 0, 0);
     assert_offset(&places[2], -3, 0, 0);
     dp_source_destroy(source);
-    source = file_of("o bolt\n" SQUARE(0) FACES "o bolt/head\n" SQUARE(2) FACES "o bolts\n" SQUARE(8)
-                         FACES);
+    source = file_of("o bolt\n" SQUARE(0) FACES "o bolt/head\n" SQUARE(2) FACES
+                     "o bolts\n" SQUARE(8) FACES);
     explode(source, (dp_explosion){.factor = 1}, places, 3);
     assert_offset(&places[0], -3, 0, 0);
     assert_offset(&places[1], -3, 0, 0);
@@ -477,7 +475,7 @@ static void picture_of(const char *text, const dp_placement *places, uint32_t co
 }
 
 #define CORNERS                                                                                    \
-    "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nv 4 0 0\nv 4 2 0\n"    \
+    "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nv 4 0 0\nv 4 2 0\n"   \
     "v 4 0 2\nv 4 2 2\n"
 #define LEFT  "o left\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\n"
 #define RIGHT "o right\nf 2 3 10 9\nf 6 11 12 7\nf 2 9 11 6\nf 3 7 12 10\nf 9 10 12 11\n"
