@@ -147,7 +147,7 @@ static bool tell_unknown(const tool_settings *s, const dp_source *source, const 
                          const char *option_name, const char *wanted) {
     near_names near = {.count = 0};
     char names[240];
-    for (uint32_t g = 0; g < list->count; g++) {
+    for (uint32_t g = 0; g < list->count && !strpbrk(wanted, "*?"); g++) {
         const char *const name = dp_source_group_name(source, g);
         if (name && list->groups[g].polygons) offer_parts(&near, wanted, name);
     }
