@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "keep.h"
 #include "look.h"
+#include "objects.h"
 #include "page.h"
 #include "report.h"
 
@@ -21,6 +22,7 @@ typedef struct bench {
     dp_texture *texture;
     dp_target target;
     look_data look;
+    object_styles objects;
     dp_stats *frames; /* [count] */
     uint32_t count;
 
@@ -66,7 +68,8 @@ static void print_result(const tool_settings *s, const bench *b, double *times) 
 static int draw_frame(const tool_settings *s, const bench *b, dp_context *context,
                       dp_source *source, const dp_camera *camera, const dp_style *style) {
     dp_diag diag = {0};
-    const dp_result result = dp_draw(context, source, camera, style, &b->target, &diag);
+    const dp_result result = dp_draw_grouped(context, source, camera, style, b->objects.styles,
+                                             b->objects.count, &b->target, &diag);
     if (!result) return 0;
     return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
 }
@@ -176,6 +179,7 @@ static int measure(const tool_settings *s, bench *b) {
     if (!code) look_deepen(&style, &model.extent, camera);
     if (!code) code = make_stroke(s, &plan, &style, &b->texture);
     if (!code) code = look_make(s, b->source, &b->look, &style);
+    if (!code) code = objects_style(s, b->source, &plan, &style, &b->objects);
     if (code) return code;
     if (dp_context_create(&desc, &b->context, &diag)) return report_failure(NULL, &diag);
     if (moves(s, b) && (code = begin_moving(b, &desc))) return code;
@@ -207,6 +211,7 @@ int command_bench(const tool_settings *s) {
     dp_context_destroy(b.still_context);
     dp_source_destroy(b.source);
     look_free(&b.look);
+    objects_free(&b.objects);
     free(b.frames);
     free(b.still_ms);
     free(b.read_ms);

@@ -6,6 +6,7 @@
 #include "film.h"
 #include "keep.h"
 #include "models.h"
+#include "objects.h"
 #include "progress.h"
 #include "report.h"
 
@@ -51,7 +52,7 @@ static int open_shape(const char *text, dp_source **out) {
 /* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
-           s->ink != 2 && !s->has_deform && !s->morph;
+           s->ink != 2 && !s->has_deform && !s->morph && !objects_asked(s);
 }
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be
@@ -172,6 +173,7 @@ int open_model(const tool_settings *s, dp_source **out) {
     if (!code) code = clips_check(s, &tally);
     if (!code) code = reshape_model(s, &tally, out);
     if (!code) code = move_model(s, out);
+    if (!code && objects_asked(s)) code = objects_arrange(s, out);
     if (!code) return 0;
     dp_source_destroy(*out);
     *out = NULL;

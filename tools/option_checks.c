@@ -53,7 +53,7 @@ static bool check_present(const tool_settings *s) {
                            text->arguments);
     if (s->command == COMMAND_MAKE && !s->output)
         return wrong_usage("no output given; add -o OUT.ply");
-    if (s->command == COMMAND_DRAW && !files_count(s)) return no_output(s);
+    if (s->command == COMMAND_DRAW && !files_count(s) && !s->list) return no_output(s);
     if (files_standard(s) > 1)
         return wrong_usage("only one output can go to standard output; give the others files");
     return true;

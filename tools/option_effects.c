@@ -74,6 +74,9 @@ static bool has_highlight(const tool_settings *s) {
     return s->shading >= SHADING_LAMBERT && s->shading <= SHADING_TOON;
 }
 
+static bool is_exploded(const tool_settings *s) { return s->explode > 0; }
+static bool is_listing(const tool_settings *s) { return s->list; }
+
 static bool has_mirror(const tool_settings *s) { return s->has_mirror; }
 static bool has_tint(const tool_settings *s) {
     return s->mirror_tint_share > 0 || !s->has_mirror_tint_share;
@@ -170,6 +173,9 @@ static const rule drawing_rules[] = {
     {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
     {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
     {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
+    {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
+    {"json", is_listing,
+     "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

@@ -14,15 +14,14 @@
 const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
                                                 "id",       "trace",   "segments"};
 
-const char *const group_names[GROUP_COUNT] = {"Picture", "Pages",    "Camera",
-                                              "Lines",   "Paths",    "Strokes",
-                                              "Surface", "Edge map", "How lines are found",
-                                              "Motion",  "Model",    "Program",
-                                              NULL};
+const char *const group_names[GROUP_COUNT] = {
+    "Picture", "Pages",   "Camera",  "Lines",    "Paths",
+    "Strokes", "Surface", "Objects", "Edge map", "How lines are found",
+    "Motion",  "Model",   "Program", NULL};
 
-const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",   "lines",  "paths",
-                                               "strokes", "surface", "edge-map", "method", "motion",
-                                               NULL,      "program", NULL};
+const char *const group_topics[GROUP_COUNT] = {
+    "picture", "page",     "camera", "lines",  "paths", "strokes", "surface",
+    "objects", "edge-map", "method", "motion", NULL,    "program", NULL};
 
 const char *const models_text[] = {
     "MODEL is a file (STL, PLY, OBJ, OFF, glTF; FBX, 3MF, COLLADA and more through Assimp), - for "
@@ -253,6 +252,25 @@ const option option_table[] = {
     {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), AT(has_mirror_tint_share), 0, 1,
      "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
 
+    {"object", 0, "NAME,...:SETTING,...", OPTION_OBJECT, GROUP_OBJECTS, PICTURE, AT(objects), 0, 0, 0,
+     "Give objects of the model (its groups, nodes, or models of a scene) a look of their own, as in "
+     "'bolt*:color=#c03020,width=2,ridge=1'. Settings are color, width, lines, surface, hidden-color, hidden-width, "
+     "ridge-angle and valley-angle, with the values of these options, and hide. May be given several times: a later one "
+     "changes what an earlier one said. In names * stands for any letters, ? for one; \\ takes its meaning from the "
+     "next letter, as in \\, or \\*. A name is a whole one or a part between slashes: car/wheel, car or wheel of "
+     "car/wheel/tyre."},
+    {"only", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(only), 0, 0, 0,
+     "Draw these objects alone. May be given several times."},
+    {"without", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(without), 0, 0, 0,
+     "Leave these objects out. May be given several times."},
+    {"explode", 0, "F", OPTION_NUMBER, GROUP_OBJECTS, PICTURE | INFO, AT(explode), AT(has_explode), 0, 1e6,
+     "Pull the model apart: each part is moved away from the model's centre by F times its distance from there. Parts are "
+     "the models of a scene, or objects whose names begin alike, up to a slash."},
+    {"explode-axis", 0, "x|y|z", OPTION_WORD, GROUP_OBJECTS, PICTURE | INFO, AT(explode_axis), 0, 0, 0,
+     "With --explode: move parts along this axis alone."},
+    {"list", 0, NULL, OPTION_FLAG, GROUP_OBJECTS, DRAW, AT(list), 0, 0, 0,
+     "Draw nothing, but print the model's objects: polygons, colour and name of each; with --json as JSON."},
+
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
      "How steps in the G-buffer are found: four diagonal samples, or the C1-discontinuity operator in three "
      "passes. Default: diagonal."},
@@ -282,7 +300,7 @@ const option option_table[] = {
     {"profile-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
      "Colour of profile edges. Default: black."},
     {"enhance", 0, "NAME,...", OPTION_TEXT, GROUP_EDGE_MAP, PICTURE, AT(enhance), 0, 0, 0,
-     "Only these objects, groups or materials have edges from the map. Default: all."},
+     "Only these objects, groups or materials have edges from the map; names as those of --only. Default: all."},
 
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
      "With --ink quads: build added polygons on the screen, exact in pixels, or by the formulas of "
@@ -369,8 +387,8 @@ const option option_table[] = {
     {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
      "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
      "(on stderr with -o -)."},
-    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO, AT(json), 0, 0, 0,
-     "Print JSON instead of a table."},
+    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO | DRAW, AT(json), 0, 0, 0,
+     "With --list, or of info: print JSON instead of a table."},
     {"quiet", 'q', NULL, OPTION_FLAG, GROUP_PROGRAM, EVERY, AT(quiet), 0, 0, 0,
      "No progress bar and no warnings."},
     {"help", 'h', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_HELP, 0, 0, 0,

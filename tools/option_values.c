@@ -496,6 +496,9 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_detail(o, value, to);
     case OPTION_SHEET:
         return store_sheet(o, value, to);
+    case OPTION_NAMES:
+    case OPTION_OBJECT:
+        return store_list(o, value, to);
     case OPTION_COLOR:
         return store_color(o, value, to);
     case OPTION_STATS:

@@ -9,6 +9,7 @@
 #include <drypoint/draw.h>
 #include <drypoint/drawing.h>
 #include <drypoint/immediate.h>
+#include <drypoint/objects.h>
 #include <drypoint/scene.h>
 #include <drypoint/path.h>
 #include <drypoint/shade.h>

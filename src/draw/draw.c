@@ -521,14 +521,20 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     return result;
 }
 
+dp_result dp_draw_resolved(dp_context *c, dp_source *source, const dp_camera *camera,
+                           dp_style *styles, uint32_t style_count, const dp_target *target,
+                           dp_diag *diag) {
+    if (styles[0].mirror.size > 0)
+        return dp_draw_mirrored(c, source, camera, styles, style_count, target, diag);
+    return dp_draw_groups(c, source, camera, styles, style_count, target, diag);
+}
+
 static dp_result draw_styled(dp_context *c, dp_source *source, const dp_camera *camera,
                              const dp_style *style, const dp_target *target, dp_diag *diag) {
     dp_style resolved;
     const dp_result result = dp_style_resolve(style, &resolved, diag);
     if (result) return result;
-    if (resolved.mirror.size > 0)
-        return dp_draw_mirrored(c, source, camera, &resolved, target, diag);
-    return dp_draw_groups(c, source, camera, &resolved, 1, target, diag);
+    return dp_draw_resolved(c, source, camera, &resolved, 1, target, diag);
 }
 
 dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,

@@ -32,6 +32,8 @@ struct dp_source {
     /* Sources that compute what they hand out may use these threads until they are taken back (NULL);
      * one made of others lends them on. NULL: it does not compute. */
     void (*lend)(void *user, dp_threads *threads);
+    /* Of a scene: which of its sources a group is of. NULL: it is no scene. */
+    uint32_t (*part_of_group)(const void *user, uint32_t group);
 };
 
 /* Lends threads to a source for a drawing, or takes them back with NULL. */
