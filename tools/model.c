@@ -5,6 +5,7 @@
 #include "models.h"
 #include "progress.h"
 #include "report.h"
+#include "section.h"
 
 #include <drypoint/io.h>
 
@@ -134,7 +135,8 @@ static int open_scene(const tool_settings *s, dp_source **out) {
 
 int open_model(const tool_settings *s, dp_source **out) {
     *out = NULL;
-    return s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
+    const int code = s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
+    return code ? code : open_section(s, out);
 }
 
 /* A scene's messages name the model already. */

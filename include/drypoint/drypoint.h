@@ -8,6 +8,7 @@
 #include <drypoint/draw.h>
 #include <drypoint/drawing.h>
 #include <drypoint/immediate.h>
+#include <drypoint/section.h>
 #include <drypoint/shade.h>
 #include <drypoint/shapes.h>
 #include <drypoint/sink.h>
