@@ -94,7 +94,7 @@ typedef struct dp_section_scratch {
     dp_hatch_crossing *hatches;
     size_t cuts_cap, ends_cap, partner_cap, seen_cap, loose_cap, nearest_cap, edges_cap, events_cap,
         crossings_cap, active_cap, hatches_cap;
-    size_t cut_count, loose_count, edge_count, event_count, crossing_count, active_count, hatch_count;
+    size_t cut_count, gap_count, loose_count, edge_count, event_count, crossing_count, active_count, hatch_count;
     uint64_t crossings_left; /* that may still be noted */
 } dp_section_scratch;
 

@@ -184,12 +184,24 @@ static bool measure_loop(dp_section_scratch *s, uint32_t start, double *along) {
     return at == start;
 }
 
+/* Notes what closes a gap; it is drawn, too, as it bounds a face. */
+static bool add_gap(dp_section_scratch *s, dp_flat_point a, dp_flat_point b,
+                    const dp_allocator *memory) {
+    const size_t at = s->cut_count + s->gap_count;
+    if (a.u == b.u && a.v == b.v) return true;
+    if (!dp_reserve(memory, &s->cuts, &s->cuts_cap, at + 1, sizeof *s->cuts)) return false;
+    s->cuts[at] = (dp_cut_segment){{a, b}, s->cuts[0].group};
+    s->gap_count++;
+    return true;
+}
+
 static bool add_loop(dp_section_scratch *s, uint32_t start, bool turned,
                      const dp_allocator *memory) {
     uint32_t at = start;
     do {
         const uint32_t next = s->partner[at ^ 1];
         const dp_flat_point a = place_of(s, at), b = place_of(s, at ^ 1), c = place_of(s, next);
+        if (!add_gap(s, b, c, memory)) return false;
         if (!(turned ? add_edge(s, b, a, memory) && add_edge(s, c, b, memory)
                      : add_edge(s, a, b, memory) && add_edge(s, b, c, memory)))
             return false;
@@ -199,13 +211,14 @@ static bool add_loop(dp_section_scratch *s, uint32_t start, bool turned,
 }
 
 static bool find_loops(dp_section_scratch *s, const dp_allocator *memory) {
-    s->edge_count = 0;
+    s->edge_count = s->gap_count = 0;
     list_loose(s); /* marks all open chains as seen */
     for (uint32_t i = 0; i < s->cut_count; i++) {
         double along;
         if (s->seen[i] || !measure_loop(s, 2 * i, &along)) continue;
         if (!add_loop(s, 2 * i, along < 0, memory)) return false;
     }
+    s->cut_count += s->gap_count;
     return s->edge_count < NONE;
 }
 
