@@ -133,10 +133,22 @@ static int open_scene(const tool_settings *s, dp_source **out) {
     return code;
 }
 
+/* Moves the model to --time. */
+static int move_model(const tool_settings *s, dp_source **source) {
+    dp_diag diag = {0};
+    if (!s->has_time || !dp_source_set_time(*source, s->time[0], &diag)) return 0;
+    report_failure(s->model_count > 1 ? NULL : model_spoken(s->model), &diag);
+    dp_source_destroy(*source);
+    *source = NULL;
+    return EXIT_FAILED;
+}
+
 int open_model(const tool_settings *s, dp_source **out) {
     *out = NULL;
-    const int code = s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
-    return code ? code : open_section(s, out);
+    int code = s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
+    /* where it is cut does not depend on the time */
+    if (!code) code = open_section(s, out);
+    return code ? code : move_model(s, out);
 }
 
 /* A scene's messages name the model already. */

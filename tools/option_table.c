@@ -17,11 +17,12 @@ const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
 const char *const group_names[GROUP_COUNT] = {"Picture", "Pages",    "Camera",
                                               "Lines",   "Paths",    "Strokes",
                                               "Surface", "Edge map", "How lines are found",
-                                              "Model",   "Program",  NULL};
+                                              "Motion",  "Model",    "Program",
+                                              NULL};
 
-const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",  "lines",
-                                               "paths",   "strokes", "surface", "edge-map",
-                                               "method",  NULL,      "program", NULL};
+const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",   "lines",  "paths",
+                                               "strokes", "surface", "edge-map", "method", "motion",
+                                               NULL,      "program", NULL};
 
 const char *const models_text[] = {
     "MODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more through Assimp), - for "
@@ -317,6 +318,9 @@ const option option_table[] = {
      "what lies across every edge on the screen. Default: on."},
     {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
      "Do not paint back faces: faster for closed models, holes in open ones."},
+
+    {"time", 0, "T", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
+     "Seconds at which a model that moves is drawn. Default: 0."},
 
     {"triangles", 0, "N", OPTION_COUNT64, GROUP_MODEL, MAKE, AT(triangles), 0, 1, 1e11,
      "About how many triangles. Default: the shape's own number."},

@@ -158,6 +158,18 @@ static bool store_angles(const option *o, const char *value, double to[2]) {
     return true;
 }
 
+static bool store_time(const option *o, const char *value, double to[2]) {
+    const char *const colon = value + strcspn(value, ":"), *const end = value + strlen(value);
+    const bool range = *colon == ':';
+    if (read_number(value, colon, &to[0]) && (!range || read_number(colon + 1, end, &to[1]))) {
+        if (!range) to[1] = to[0];
+        return true;
+    }
+    return wrong_usage(
+        "--%s: \"%s\" is no time; give seconds, as in 1.5, or from and to, as in 0:2", o->name,
+        value);
+}
+
 static bool store_plane(const option *o, const char *value, tool_settings *settings) {
     const char *at = value;
     int count = 0;
@@ -453,6 +465,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_up(o, value, to);
     case OPTION_ANGLES:
         return store_angles(o, value, to);
+    case OPTION_TIME:
+        return store_time(o, value, to);
     case OPTION_PLANE:
         return store_plane(o, value, settings);
     case OPTION_CLIP:

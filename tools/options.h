@@ -202,6 +202,9 @@ typedef struct tool_settings {
     bool wants_edge_map;
     tool_section section;
 
+    double time[2]; /* s: from and to, the same for a picture */
+    bool has_time;
+
     stats_kind stats;
     bool json, quiet;
     double read_time; /* s */
@@ -221,6 +224,7 @@ typedef enum option_kind {
     OPTION_POINT,         /* double[3] */
     OPTION_UP,            /* double[3]: a direction, or the word for one */
     OPTION_ANGLES,        /* double[2] */
+    OPTION_TIME,          /* double[2]: a time, s, or from and to */
     OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
     OPTION_CLIP,          /* tool_settings.section: one more plane */
     OPTION_SPACING,       /* tool_section: spacing or share */
@@ -254,6 +258,7 @@ typedef enum option_group {
     GROUP_SURFACE,
     GROUP_EDGE_MAP,
     GROUP_METHOD,
+    GROUP_MOTION,
     GROUP_MODEL,
     GROUP_PROGRAM,
     GROUP_HIDDEN,

@@ -98,6 +98,12 @@ typedef struct dp_source_callbacks {
     const char *(*color_remark)(void *user);
     double up[3];    /* what is up; 0: not known. Any length */
     bool up_assumed; /* `up` is only what is usual */
+    /* For a source that moves: what is read from the next rewind on is the model at `time`, s, which
+     * is finite. Vertices, and polygons too, may be others than before. May fill *diag on failure
+     * (never NULL). Optional. */
+    dp_result (*set_time)(void *user, double time, dp_diag *diag);
+    /* How long it moves, s, from 0 on. Optional: 0. */
+    double (*duration)(void *user);
 } dp_source_callbacks;
 
 /* Makes a source of one batch, whose memory the caller owns and must not change while the source is
@@ -191,6 +197,14 @@ DP_API dp_result dp_source_join(dp_source *const *sources, const char *const *na
 DP_API dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag);
 DP_API dp_result dp_source_rewind(dp_source *source, dp_diag *diag);
 DP_API bool dp_source_rewindable(const dp_source *source);
+
+/* Moves the source to a time, s, and to its start: what is drawn from then on is how it is at that
+ * time (scene.h, deform.h, dp_source_callbacks; those that do not move stay as they are). Times
+ * before 0 and after the end are allowed. A new source is at time 0. DP_ERR_ARGUMENT for a time that
+ * is not finite; whatever the source fails with. */
+DP_API dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag);
+/* How long the source moves, s: from 0 to this; 0 where it does not, or without an end. */
+DP_API double dp_source_duration(const dp_source *source);
 
 /* The name of a group (OBJ group or object, say), borrowed; NULL where it has none. */
 DP_API const char *dp_source_group_name(const dp_source *source, uint32_t group);

@@ -534,8 +534,10 @@ dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camer
     if (context) dp_forget_drawing(context);
     if (!context || !source || !camera || !target)
         return dp_fail(diag, DP_ERR_ARGUMENT, "dp_draw: context, source, camera or target is NULL");
-    return dp_context_settle(context, draw_styled(context, source, camera, style, target, diag),
-                             diag);
+    dp_source_lend(source, context->threads);
+    const dp_result result = draw_styled(context, source, camera, style, target, diag);
+    dp_source_lend(source, NULL);
+    return dp_context_settle(context, result, diag);
 }
 
 /* Makes the chains when they are first asked for; statistics count their memory from then on. */

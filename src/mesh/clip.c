@@ -446,6 +446,18 @@ static dp_result clipper_rewind(void *user, dp_diag *diag) {
     return dp_source_rewind(c->inner, diag);
 }
 
+static dp_result clipper_set_time(void *user, double time, dp_diag *diag) {
+    clipper *const c = user;
+    begin_reading(c);
+    return dp_source_set_time(c->inner, time, diag);
+}
+static double clipper_duration(void *user) {
+    return dp_source_duration(((clipper *)user)->inner);
+}
+static void clipper_lend(void *user, dp_threads *threads) {
+    dp_source_lend(((clipper *)user)->inner, threads);
+}
+
 static const char *clipper_group_name(void *user, uint32_t group) {
     return dp_source_group_name(((clipper *)user)->inner, group);
 }
@@ -545,10 +557,13 @@ dp_result dp_source_clip(dp_source *inner, const dp_clip *clip, const dp_allocat
         .group_color = clipper_group_color,
         .remark = clipper_remark,
         .color_remark = clipper_color_remark,
+        .set_time = clipper_set_time,
+        .duration = clipper_duration,
         .up = {inner->callbacks.up[0], inner->callbacks.up[1], inner->callbacks.up[2]},
         .up_assumed = inner->callbacks.up_assumed};
     result = dp_source_from_callbacks(&callbacks, &memory, out, diag);
     if (result) return release(c), result;
     (*out)->constant = inner->constant;
+    (*out)->lend = clipper_lend;
     return DP_OK;
 }

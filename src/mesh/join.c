@@ -12,6 +12,7 @@
 #include "mesh/source.h"
 
 #include "base/diag.h"
+#include "base/vec.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -182,6 +183,29 @@ static dp_result scene_rewind(void *user, dp_diag *diag) {
     return DP_OK;
 }
 
+static dp_result scene_set_time(void *user, double time, dp_diag *diag) {
+    scene *const s = user;
+    s->at = 0;
+    for (size_t k = 0; k < s->count; k++) {
+        const dp_result result = dp_source_set_time(s->parts[k].source, time, diag);
+        if (result) return name_failure(&s->parts[k], result, diag);
+    }
+    return DP_OK;
+}
+
+static double scene_duration(void *user) {
+    const scene *const s = user;
+    double longest = 0;
+    for (size_t k = 0; k < s->count; k++)
+        longest = dp_max(longest, dp_source_duration(s->parts[k].source));
+    return longest;
+}
+
+static void scene_lend(void *user, dp_threads *threads) {
+    const scene *const s = user;
+    for (size_t k = 0; k < s->count; k++) dp_source_lend(s->parts[k].source, threads);
+}
+
 /* Records may begin in one part and end in another. */
 static dp_result scene_records(void *user, uint64_t first, uint32_t count, uint8_t *to,
                                dp_diag *diag) {
@@ -299,12 +323,15 @@ dp_result dp_source_join(dp_source *const *sources, const char *const *names, si
                                            .group_name = scene_group_name,
                                            .group_color = scene_group_color,
                                            .remark = scene_remark,
-                                           .color_remark = scene_color_remark};
+                                           .color_remark = scene_color_remark,
+                                           .set_time = scene_set_time,
+                                           .duration = scene_duration};
     result = dp_source_from_callbacks(&callbacks, &memory, out, diag);
     if (result) return release(s), result;
     memcpy((*out)->callbacks.up, sources[0]->callbacks.up, sizeof sources[0]->callbacks.up);
     (*out)->callbacks.up_assumed = sources[0]->callbacks.up_assumed; /* the first one says */
     (*out)->constant = constant;
+    (*out)->lend = scene_lend;
     offer_records(s, *out);
     return DP_OK;
 }

@@ -182,6 +182,31 @@ dp_result dp_source_begun(dp_source *source, dp_diag *diag) {
     return dp_source_rewindable(source) && !source->holds ? dp_source_rewind(source, diag) : DP_OK;
 }
 
+dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag) {
+    dp_diag unused;
+    if (!diag) diag = &unused;
+    if (!source || !isfinite(time))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "dp_source_set_time: source is NULL, or the time is not finite");
+    if (!source->callbacks.set_time) return DP_OK;
+    source->holds = false;
+    diag->result = DP_OK;
+    const dp_result result = source->callbacks.set_time(source->callbacks.user, time, diag);
+    if (result && diag->result != result)
+        dp_fail(diag, result, "the polygon source cannot be moved to %g s", time);
+    return result;
+}
+
+double dp_source_duration(const dp_source *source) {
+    if (!source || !source->callbacks.duration) return 0;
+    const double duration = source->callbacks.duration(source->callbacks.user);
+    return duration > 0 && isfinite(duration) ? duration : 0;
+}
+
+void dp_source_lend(dp_source *source, dp_threads *threads) {
+    if (source->lend) source->lend(source->callbacks.user, threads);
+}
+
 bool dp_source_rewindable(const dp_source *source) { return source && source->callbacks.rewind; }
 
 const char *dp_source_group_name(const dp_source *source, uint32_t group) {

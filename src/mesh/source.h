@@ -3,6 +3,7 @@
 #define DP_MESH_SOURCE_H
 
 #include "base/memory.h"
+#include "base/threads.h"
 #include "mesh/reach.h"
 #include <drypoint/source.h>
 
@@ -26,7 +27,13 @@ struct dp_source {
     uint64_t key;       /* fingerprint of a constant source (mesh/normals.c); 0: not computed yet */
     bool holds;         /* dp_source_next is to return this batch, read ahead by dp_source_begin */
     dp_batch held;
+    /* Sources that compute what they hand out may use these threads until they are taken back (NULL);
+     * one made of others lends them on. NULL: it does not compute. */
+    void (*lend)(void *user, dp_threads *threads);
 };
+
+/* Lends threads to a source for a drawing, or takes them back with NULL. */
+void dp_source_lend(dp_source *source, dp_threads *threads);
 
 /* To the source's start, if it can be rewound, and the origin of the batch that comes next: 0 0 0
  * at the end. */

@@ -50,6 +50,8 @@ static dp_source *file_of(const char *text, const char *name) {
 /* An application's source: batches of one triangle, and then a result. */
 typedef struct app {
     int batches, left, rewinds, destroyed;
+    double time, length;
+    bool frozen;
     dp_result end;
     uint16_t group[1];
 } app;
@@ -78,6 +80,13 @@ static const char *app_name(void *user, uint32_t group) {
 static uint32_t app_color(void *user, uint32_t group) {
     return group == ((app *)user)->group[0] ? 0x112233FF : 0;
 }
+static dp_result app_set_time(void *user, double time, dp_diag *diag) {
+    app *const a = user;
+    a->time = time;
+    if (a->frozen) snprintf(diag->message, sizeof diag->message, "the tape is stuck");
+    return a->frozen ? (diag->result = DP_ERR_IO) : DP_OK;
+}
+static double app_duration(void *user) { return ((app *)user)->length; }
 static const char *app_remark(void *user) {
     (void)user;
     return "the tape is worn";
@@ -90,7 +99,9 @@ static dp_source *app_source(app *a, bool rewindable) {
                                            .destroy = app_destroy,
                                            .group_name = app_name,
                                            .group_color = app_color,
-                                           .remark = app_remark};
+                                           .remark = app_remark,
+                                           .set_time = app_set_time,
+                                           .duration = app_duration};
     dp_source *source;
     a->left = a->batches;
     assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &source, NULL), DP_OK);
@@ -180,6 +191,26 @@ static void a_failing_source_is_named(void **state) {
     assert_string_equal(dp_source_remark(joined),
                         "whole: the tape is worn; torn: the tape is worn");
     assert_null(dp_source_color_remark(joined));
+    dp_source_destroy(joined);
+}
+
+static void a_scene_moves_with_all_its_parts(void **state) {
+    (void)state;
+    const dp_batch still = triangle_batch();
+    app a = {.batches = 1, .length = 2}, b = {.batches = 1, .length = 3};
+    dp_source *parts[] = {app_source(&a, true), source_of(&still), app_source(&b, true)};
+    static const char *const names[] = {"a", "still", "b"};
+    dp_source *const joined = join(parts, names, 3);
+    dp_diag diag = {0};
+    assert_true(dp_source_duration(joined) == 3);
+    assert_true(dp_source_duration(parts[1]) == 0 && dp_source_duration(NULL) == 0);
+    assert_int_equal(dp_source_set_time(joined, 1.5, &diag), DP_OK);
+    assert_true(a.time == 1.5 && b.time == 1.5);
+    assert_int_equal(dp_source_set_time(joined, NAN, &diag), DP_ERR_ARGUMENT);
+    assert_int_equal(dp_source_set_time(NULL, 1, NULL), DP_ERR_ARGUMENT);
+    b.frozen = true;
+    assert_int_equal(dp_source_set_time(joined, 2, &diag), DP_ERR_IO);
+    assert_string_equal(diag.message, "b: the tape is stuck");
     dp_source_destroy(joined);
 }
 
@@ -388,6 +419,7 @@ int main(void) {
         cmocka_unit_test(memory_may_fail_anywhere),
         cmocka_unit_test(a_scene_looks_like_one_file),
         cmocka_unit_test(missing_normals_are_made),
+        cmocka_unit_test(a_scene_moves_with_all_its_parts),
         cmocka_unit_test(large_scenes_are_streamed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
