@@ -252,7 +252,7 @@ const option option_table[] = {
      "With --clip: the lines' angle to the horizontal. Parts beside each other have them at another angle or distance. "
      "Default: 45."},
     {"section-spacing", 0, "D|N%", OPTION_SPACING, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
-     "With --clip: distance of the lines in the model's units, or as a share of its size. Default: 1.25%."},
+     "With --clip: distance of the lines in the model's units, or as a share of its size. Default: 1.7%."},
     {"section-color", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(style.section), 0, 0, 0,
      "With --clip: colour of cut faces. Default: that of the model's faces."},
     {"mirror", 0, "NX,NY,NZ[,D]", OPTION_PLANE, GROUP_SURFACE, PICTURE, AT(mirror), 0, 0, 0,

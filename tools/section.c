@@ -32,9 +32,10 @@ bool store_clip(const option *o, const char *value, tool_settings *settings) {
                            DP_CLIP_PLANES);
     const int count = read_numbers(value, n);
     if (count < 3)
-        return wrong_usage("--%s: \"%s\" is not a plane; give three or four numbers: 0,0,1,2.5 takes "
-                           "away what lies above z = 2.5",
-                           o->name, value);
+        return wrong_usage(
+            "--%s: \"%s\" is not a plane; give three or four numbers: 0,0,1,2.5 takes "
+            "away what lies above z = 2.5",
+            o->name, value);
     const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     if (!(square > 0) || !isfinite(square) || !isfinite(n[3]))
         return wrong_usage("--%s: the normal of %s has no direction; give one like 0,0,1", o->name,
@@ -49,9 +50,10 @@ bool store_spacing(const option *o, const char *value, tool_section *to) {
     const bool share = end > value && end[-1] == '%';
     double number;
     if (!read_number(value, end - share, &number))
-        return wrong_usage("--%s: \"%s\" is no distance; give one in the model's units, or like 2%% "
-                           "of its size",
-                           o->name, value);
+        return wrong_usage(
+            "--%s: \"%s\" is no distance; give one in the model's units, or like 2%% "
+            "of its size",
+            o->name, value);
     if (!(number > 0) || !isfinite(number) || (share && number > 100))
         return wrong_usage("--%s: %s is out of range; give one above 0%s", o->name, value,
                            share ? ", and at most 100%" : "");
@@ -94,9 +96,10 @@ static dp_clip clip_of(const tool_section *s, const double middle[3]) {
 }
 
 static int cannot_read_twice(const tool_settings *s) {
-    wrong_usage("%s can be read only once, so its middle is not known; give --clip a fourth number, the "
-                "plane's distance from 0",
-                model_spoken(s->model));
+    wrong_usage(
+        "%s can be read only once, so its middle is not known; give --clip a fourth number, the "
+        "plane's distance from 0",
+        model_spoken(s->model));
     return EXIT_FAILED;
 }
 

@@ -54,7 +54,7 @@ typedef struct dp_clip {
     double hatch_angle;
     /* Between two lines, world units; 0 means `hatch_share`. Not less than 1/2000 of the diagonal. */
     double hatch_spacing;
-    double hatch_share; /* of the diagonal of the kept part's box; 0 means 1/80; at most 1 */
+    double hatch_share; /* of the diagonal of the kept part's box; 0 means 1/60; at most 1 */
 } dp_clip;
 
 /* Makes a source of what the planes leave of another. Whenever it is read, the inner source is read

@@ -74,14 +74,10 @@ static void add(dp_finder *w, dp_marked_edge mark) {
     const uint8_t flag = polygons->edge_flags[dp_first_corner(polygons, mark.polygon) + mark.edge];
     const dp_line line = flag == DP_EDGE_SECTION ? DP_LINE_SECTION : DP_LINE_HATCHING;
     dp_spine spine;
-    if (!(dp_polygon_style(f, mark.polygon)->lines >> line & 1) ||
-        !spine_of(f, mark, &spine))
+    if (!(dp_polygon_style(f, mark.polygon)->lines >> line & 1) || !spine_of(f, mark, &spine))
         return;
-    const dp_candidate candidate = {.a = mark.polygon,
-                                    .b = UINT32_MAX,
-                                    .edge = mark.edge,
-                                    .k1 = UINT32_MAX,
-                                    .line = line & 63};
+    const dp_candidate candidate = {
+        .a = mark.polygon, .b = UINT32_MAX, .edge = mark.edge, .k1 = UINT32_MAX, .line = line & 63};
     dp_add_candidate(w, candidate, &spine, NULL);
 }
 

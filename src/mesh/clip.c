@@ -24,7 +24,7 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-static const double HATCH_ANGLE = 45, HATCH_SHARE = 1.0 / 80, LEAST_SHARE = 1.0 / 2000;
+static const double HATCH_ANGLE = 45, HATCH_SHARE = 1.0 / 60, LEAST_SHARE = 1.0 / 2000;
 
 /* Where vertices lie: bits of planes. A vertex with a coordinate that is not finite is BAD. */
 typedef struct where {
@@ -36,8 +36,8 @@ typedef struct clipper {
     dp_clip clip; /* normals of length 1, defaults filled in */
     dp_clipping cutting;
     dp_section_scratch sections;
-    where *where; /* by vertex of the batch */
-    dp_cut_corner *corners; /* of one polygon */
+    where *where;                                                   /* by vertex of the batch */
+    dp_cut_corner *corners;                                         /* of one polygon */
     uint32_t *indices, *firsts, *normal_indices, *texcoord_indices; /* of the batch handed on */
     uint8_t *flags;
     uint16_t *groups, *ranks; /* ranks: groups that were cut, ascending */
@@ -46,7 +46,8 @@ typedef struct clipper {
         groups_cap, ranks_cap;
     size_t kept_corners, kept, rank_count;
     double origin[3], shift[3]; /* the first batch's; what moves the batch's positions to it */
-    bool begun, ended, any_kept, any_read, moved, has_normals, has_texcoords, has_colors, has_groups;
+    bool begun, ended, any_kept, any_read, moved, has_normals, has_texcoords, has_colors,
+        has_groups;
     double low[3], high[3]; /* box of the vertices that are kept */
     uint32_t plane;         /* that is filled */
     uint16_t group;
@@ -79,8 +80,9 @@ static void place_planes(clipper *c) {
         const dp_clip_plane *const from = &c->clip.planes[k];
         dp_section_plane *const p = &c->cutting.planes[k];
         p->n = dp_v3(from->normal[0], from->normal[1], from->normal[2]);
-        p->offset = from->offset - (from->normal[0] * c->origin[0] + from->normal[1] * c->origin[1] +
-                                    from->normal[2] * c->origin[2]);
+        p->offset =
+            from->offset - (from->normal[0] * c->origin[0] + from->normal[1] * c->origin[1] +
+                            from->normal[2] * c->origin[2]);
         find_directions(p, dp_v3(up[0], up[1], up[2]));
     }
     c->cutting.plane_count = c->clip.plane_count;
@@ -94,8 +96,7 @@ static const float *position_of(const dp_batch *b, size_t vertex) {
 
 /* As drawing moves positions of later batches. */
 static void place(const clipper *c, const float *from, float to[3]) {
-    for (int k = 0; k < 3; k++)
-        to[k] = c->moved ? (float)((double)from[k] + c->shift[k]) : from[k];
+    for (int k = 0; k < 3; k++) to[k] = c->moved ? (float)((double)from[k] + c->shift[k]) : from[k];
 }
 
 static where find_where(clipper *c, const float p[3]) {
@@ -363,8 +364,7 @@ static bool make_section(clipper *c, uint32_t k) {
             end++;
         c->group = cuts[i].group;
         const dp_hatching hatching = hatching_of(c, c->group);
-        if (!dp_section_make(&c->sections, cuts + i, end - i, &hatching, &sink,
-                             &c->cutting.memory))
+        if (!dp_section_make(&c->sections, cuts + i, end - i, &hatching, &sink, &c->cutting.memory))
             return false;
     }
     return true;
@@ -396,10 +396,11 @@ static dp_result finish(clipper *c, dp_batch *out, dp_diag *diag) {
         if (!make_section(c, k)) return out_of_memory(diag);
     if (c->cutting.made.triangles) hand_on_made(c, out);
     if (c->any_read && !c->any_kept && !c->cutting.made.triangles)
-        return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "the clip planes leave nothing of the model: what lies beyond a plane, on the "
-                       "side that its normal points to, is taken away; turn the normal round, or move "
-                       "the plane");
+        return dp_fail(
+            diag, DP_ERR_ARGUMENT,
+            "the clip planes leave nothing of the model: what lies beyond a plane, on the "
+            "side that its normal points to, is taken away; turn the normal round, or move "
+            "the plane");
     return DP_OK;
 }
 
@@ -451,9 +452,7 @@ static dp_result clipper_set_time(void *user, double time, dp_diag *diag) {
     begin_reading(c);
     return dp_source_set_time(c->inner, time, diag);
 }
-static double clipper_duration(void *user) {
-    return dp_source_duration(((clipper *)user)->inner);
-}
+static double clipper_duration(void *user) { return dp_source_duration(((clipper *)user)->inner); }
 static void clipper_lend(void *user, dp_threads *threads) {
     dp_source_lend(((clipper *)user)->inner, threads);
 }

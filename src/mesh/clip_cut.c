@@ -131,8 +131,8 @@ static bool note_cut(dp_clipping *c, uint32_t k, const dp_cut_corner p[3], uint1
         end[leaves] = da == 0 ? *a : db == 0 ? *b : meet(plane, a, b);
     }
     if (!cut[0] || !cut[1]) return true;
-    const dp_cut_segment s = {
-        {flatten(plane, end[0].position), flatten(plane, end[1].position)}, group};
+    const dp_cut_segment s = {{flatten(plane, end[0].position), flatten(plane, end[1].position)},
+                              group};
     if (s.end[0].u == s.end[1].u && s.end[0].v == s.end[1].v) return true;
     if (!dp_reserve(&c->memory, &c->cuts[k], &c->cut_caps[k], c->cut_counts[k] + 1,
                     sizeof *c->cuts[k]))
@@ -187,8 +187,7 @@ static dp_cut_segment ordered(dp_flat_point a, dp_flat_point b) {
 }
 
 static int by_place(const void *left, const void *right) {
-    const dp_cut_segment *const l = left, *const r = right,
-                                a = ordered(l->end[0], l->end[1]),
+    const dp_cut_segment *const l = left, *const r = right, a = ordered(l->end[0], l->end[1]),
                                 b = ordered(r->end[0], r->end[1]);
     for (int i = 0; i < 2; i++) {
         if (a.end[i].u != b.end[i].u) return a.end[i].u < b.end[i].u ? -1 : 1;

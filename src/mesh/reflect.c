@@ -18,7 +18,7 @@
 
 typedef struct corner {
     uint32_t vertex, normal, texcoord;
-    double side; /* distance from the plane; kept where >= 0 */
+    double side;  /* distance from the plane; kept where >= 0 */
     uint8_t flag; /* of the edge to the next corner */
 } corner;
 

@@ -86,7 +86,7 @@ typedef struct dp_section_scratch {
     uint32_t *partner;    /* by end: the one that it is joined to */
     uint8_t *seen;        /* by segment */
     dp_loose_end *loose;
-    uint32_t *nearest; /* by loose end */
+    uint32_t *nearest;   /* by loose end */
     dp_fill_edge *edges; /* of closed loops */
     dp_fill_event *events;
     dp_fill_crossing *crossings; /* a heap */
@@ -94,7 +94,8 @@ typedef struct dp_section_scratch {
     dp_hatch_crossing *hatches;
     size_t cuts_cap, ends_cap, partner_cap, seen_cap, loose_cap, nearest_cap, edges_cap, events_cap,
         crossings_cap, active_cap, hatches_cap;
-    size_t cut_count, gap_count, loose_count, edge_count, event_count, crossing_count, active_count, hatch_count;
+    size_t cut_count, gap_count, loose_count, edge_count, event_count, crossing_count, active_count,
+        hatch_count;
     uint64_t crossings_left; /* that may still be noted */
 } dp_section_scratch;
 

@@ -92,8 +92,10 @@ static void take_out(sweep *w, uint32_t edge) {
         s->active[i] = s->active[i + 1];
         s->edges[s->active[i]].place = i;
     }
-    if (w->low <= w->high && w->high > e->place) w->high--;
-    if (w->low <= w->high && w->low > e->place) w->low--;
+    if (w->low <= w->high) {
+        w->low -= w->low > e->place;
+        w->high -= w->high > e->place;
+    }
     changed(w, e->place);
 }
 
@@ -117,8 +119,10 @@ static void put_in(sweep *w, uint32_t edge) {
     s->active[low] = edge;
     s->active_count++;
     renumber(w, low);
-    if (w->low <= w->high && w->low >= low) w->low++;
-    if (w->low <= w->high && w->high >= low) w->high++;
+    if (w->low <= w->high) {
+        w->low += w->low >= low;
+        w->high += w->high >= low;
+    }
     changed(w, low);
 }
 
@@ -172,7 +176,8 @@ static void look_ahead(sweep *w, uint32_t left, uint32_t right) {
 
 static void exchange(sweep *w, const dp_fill_crossing *c) {
     dp_fill_edge *const a = &w->s->edges[c->left], *const b = &w->s->edges[c->right];
-    if (a->v1 <= w->v || b->v1 <= w->v || b->place != a->place + 1) return; /* not so any more */
+    if (a->crosses == c->right) a->crosses = NONE; /* it is noted again if another lies between */
+    if (a->v1 <= w->v || b->v1 <= w->v || b->place != a->place + 1) return;
     w->s->active[a->place] = c->right;
     w->s->active[b->place] = c->left;
     b->place = a->place++;

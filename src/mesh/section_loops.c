@@ -46,7 +46,7 @@ static void join(dp_section_scratch *s, uint32_t a, uint32_t b) {
 
 /* Joins the ends of one place, `ends` of them in order. */
 static void join_place(dp_section_scratch *s, const dp_placed_end *ends, size_t count) {
-    uint32_t waiting[2] = {NONE, NONE}; /* an earlier tail, and head, that has no partner */
+    uint32_t waiting[2] = {NONE, NONE};  /* an earlier tail, and head, that has no partner */
     for (size_t i = 0; i < count; i++) { /* opposite ends */
         const uint32_t end = ends[i].end, other = waiting[~end & 1];
         if (other == NONE) {
@@ -73,8 +73,8 @@ static void join_places(dp_section_scratch *s) {
         ends[i] = (dp_placed_end){place_of(s, (uint32_t)i), (uint32_t)i};
     dp_sort(ends, count, sizeof *ends, by_place);
     for (size_t i = 0, next; i < count; i = next) {
-        for (next = i + 1; next < count && ends[next].at.u == ends[i].at.u &&
-                           ends[next].at.v == ends[i].at.v;)
+        for (next = i + 1;
+             next < count && ends[next].at.u == ends[i].at.u && ends[next].at.v == ends[i].at.v;)
             next++;
         join_place(s, ends + i, next - i);
     }
@@ -162,12 +162,13 @@ static bool add_edge(dp_section_scratch *s, dp_flat_point a, dp_flat_point b,
     if (level && a.u == b.u) return true;
     if (!dp_reserve(memory, &s->edges, &s->edges_cap, s->edge_count + 1, sizeof *s->edges))
         return false;
-    s->edges[s->edge_count++] = (dp_fill_edge){.u0 = low.u,
-                                               .v0 = low.v,
-                                               .u1 = high.u,
-                                               .v1 = high.v,
-                                               .slope = level ? 0 : (high.u - low.u) / (high.v - low.v),
-                                               .winding = up ? -1 : 1};
+    s->edges[s->edge_count++] =
+        (dp_fill_edge){.u0 = low.u,
+                       .v0 = low.v,
+                       .u1 = high.u,
+                       .v1 = high.v,
+                       .slope = level ? 0 : (high.u - low.u) / (high.v - low.v),
+                       .winding = up ? -1 : 1};
     return true;
 }
 
