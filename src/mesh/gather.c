@@ -334,6 +334,47 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
     return DP_OK;
 }
 
+/* ------- marked edges ------- */
+
+/* Most models have no marked edges, and of those that do most polygons: flags are looked at block by
+ * block. */
+enum { BLOCK = DP_TUNED(1024, 3) /* polygons */ };
+
+static bool is_mark(uint8_t flag) { return flag == DP_EDGE_SECTION || flag == DP_EDGE_HATCHING; }
+
+static bool any_mark(const uint8_t *flags, uint32_t count) {
+    uint32_t marks = 0;
+    for (uint32_t i = 0; i < count; i++)
+        marks |= (uint32_t)(flags[i] == DP_EDGE_SECTION) | (flags[i] == DP_EDGE_HATCHING);
+    return marks;
+}
+
+static bool list_polygon(dp_polygon_store *store, const dp_allocator *memory, dp_polygons *p,
+                         uint32_t polygon) {
+    const uint32_t first = dp_first_corner(p, polygon), n = dp_corner_count(p, polygon);
+    for (uint32_t i = 0; i < n; i++) {
+        if (!is_mark(p->edge_flags[first + i])) continue;
+        if (!dp_reserve(memory, &store->marks, &store->marks_cap, p->mark_count + (size_t)1,
+                        sizeof *store->marks))
+            return false;
+        store->marks[p->mark_count++] = (dp_marked_edge){polygon, i};
+    }
+    return true;
+}
+
+static bool list_marks(dp_polygon_store *store, const dp_allocator *memory, dp_polygons *p) {
+    p->mark_count = 0;
+    for (uint32_t from = 0; p->has_diagonals && from < p->count; from += BLOCK) {
+        const uint32_t to = p->count - from < BLOCK ? p->count : from + BLOCK,
+                       first = dp_first_corner(p, from), end = dp_first_corner(p, to);
+        if (!any_mark(p->edge_flags + first, end - first)) continue;
+        for (uint32_t i = from; i < to; i++)
+            if (!list_polygon(store, memory, p, i)) return false;
+    }
+    p->marks = store->marks;
+    return true;
+}
+
 dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocator *allocator,
                     dp_polygons *out, dp_stats *stats, dp_diag *diag) {
     const dp_result begun = dp_source_begun(source, diag);
@@ -344,6 +385,6 @@ dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocat
     store->normals.used = store->texcoords.used = false;
     gatherer g = {.store = store, .memory = allocator, .stats = stats, .diag = diag};
     const dp_result result = gather(&g, source, out);
-    if (result || dp_list_marks(store, allocator, out)) return result;
+    if (result || list_marks(store, allocator, out)) return result;
     return out_of_memory(&g);
 }

@@ -104,9 +104,6 @@ static inline uint32_t dp_corner_vertex(const dp_polygons *polygons, uint32_t co
     return polygons->corners ? polygons->corners[corner] : corner;
 }
 
-/* Lists the edges that are lines by themselves (marks.c). False when memory is out. */
-bool dp_list_marks(dp_polygon_store *store, const dp_allocator *memory, dp_polygons *polygons);
-
 /* Is it a flag of an edge that may turn out to be a line? */
 static inline bool dp_flag_may_be_line(uint8_t flag) {
     return flag == DP_EDGE_NORMAL || flag == DP_EDGE_DIAGONAL;
