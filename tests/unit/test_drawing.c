@@ -374,9 +374,9 @@ static void a_ring_begins_at_a_corner(void **state) {
 
 static void layers_lie_from_the_bottom_up(void **state) {
     (void)state;
-    static const dp_line bottom_up[] = {
-        DP_LINE_HATCHING, DP_LINE_VALLEY,     DP_LINE_INTERSECTION, DP_LINE_RIDGE,
-        DP_LINE_BORDER,   DP_LINE_SILHOUETTE, DP_LINE_SECTION};
+    static const dp_line bottom_up[] = {DP_LINE_HATCHING, DP_LINE_VALLEY, DP_LINE_INTERSECTION,
+                                        DP_LINE_RIDGE,    DP_LINE_BORDER, DP_LINE_SILHOUETTE,
+                                        DP_LINE_SECTION};
     for (uint32_t level = 0; level < 3; level++)
         for (int k = 0; k < DP_LINE_COUNT; k++) {
             dp_segment *const s = add(10, 10 * (float)(count + 1), 50, 10 * (float)(count + 1));

@@ -227,10 +227,9 @@ static scene *every_class(void) {
 /* Each class alone, each pair, all: ink of the classes asked for and of no other, in their
  * colours. */
 static void classes_can_be_switched_and_coloured(void **state) {
-    static const dp_color colors[DP_LINE_COUNT] = {DP_RGB(255, 0, 0), DP_RGB(0, 255, 0),
-                                                   DP_RGB(0, 0, 255), DP_RGB(255, 0, 255),
-                                                   DP_RGB(0, 255, 255), DP_RGB(255, 255, 0),
-                                                   DP_RGB(0, 255, 128)};
+    static const dp_color colors[DP_LINE_COUNT] = {
+        DP_RGB(255, 0, 0),   DP_RGB(0, 255, 0),   DP_RGB(0, 0, 255),  DP_RGB(255, 0, 255),
+        DP_RGB(0, 255, 255), DP_RGB(255, 255, 0), DP_RGB(0, 255, 128)};
     const dp_camera camera = scene_camera(60, 70, 150, 0, -5, 0);
     scene *whole = every_class();
     (void)state;

@@ -296,8 +296,7 @@ static void parts_keep_their_outlines(void **state) {
     dp_vec3 along[2] = {{0, 0, 0}, {0, 0, 0}};
     for (size_t i = 0; i < first.count; i++)
         if (first.of[i].flag[0] == DP_EDGE_HATCHING)
-            along[first.of[i].group == 7] =
-                dp_unit(dp_sub(first.of[i].at[1], first.of[i].at[0]));
+            along[first.of[i].group == 7] = dp_unit(dp_sub(first.of[i].at[1], first.of[i].at[0]));
     assert_true(fabs(dp_dot(along[0], along[1])) < 1e-4);
     near(dp_length(along[0]), 1, 1e-6);
     near(dp_length(along[1]), 1, 1e-6);
@@ -349,7 +348,8 @@ static void touching_is_keeping(void **state) {
     near(face_area(ANY_GROUP, z, 0), 4, 1e-6);
     near(line_length(ANY_GROUP, DP_EDGE_SECTION), 8, 1e-6);
     /* an octahedron cut along its edges */
-    static const float tips[6][3] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    static const float tips[6][3] = {{1, 0, 0},  {0, 1, 0}, {-1, 0, 0},
+                                     {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     new_scene();
     for (int k = 0; k < 8; k++) {
         const int a = k % 4, b = (a + 1) % 4;
@@ -450,12 +450,11 @@ static bool is_inside(const tetrahedron *t, double x, double y) {
 static void put_tetrahedron(scene *s, tetrahedron *t) {
     static const int face[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
     for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 3; k++)
-            t->at[i][k] = (double)(float)(4 * chance() - 2);
+        for (int k = 0; k < 3; k++) t->at[i][k] = (double)(float)(4 * chance() - 2);
     dp_vec3 v[4];
     for (int i = 0; i < 4; i++) v[i] = dp_v3(t->at[i][0], t->at[i][1], t->at[i][2]);
-    const bool turned = dp_dot(dp_cross(dp_sub(v[1], v[0]), dp_sub(v[2], v[0])),
-                               dp_sub(v[3], v[0])) < 0;
+    const bool turned =
+        dp_dot(dp_cross(dp_sub(v[1], v[0]), dp_sub(v[2], v[0])), dp_sub(v[3], v[0])) < 0;
     for (int k = 0; k < 4; k++) {
         float corners[3][3];
         for (int i = 0; i < 3; i++)
@@ -583,7 +582,8 @@ static double drawn(dp_context *context, dp_line line) {
     double sum = 0;
     for (size_t i = 0; i < count; i++)
         if (s[i].line == line && !s[i].level)
-            sum += dp_hypot((double)s[i].b[0] - (double)s[i].a[0], (double)s[i].b[1] - (double)s[i].a[1]);
+            sum += dp_hypot((double)s[i].b[0] - (double)s[i].a[0],
+                            (double)s[i].b[1] - (double)s[i].a[1]);
     return sum;
 }
 
@@ -599,7 +599,9 @@ static void a_section_is_drawn(void **state) {
     const dp_style style = {.line[DP_LINE_SECTION].color = DP_RGB(255, 0, 0),
                             .section = DP_RGB(0, 200, 0),
                             .line[DP_LINE_HATCHING].color = DP_RGB(0, 0, 255)};
-    const dp_target target = {.width = SCENE_WIDTH, .height = SCENE_HEIGHT, .rgba = out.rgba,
+    const dp_target target = {.width = SCENE_WIDTH,
+                              .height = SCENE_HEIGHT,
+                              .rgba = out.rgba,
                               .line_class = out.line_class};
     dp_diag diag = {0};
     if (dp_draw(context, source, &camera, &style, &target, &diag)) fail_msg("%s", diag.message);
@@ -610,7 +612,8 @@ static void a_section_is_drawn(void **state) {
     dp_stats stats;
     dp_stats_of(context, &stats);
     assert_int_equal(stats.dropped, 0);
-    const uint8_t *const middle = out.rgba + 4 * (SCENE_WIDTH * (SCENE_HEIGHT / 2) + SCENE_WIDTH / 2 + 5);
+    const uint8_t *const middle =
+        out.rgba + 4 * (SCENE_WIDTH * (SCENE_HEIGHT / 2) + SCENE_WIDTH / 2 + 5);
     assert_int_equal(middle[0], 0);
     assert_int_equal(middle[1], 200);
     /* not asked for, not drawn */
@@ -632,7 +635,8 @@ static void what_sections_exclude_is_told(void **state) {
     const dp_target target = {.width = SCENE_WIDTH, .height = SCENE_HEIGHT, .rgba = out.rgba};
     const dp_style smooth = {.smooth = DP_SMOOTH_SURFACE};
     dp_diag diag = {0};
-    assert_int_equal(dp_draw(context, source, &camera, &smooth, &target, &diag), DP_ERR_UNSUPPORTED);
+    assert_int_equal(dp_draw(context, source, &camera, &smooth, &target, &diag),
+                     DP_ERR_UNSUPPORTED);
     assert_non_null(strstr(diag.message, "sections"));
     const dp_style usual = {0};
     assert_int_equal(dp_draw(context, source, &camera, &usual, &target, &diag), DP_OK);
@@ -666,7 +670,8 @@ static void meter_free(void *block, void *user) {
 
 static void every_allocation_may_fail(void **state) {
     (void)state;
-    const dp_clip clip = {.planes = {{{0, 0, 1}, 0}, {{1, 0, 0.1}, 0.5}}, .plane_count = 2,
+    const dp_clip clip = {.planes = {{{0, 0, 1}, 0}, {{1, 0, 0.1}, 0.5}},
+                          .plane_count = 2,
                           .look = DP_SECTION_CROSSED};
     bool met = true;
     for (long at = 1; met; at++) {
