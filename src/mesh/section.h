@@ -43,9 +43,9 @@ typedef struct dp_fill_edge {
     int32_t after;                /* the winding number there, while the edge is active */
     uint32_t right;               /* the edge that bounds the trapezoid begun here; … */
     double since;                 /* … where that begins */
-    bool begun;
-    uint32_t place;   /* in the list of active edges */
-    uint32_t crosses; /* the edge whose crossing was noted last */
+    bool begun, ends;             /* it is the left bound of a trapezoid; the right one */
+    uint32_t place;               /* in the list of active edges */
+    uint32_t crosses;             /* the edge whose crossing was noted last */
 } dp_fill_edge;
 
 /* What receives a section: faces as convex polygons, and lines. False: memory is out. */

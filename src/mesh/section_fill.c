@@ -27,6 +27,7 @@ typedef struct sweep {
     const dp_allocator *memory;
     double v;
     uint32_t low, high; /* active edges that changed, low > high: none */
+    bool bounds_change; /* an edge that bounded the inside does so no more, or another does */
     bool failed;        /* memory is out */
 } sweep;
 
@@ -86,6 +87,7 @@ static void renumber(sweep *w, uint32_t from) {
 static void take_out(sweep *w, uint32_t edge) {
     dp_section_scratch *const s = w->s;
     dp_fill_edge *const e = &s->edges[edge];
+    w->bounds_change |= e->begun || e->ends;
     if (e->begun) end_trapezoid(w, e, w->v);
     s->active_count--;
     for (uint32_t i = e->place; i < s->active_count; i++) {
@@ -195,27 +197,49 @@ static void bound(sweep *w, uint32_t left, uint32_t right) {
     e->begun = true, e->right = right, e->since = w->v;
 }
 
+/* The number of the first active edge from which windings must be counted again: where they are 0 to
+ * the left of it. */
+static uint32_t find_start(const sweep *w) {
+    const dp_section_scratch *const s = w->s;
+    uint32_t i = w->low < s->active_count ? w->low : (uint32_t)s->active_count;
+    while (i && s->edges[s->active[i - 1]].after != 0) i--;
+    if (i) i--; /* that edge may have been a right bound */
+    while (i && s->edges[s->active[i - 1]].after != 0) i--;
+    return i;
+}
+
+static void find_bounds(sweep *w) {
+    const dp_section_scratch *const s = w->s;
+    uint32_t left = NONE;
+    int32_t winding = 0;
+    for (uint32_t i = find_start(w); i < s->active_count; i++) {
+        dp_fill_edge *const e = &s->edges[s->active[i]];
+        const int32_t before = winding;
+        winding = e->after;
+        e->ends = before != 0 && winding == 0;
+        if (before == 0 && winding != 0)
+            left = s->active[i];
+        else if (e->begun)
+            end_trapezoid(w, e, w->v);
+        if (e->ends) bound(w, left, s->active[i]);
+        if (i > w->high && winding == 0) break;
+    }
+}
+
+/* Counts windings of the edges that changed; most lie inside and bound nothing, as before. */
 static void count_windings(sweep *w) {
     const dp_section_scratch *const s = w->s;
-    uint32_t i = w->low < s->active_count ? w->low : (uint32_t)s->active_count, left = NONE;
-    while (i && s->edges[s->active[i - 1]].after != 0) i--;
-    if (i) i--; /* an edge before may now cross what follows it */
-    while (i && s->edges[s->active[i - 1]].after != 0) i--;
-    int32_t winding = 0;
-    for (uint32_t last = NONE; i < s->active_count; i++) {
+    const uint32_t from = w->low ? w->low - 1 : 0;
+    int32_t winding = from ? s->edges[s->active[from - 1]].after : 0;
+    for (uint32_t i = from; i < s->active_count && i <= w->high + 1; i++) {
         dp_fill_edge *const e = &s->edges[s->active[i]];
         const int32_t before = winding;
         winding = e->after = before + e->winding;
-        if (before == 0 && winding != 0) {
-            left = s->active[i];
-        } else {
-            if (e->begun) end_trapezoid(w, e, w->v);
-            if (before != 0 && winding == 0) bound(w, left, s->active[i]);
-        }
-        if (last != NONE) look_ahead(w, last, s->active[i]);
-        last = s->active[i];
-        if (i > w->high && winding == 0) break;
+        w->bounds_change |=
+            e->begun != (before == 0 && winding != 0) || e->ends != (before != 0 && winding == 0);
+        if (i > from) look_ahead(w, s->active[i - 1], s->active[i]);
     }
+    if (w->bounds_change) find_bounds(w);
 }
 
 /* ------- the sweep ------- */
@@ -237,7 +261,7 @@ static bool begin(sweep *w) {
     for (uint32_t i = 0; i < count; i++) {
         dp_fill_edge *const e = &s->edges[i];
         if (e->v0 == e->v1) continue;
-        e->begun = false, e->after = 0, e->crosses = NONE;
+        e->begun = e->ends = false, e->after = 0, e->crosses = NONE;
         s->events[s->event_count++] = (dp_fill_event){e->v0, i, true};
         s->events[s->event_count++] = (dp_fill_event){e->v1, i, false};
     }
@@ -257,7 +281,7 @@ bool dp_section_fill(dp_section_scratch *s, const dp_section_sink *sink,
         const bool crosses =
             s->crossing_count && (i == count || s->crossings[0].v < s->events[i].v);
         w.v = crosses ? s->crossings[0].v : s->events[i].v;
-        w.low = 1, w.high = 0;
+        w.low = 1, w.high = 0, w.bounds_change = false;
         while (s->crossing_count && s->crossings[0].v <= w.v) {
             const dp_fill_crossing c = pop_crossing(s);
             exchange(&w, &c);

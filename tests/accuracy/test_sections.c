@@ -165,9 +165,9 @@ static void compare(const char *name, dp_source *source, v3 normal, double share
     dp_extent e;
     dp_diag diag = {0};
     assert_int_equal(dp_source_extent(source, &e, &diag), DP_OK);
-    const double size = sqrt(pow(e.exact_max[0] - e.exact_min[0], 2) +
-                             pow(e.exact_max[1] - e.exact_min[1], 2) +
-                             pow(e.exact_max[2] - e.exact_min[2], 2));
+    const double size =
+        sqrt(pow(e.exact_max[0] - e.exact_min[0], 2) + pow(e.exact_max[1] - e.exact_min[1], 2) +
+             pow(e.exact_max[2] - e.exact_min[2], 2));
     const v3 at = {e.exact_min[0] + share * (e.exact_max[0] - e.exact_min[0]),
                    e.exact_min[1] + share * (e.exact_max[1] - e.exact_min[1]),
                    e.exact_min[2] + share * (e.exact_max[2] - e.exact_min[2])};
@@ -205,7 +205,8 @@ static void compare(const char *name, dp_source *source, v3 normal, double share
 static const struct plane {
     v3 normal;
     double share; /* of the model's box */
-} planes[] = {{{1, 0, 0}, 0.5137}, {{0, 0, 1}, 0.4711}, {{-1, 2, 0.5}, 0.3313}, {{0.3, -0.2, -1}, 0.6171}};
+} planes[] = {
+    {{1, 0, 0}, 0.5137}, {{0, 0, 1}, 0.4711}, {{-1, 2, 0.5}, 0.3313}, {{0.3, -0.2, -1}, 0.6171}};
 
 enum { PLANES = sizeof planes / sizeof *planes };
 
@@ -215,8 +216,8 @@ static void shapes(void **state) {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         for (size_t k = 0; k < PLANES; k++) {
             dp_source *source;
-            assert_int_equal(
-                dp_source_from_shape(&(dp_shape){.name = names[i]}, &source, NULL), DP_OK);
+            assert_int_equal(dp_source_from_shape(&(dp_shape){.name = names[i]}, &source, NULL),
+                             DP_OK);
             compare(names[i], source, planes[k].normal, planes[k].share);
         }
 }
