@@ -138,6 +138,9 @@ int look_make(const tool_settings *s, dp_source *source, look_data *data, dp_sty
     if (style->surface && style->surface != DP_COLOR_NONE)
         style->surface =
             color_over(style->surface, style->paper ? style->paper : DP_RGB(255, 255, 255));
+    if (style->section && style->section != DP_COLOR_NONE)
+        style->section =
+            color_over(style->section, style->paper ? style->paper : DP_RGB(255, 255, 255));
     if (s->has_light) from_angles(s->light, shade->light);
     if (s->normals) shade->normals = (dp_normals)(s->normals - 1);
     shade->crease_angle = (float)s->crease_angle;

@@ -9,6 +9,7 @@
 #include "objects.h"
 #include "progress.h"
 #include "report.h"
+#include "section.h"
 
 #include <drypoint/io.h>
 
@@ -172,6 +173,8 @@ int open_model(const tool_settings *s, dp_source **out) {
         s->model_count > 1 ? open_scene(s, &tally, out) : open_one(s, s->models[0], &tally, out);
     if (!code) code = clips_check(s, &tally);
     if (!code) code = reshape_model(s, &tally, out);
+    /* where it is cut does not depend on the time */
+    if (!code) code = open_section(s, out);
     if (!code) code = move_model(s, out);
     if (!code && objects_asked(s)) code = objects_arrange(s, out);
     if (!code) return 0;

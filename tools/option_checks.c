@@ -9,6 +9,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+static bool check_section(const tool_settings *s) {
+    if (s->section.count && s->smooth > 1)
+        return wrong_usage(
+            "--clip cuts polygons, and --smooth would draw another surface than was cut; "
+            "leave one out");
+    if (s->section.count && s->ink == INK_QUADS && s->edges != EDGES_ADJACENCY)
+        return wrong_usage("--ink quads has no lines of sections; leave it out, or --clip");
+    return true;
+}
+
 static bool check_camera(const tool_settings *s) {
     if (s->has_fov && s->has_ortho)
         return wrong_usage("--fov and --ortho exclude each other; leave one out");
@@ -122,5 +132,5 @@ static bool check_motion(const tool_settings *s) {
 
 bool options_check(const tool_settings *s) {
     return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && check_motion(s) && film_check(s);
+           check_sheet(s) && check_motion(s) && film_check(s) && check_section(s);
 }

@@ -76,7 +76,9 @@ static bool has_highlight(const tool_settings *s) {
 
 static bool is_exploded(const tool_settings *s) { return s->explode > 0; }
 static bool is_listing(const tool_settings *s) { return s->list; }
-
+static bool has_section(const tool_settings *s) { return s->section.count; }
+static bool has_hatching(const tool_settings *s) { return s->section.look <= 2; }
+static bool has_faces(const tool_settings *s) { return s->section.look != 4; }
 static bool has_mirror(const tool_settings *s) { return s->has_mirror; }
 static bool has_tint(const tool_settings *s) {
     return s->mirror_tint_share > 0 || !s->has_mirror_tint_share;
@@ -158,6 +160,11 @@ static const rule drawing_rules[] = {
     {"pencil-s|pencil-o|pencil-tones|pencil-turns", is_pencil,
      "it is of pencil shading; add --style pencil"},
     {"pencil-s|pencil-o", has_powers, "--pencil-tones stands for it; leave one out"},
+    {"section|section-angle|section-spacing|section-color", has_section,
+     "nothing is cut open; add --clip 0,0,1, say"},
+    {"section-angle|section-spacing", has_hatching,
+     "faces have no lines; leave out --section plain or open"},
+    {"section-color", has_faces, "there are no faces; leave out --section open"},
     {"mirror-size|mirror-fade|mirror-tint|mirror-tint-share", has_mirror,
      "there is no mirror; add --mirror 0,1,0, say"},
     {"mirror-tint", has_tint, "--mirror-tint-share is 0; leave it out, or give more"},

@@ -111,7 +111,7 @@ const option option_table[] = {
      "2 shows everything twice as large. Default: 1."},
 
     {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
-     "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
+     "Classes to draw: silhouette, ridge, valley, intersection, border, section, hatching. Default: all."},
     {"width", 0, "W or CLASS=W,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(width_of), 0, 0.5, 64,
      "Whole width of the lines, of all classes or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
      "pixels), or 0.2%, a share of the picture's smaller side. Default: outlines and borders 0.25%, the others half of "
@@ -240,6 +240,20 @@ const option option_table[] = {
      "Where lines come from: found in each tile as they emerge, with nothing known about neighbours; by adjacency "
      "that is built once per model (Hermosilla and Vazquez 2010); the edge map (Nienhaus and Doellner 2003); emergent "
      "lines and the map; nowhere. Default: emergent; both with --edge-map."},
+    {"clip", 0, "NX,NY,NZ[,D]", OPTION_CLIP, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
+     "Cut the model open, up to eight times: takes away what lies on the side that N points to, of the plane through "
+     "all points whose product with N is D; without D, through the model's middle. N points to the eye, then: 0,0,1,2 "
+     "takes away what lies above z = 2. What was cut through is filled and hatched."},
+    {"section", 0, "hatched|crossed|plain|open", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(section.look), 0, 0, 0,
+     "With --clip: cut faces show parallel lines, crossed ones, only their colour; or are left open, so that one looks "
+     "into the model. Default: hatched."},
+    {"section-angle", 0, "DEG", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(section.angle), AT(section.has_angle), -360, 360,
+     "With --clip: the lines' angle to the horizontal. Parts beside each other have them at another angle or distance. "
+     "Default: 45."},
+    {"section-spacing", 0, "D|N%", OPTION_SPACING, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
+     "With --clip: distance of the lines in the model's units, or as a share of its size. Default: 1.7%."},
+    {"section-color", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(style.section), 0, 0, 0,
+     "With --clip: colour of cut faces. Default: that of the model's faces."},
     {"mirror", 0, "NX,NY,NZ[,D]", OPTION_PLANE, GROUP_SURFACE, PICTURE, AT(mirror), 0, 0, 0,
      "A square mirror in the plane through all points whose product with N is D; without D, where the model touches "
      "it. 0,1,0 is a floor."},

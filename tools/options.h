@@ -106,6 +106,17 @@ typedef struct tool_sheet {
     int count;
 } tool_sheet;
 
+/* --clip and --section…: a model cut open. */
+typedef struct tool_section {
+    double plane[DP_CLIP_PLANES][4]; /* normal of any length; n·p = offset, world units */
+    bool has_offset[DP_CLIP_PLANES]; /* else through the model's middle */
+    uint32_t count;
+    int look;              /* word */
+    double angle;          /* degrees */
+    double spacing, share; /* world units; of the model's size */
+    bool has_angle;
+} tool_section;
+
 /* All options of the command line; zero means not given. */
 typedef struct tool_settings {
     tool_command command;
@@ -195,6 +206,7 @@ typedef struct tool_settings {
     dp_color mirror_tint;
     const char *outputs[OUTPUT_COUNT]; /* files */
     bool wants_edge_map;
+    tool_section section;
 
     text_list only, without, objects; /* names, and NAME:SETTINGS of --object (objects.h) */
     double explode;
@@ -235,6 +247,8 @@ typedef enum option_kind {
     OPTION_TIME,          /* double[2]: a time, s, or from and to */
     OPTION_DEFORM,        /* dp_deform */
     OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
+    OPTION_CLIP,          /* tool_settings.section: one more plane */
+    OPTION_SPACING,       /* tool_section: spacing or share */
     OPTION_OUTPUT,        /* tool_settings.files, .outputs, or of make .output */
     OPTION_WORD,          /* int: which of the argument's words */
     OPTION_SIZE,          /* uint32_t[2] */

@@ -12,6 +12,7 @@
 #include <drypoint/objects.h>
 #include <drypoint/scene.h>
 #include <drypoint/path.h>
+#include <drypoint/section.h>
 #include <drypoint/shade.h>
 #include <drypoint/shapes.h>
 #include <drypoint/sink.h>

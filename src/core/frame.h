@@ -56,6 +56,7 @@ typedef struct dp_frame {
     size_t vertices_cap;
     uint32_t tiles_x, tiles_y;
     dp_bins polygon_bins;
+    dp_bins mark_bins; /* of polygons.marks, while there are some */
 
     const struct dp_adjacency *adjacency; /* mesh/adjacency.h; NULL: lines are found without it */
     float fin_reach; /* px: how far printed silhouettes reach beyond outlined polygons; 0: none */

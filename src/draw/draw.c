@@ -360,6 +360,10 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, since, diag);
+    if (f->styles[0].smooth && f->polygons.mark_count)
+        return dp_fail(
+            diag, DP_ERR_UNSUPPORTED,
+            "a model with sections cannot be drawn smooth: its surface would leave them");
     expect_motion(c, source->moves);
     if (f->styles[0].smooth && (result = dp_smooth_frame(c, source, diag))) return result;
     c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
@@ -375,7 +379,8 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     if ((result = dp_tell_progress(c, GATHERED, diag))) return result;
     if ((result = place_vertices(c, diag))) return result;
     lap(&c->stats, DP_STAGE_VERTICES, since);
-    if (!dp_bin_polygons(f, margin_of(f), c->bin_workers)) return out_of_memory(diag);
+    if (!dp_bin_polygons(f, margin_of(f), c->bin_workers) || !dp_bin_marks(f))
+        return out_of_memory(diag);
     for (uint32_t i = 0; i < c->workers; i++) add_counts(&c->stats, &c->bin_workers[i].stats);
     lap(&c->stats, DP_STAGE_BIN, since);
     if ((result = check_dropped(&c->stats, diag))) return result;

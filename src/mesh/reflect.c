@@ -19,8 +19,8 @@
 
 typedef struct corner {
     uint32_t vertex, normal, texcoord;
-    double side; /* distance from the plane; kept where >= 0 */
-    bool flag;   /* of the edge to the next corner */
+    double side;  /* distance from the plane; kept where >= 0 */
+    uint8_t flag; /* of the edge to the next corner */
 } corner;
 
 /* A source and a quadrilateral. */
@@ -120,7 +120,7 @@ static size_t clip(reflection *r, size_t n) {
         corner c = in_a ? a : b;
         c.vertex = cut(r, &a, &b);
         c.side = 0;
-        c.flag = in_a ? false : a.flag;
+        c.flag = in_a ? DP_EDGE_NEVER : a.flag;
         r->kept[count++] = c;
     }
     return count;
@@ -148,7 +148,7 @@ static bool add_polygon(reflection *r, const dp_batch *b, size_t i) {
         const uint32_t v = b->indices ? b->indices[c] : (uint32_t)c;
         corner *const to = &r->corners[c - first];
         *to = (corner){.vertex = v < b->vertex_count ? v : UINT32_MAX,
-                       .flag = !b->edge_flags || b->edge_flags[c],
+                       .flag = b->edge_flags ? b->edge_flags[c] : DP_EDGE_NORMAL,
                        .normal = dp_attribute_number(&b->normals, c, v),
                        .texcoord = dp_attribute_number(&b->texcoords, c, v)};
         wrong += to->vertex == UINT32_MAX;

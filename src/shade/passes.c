@@ -124,8 +124,10 @@ static bool wants_texcoords(const dp_shade_store *s) {
 }
 
 static bool wants_vertex_colors(const dp_shade_store *s) {
-    return s->colored && s->model_colors && s->frame->polygons.colors &&
-           s->setup.shade.shading != DP_SHADING_PAPER;
+    const dp_polygons *const p = &s->frame->polygons;
+    return s->colored &&
+           ((s->model_colors && p->colors && s->setup.shade.shading != DP_SHADING_PAPER) ||
+            (s->frame->styles[0].section && p->has_diagonals));
 }
 
 bool dp_shade_gathered(dp_shade_store *s) {
