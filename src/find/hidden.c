@@ -27,7 +27,7 @@
 static const double SMOOTH = 40;
 
 bool dp_is_smooth(const dp_frame *frame, const dp_fold *fold) {
-    return !frame->styles[0].hidden.smooth && fabs(dp_fold_dihedral(fold) - 180) < SMOOTH - 1e-3;
+    return !frame->hidden_smooth && fabs(dp_fold_dihedral(fold) - 180) < SMOOTH - 1e-3;
 }
 
 /* A visible piece, and the key of its spine's ends or polygons. */

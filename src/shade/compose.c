@@ -125,7 +125,8 @@ static void ink_row(const dp_shade_store *s, uint32_t tile_x, uint32_t width, ui
 void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
     const dp_gbuffer *const g = &s->gbuffer;
     const dp_target *const target = &s->frame->target;
-    const dp_color paper = s->frame->styles[0].paper;
+    const dp_color paper = s->frame->xray ? DP_COLOR_NONE /* it lies below all layers */
+                                          : s->frame->styles[0].paper;
     const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16),
                                    (uint8_t)(paper >> 8), (uint8_t)paper};
     const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;

@@ -329,7 +329,7 @@ bool dp_ink_hidden(const dp_frame *frame, const dp_lines *chained, dp_lines *lin
         .frame = frame, .chained = chained, .lines = lines, .points = own->points, .arc = own->arc};
     for (uint32_t i = 0; i < store->chain_count; i++)
         if (is_hidden(chained, &store->chains[i]) &&
-            !ink_chain(&p, &store->chains[i], frame->styles[0].hidden.look))
+            !ink_chain(&p, &store->chains[i], frame->hidden_look))
             return false;
     return lines->inked_count < UINT32_MAX;
 }

@@ -219,15 +219,30 @@ static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, u
     }
 }
 
+/* Of an x-ray, what surfaces of the style's colour and opacity leave of a line's colour: as ink on
+ * paper, where pixels are blended layer by layer (sink/xray.c). */
+static dp_color faded(const dp_style *style, uint32_t level, dp_color color) {
+    const dp_color over = style->surface & 0xff ? style->surface : style->paper;
+    float left = 1;
+    dp_color out = color & 0xff;
+    for (uint32_t i = 0; i < level; i++) left *= 1 - style->xray;
+    for (int shift = 8; shift < 32; shift += 8) {
+        const float c = (float)(color >> shift & 0xff), o = (float)(over >> shift & 0xff);
+        out |= (dp_color)(o + (c - o) * left + 0.5f) << shift;
+    }
+    return out;
+}
+
 void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segment,
                   dp_stroke *stroke) {
     const dp_style *const style = dp_polygon_style(frame, piece->a);
-    const dp_line_style *const line = piece->level
-                                          ? &style->hidden.line[piece->level - 1][piece->line]
-                                          : &style->line[piece->line];
+    const bool own = piece->level && style->hidden.look; /* else an x-ray's look as visible ones */
+    const dp_line_style *const line =
+        own ? &style->hidden.line[piece->level - 1][piece->line] : &style->line[piece->line];
     segment->level = stroke->level = piece->level;
     segment->width = line->width;
-    segment->color = stroke->color = line->color;
+    stroke->color = line->color;
+    segment->color = frame->xray ? faded(style, piece->level, line->color) : line->color;
     stroke->half_width = line->width / 2;
 }
 
@@ -307,7 +322,7 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *st
     store->lies_outside = dp_lies_outside(frame);
     store->silhouette_width = frame->styles[0].line[DP_LINE_SILHOUETTE].width;
     store->paper = frame->styles[0].paper;
-    store->hidden_look = frame->styles[0].hidden.look;
+    store->hidden_look = frame->hidden_look;
     store->surface = frame->styles[0].surface;
     job j = {frame, found, store};
     dp_parallel(frame->threads, (uint32_t)(count / BLOCK + (count % BLOCK != 0)), make_block, &j);

@@ -1,0 +1,99 @@
+/* An x-ray's layers, one after the other, between the tiles and the ink.
+ *
+ *     layer 0 was taken as each tile was found (draw.c); its colours, where it is shaded, now
+ *     for each next layer, until there is none:
+ *         all tiles: peel it, fill the G-buffer with it              raster/xray.c, gbuffer/fill.c
+ *         shade it as a picture of its own                           shade/passes.c
+ *         take its colours from the target
+ *     once more, to count the samples that have still more layers
+ *
+ * The target is scratch until the layers are put together (sink/xray.c). Invariant: the target's
+ * other planes are those of the nearest surface, as in any picture. */
+#include "draw/context.h"
+
+#include "base/diag.h"
+
+static void peel_tile(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    dp_xray *const x = &c->xray;
+    dp_tile *const w = &c->finders[worker].tile;
+    const uint32_t k = c->xray_layer;
+    if (!x->shaded && !x->layers[k - 1].tiles[index]) return;
+    const bool any = dp_xray_peel(x, w, index, worker, k);
+    if (any) dp_xray_take(x, w, k);
+    if (!x->shaded) return;
+    dp_gbuffer_fill(&c->shade.gbuffer, w, c->frame.styles[0].shade.normals);
+    dp_shade_at_once(&c->shade, index);
+}
+
+static void count_lost(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    dp_tile *const w = &c->finders[worker].tile;
+    if (c->xray.layers[c->xray_layer - 1].tiles[index] &&
+        dp_xray_peel(&c->xray, w, index, worker, c->xray_layer))
+        dp_xray_count_lost(&c->xray, w, worker);
+}
+
+static void take_colors(void *arg, uint32_t index, uint32_t worker) {
+    dp_context *const c = arg;
+    (void)worker;
+    dp_xray_take_colors(&c->xray, &c->frame, index, c->xray_layer);
+}
+
+static bool any_failed(const dp_context *c) {
+    for (uint32_t i = 0; i < c->workers; i++)
+        if (c->finders[i].tile.failed) return true;
+    return false;
+}
+
+static bool has_tiles(const dp_context *c, uint32_t k) {
+    const size_t tiles = (size_t)c->frame.tiles_x * c->frame.tiles_y;
+    for (size_t i = 0; i < tiles; i++)
+        if (c->xray.layers[k].tiles[i]) return true;
+    return false;
+}
+
+static dp_result out_of_memory(dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the layers of an x-ray");
+}
+
+/* Peels and shades layer c->xray_layer; forgets it if it has no surface. */
+static dp_result draw_layer(dp_context *c, double from, double to, dp_diag *diag) {
+    if (!dp_xray_add_layer(&c->xray, &c->frame)) return out_of_memory(diag);
+    dp_result result = dp_for_tiles(c, peel_tile, c, from, c->xray.shaded ? from : to, diag);
+    if (!result && any_failed(c)) result = out_of_memory(diag);
+    if (result) return result;
+    if (!has_tiles(c, c->xray_layer)) {
+        c->xray.count--;
+        return DP_OK;
+    }
+    if (!c->xray.shaded) return DP_OK;
+    result = dp_shade_picture(c, from, to, diag);
+    return result ? result : dp_for_tiles(c, take_colors, c, to, to, diag);
+}
+
+static dp_result draw_layers(dp_context *c, double from, double to, dp_diag *diag) {
+    dp_xray *const x = &c->xray;
+    const double step = (to - from) / x->most;
+    for (uint32_t k = c->xray_layer = 1; k < x->most; c->xray_layer = ++k) {
+        const dp_result result = draw_layer(c, from + step * (k - 1), from + step * k, diag);
+        if (result || x->count == k) return result;
+    }
+    const dp_result result = dp_for_tiles(c, count_lost, c, to - step, to, diag);
+    return result || !any_failed(c) ? result : out_of_memory(diag);
+}
+
+dp_result dp_draw_layers(dp_context *c, double from, double to, dp_diag *diag) {
+    dp_target *const t = &c->frame.target;
+    const dp_target whole = *t;
+    dp_result result = DP_OK;
+    if (!c->frame.xray || !t->rgba) return DP_OK;
+    c->xray_layer = 0;
+    if (c->xray.shaded) result = dp_for_tiles(c, take_colors, c, from, from, diag);
+    t->edge_map = NULL, t->depth = t->normal = t->eye_normal = t->distance = NULL, t->id = NULL;
+    if (!result) result = draw_layers(c, from, to, diag);
+    *t = whole;
+    c->stats.xray_layers = c->xray.count;
+    for (uint32_t i = 0; i < c->workers; i++) c->stats.xray_lost += c->xray.lost[i];
+    return result;
+}

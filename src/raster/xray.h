@@ -1,0 +1,66 @@
+/* X-ray: what lies behind the nearest surface, layer by layer (xray.c). */
+#ifndef DP_RASTER_XRAY_H
+#define DP_RASTER_XRAY_H
+
+#include "raster/tile.h"
+
+/* Surfaces of one layer: of each sample the nearest, the next one, and so on. */
+typedef struct dp_xray_layer {
+    uint8_t *tiles; /* [tile] 1: the layer has a surface there; the rest of its planes is not set */
+    float *weight;  /* [pixel] share of the pixel's light that comes from it, 0 to 1 */
+    uint8_t *rgba;  /* [pixel][4] its colour, not premultiplied, where its weight is not 0; not used
+                       where all layers have one colour */
+    size_t tiles_cap, weight_cap, rgba_cap;
+} dp_xray_layer;
+
+/* The layers of one picture. Zero is empty. */
+typedef struct dp_xray {
+    dp_xray_layer layers[DP_LEVELS];
+    uint32_t count;  /* layers that are there, of `most` */
+    uint32_t most;
+    bool shaded;     /* colours come from src/shade */
+    bool plain;      /* all layers have one colour, … */
+    dp_color color;  /* … this */
+    bool uniform;    /* all surfaces are of one opacity: `through` is not used */
+    float *bound;    /* [tile][sample] what lies behind this depth belongs to the next layers */
+    float *through;  /* [tile][sample] share of light that passes all layers so far */
+    float *scratch;  /* [worker][sample] depth of the layer being peeled */
+    uint64_t *lost;  /* [worker] samples with more than `most` layers */
+    size_t bound_cap, through_cap, scratch_cap, lost_cap;
+} dp_xray;
+
+void dp_xray_free(dp_xray *xray, const dp_allocator *memory);
+uint64_t dp_xray_bytes(const dp_xray *xray);
+
+/* Begins a picture, and its first layer. `shaded`: colours are put by dp_xray_take_colors. False:
+ * out of memory. */
+bool dp_xray_begin(dp_xray *xray, const dp_frame *frame, uint32_t workers, bool shaded);
+
+/* Makes room for the next layer, `count`; false: out of memory. */
+bool dp_xray_add_layer(dp_xray *xray, const dp_frame *frame);
+
+/* Takes what a tile's samples hold as its part of layer k; what is peeled next lies behind. */
+void dp_xray_take(dp_xray *xray, const dp_tile *tile, uint32_t k);
+
+/* Draws a tile's part of layer k, which is not the first: the samples hold it then. Returns whether
+ * there is any. Where there was nothing in the layer before, no sample holds anything. */
+bool dp_xray_peel(dp_xray *xray, dp_tile *tile, uint32_t index, uint32_t worker, uint32_t k);
+
+/* Counts the tile's samples that hold something beyond the last layer. */
+void dp_xray_count_lost(dp_xray *xray, const dp_tile *tile, uint32_t worker);
+
+/* Takes the colours of a tile's part of layer k from the target. */
+void dp_xray_take_colors(dp_xray *xray, const dp_frame *frame, uint32_t index, uint32_t k);
+
+/* A tile's pixels within the picture, px. */
+typedef struct dp_span {
+    uint32_t x0, y0, x1, y1;
+} dp_span;
+static inline dp_span dp_span_of_tile(const dp_frame *f, uint32_t tile) {
+    const uint32_t x0 = tile % f->tiles_x * DP_TILE, y0 = tile / f->tiles_x * DP_TILE;
+    const uint32_t x1 = x0 + DP_TILE, y1 = y0 + DP_TILE;
+    return (dp_span){x0, y0, x1 < f->target.width ? x1 : f->target.width,
+                     y1 < f->target.height ? y1 : f->target.height};
+}
+
+#endif
