@@ -16,10 +16,9 @@
  * none, nothing lies behind that. Invariant: weights of all layers sum to 1 at most. */
 #include "raster/xray.h"
 
-#include <string.h>
+#include "raster/tile.h"
 
-/* Pixel sizes: surfaces this close are one layer. Less than what hides a line (DP_PROBE_SLACK). */
-#define DP_LAYER_GAP 0.05f
+#include <string.h>
 
 /* ------- memory ------- */
 
@@ -161,12 +160,9 @@ static void take_pixels(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span 
 static void put_bounds(const dp_xray *x, const dp_tile *w) {
     const dp_frame *const f = w->frame;
     const size_t first = (size_t)w->index * f->tile_samples;
-    const float scale = DP_LAYER_GAP * f->step_scale, offset = DP_LAYER_GAP * f->step_offset;
     float *const bound = x->bound + first;
     for (size_t i = 0; i < f->tile_samples; i++)
-        bound[i] = w->winner[i] == UINT32_MAX
-                       ? DP_DEPTH_EMPTY
-                       : w->depth[i] - (fabsf(w->depth[i]) * scale + offset);
+        bound[i] = w->winner[i] == UINT32_MAX ? DP_DEPTH_EMPTY : dp_layer_bound(f, w->depth[i]);
     for (size_t i = 0; !x->uniform && i < f->tile_samples; i++)
         if (!(x->through[first + i] > 0)) bound[i] = DP_DEPTH_EMPTY;
 }

@@ -2,7 +2,18 @@
 #ifndef DP_RASTER_XRAY_H
 #define DP_RASTER_XRAY_H
 
-#include "raster/tile.h"
+#include "core/frame.h"
+
+struct dp_tile;
+
+/* Pixel sizes: surfaces this close behind each other are one layer. Less than what hides a line
+ * (DP_PROBE_SLACK). */
+#define DP_LAYER_GAP 0.05f
+
+/* What lies behind this depth, and not just behind a layer there, belongs to the next layers. */
+static inline float dp_layer_bound(const dp_frame *f, float depth) {
+    return depth - (fabsf(depth) * (DP_LAYER_GAP * f->step_scale) + DP_LAYER_GAP * f->step_offset);
+}
 
 /* Surfaces of one layer: of each sample the nearest, the next one, and so on. */
 typedef struct dp_xray_layer {
@@ -16,16 +27,16 @@ typedef struct dp_xray_layer {
 /* The layers of one picture. Zero is empty. */
 typedef struct dp_xray {
     dp_xray_layer layers[DP_LEVELS];
-    uint32_t count;  /* layers that are there, of `most` */
+    uint32_t count; /* layers that are there, of `most` */
     uint32_t most;
-    bool shaded;     /* colours come from src/shade */
-    bool plain;      /* all layers have one colour, … */
-    dp_color color;  /* … this */
-    bool uniform;    /* all surfaces are of one opacity: `through` is not used */
-    float *bound;    /* [tile][sample] what lies behind this depth belongs to the next layers */
-    float *through;  /* [tile][sample] share of light that passes all layers so far */
-    float *scratch;  /* [worker][sample] depth of the layer being peeled */
-    uint64_t *lost;  /* [worker] samples with more than `most` layers */
+    bool shaded;    /* colours come from src/shade */
+    bool plain;     /* all layers have one colour, … */
+    dp_color color; /* … this */
+    bool uniform;   /* all surfaces are of one opacity: `through` is not used */
+    float *bound;   /* [tile][sample] what lies behind this depth belongs to the next layers */
+    float *through; /* [tile][sample] share of light that passes all layers so far */
+    float *scratch; /* [worker][sample] depth of the layer being peeled */
+    uint64_t *lost; /* [worker] samples with more than `most` layers */
     size_t bound_cap, through_cap, scratch_cap, lost_cap;
 } dp_xray;
 
@@ -40,14 +51,14 @@ bool dp_xray_begin(dp_xray *xray, const dp_frame *frame, uint32_t workers, bool 
 bool dp_xray_add_layer(dp_xray *xray, const dp_frame *frame);
 
 /* Takes what a tile's samples hold as its part of layer k; what is peeled next lies behind. */
-void dp_xray_take(dp_xray *xray, const dp_tile *tile, uint32_t k);
+void dp_xray_take(dp_xray *xray, const struct dp_tile *tile, uint32_t k);
 
 /* Draws a tile's part of layer k, which is not the first: the samples hold it then. Returns whether
  * there is any. Where there was nothing in the layer before, no sample holds anything. */
-bool dp_xray_peel(dp_xray *xray, dp_tile *tile, uint32_t index, uint32_t worker, uint32_t k);
+bool dp_xray_peel(dp_xray *xray, struct dp_tile *tile, uint32_t index, uint32_t worker, uint32_t k);
 
 /* Counts the tile's samples that hold something beyond the last layer. */
-void dp_xray_count_lost(dp_xray *xray, const dp_tile *tile, uint32_t worker);
+void dp_xray_count_lost(dp_xray *xray, const struct dp_tile *tile, uint32_t worker);
 
 /* Takes the colours of a tile's part of layer k from the target. */
 void dp_xray_take_colors(dp_xray *xray, const dp_frame *frame, uint32_t index, uint32_t k);

@@ -100,8 +100,8 @@ void dp_xray_put(const dp_frame *f, uint32_t tile, const dp_xray_tile *from) {
             const uint32_t i = (y - s.y0) * DP_TILE + x - s.x0;
             const float alpha = from->alpha[i];
             for (int c = 0; c < 3; c++)
-                out[c] = alpha > 0 ? rounded(from->rgb[c][i] / alpha)
-                                   : (uint8_t)(paper >> (24 - 8 * c));
+                out[c] =
+                    alpha > 0 ? rounded(from->rgb[c][i] / alpha) : (uint8_t)(paper >> (24 - 8 * c));
             out[3] = rounded(255 * alpha);
         }
     }

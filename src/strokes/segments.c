@@ -62,7 +62,7 @@ static int by_edge(const void *left, const void *right) { return dp_piece_order(
 
 bool dp_piece_goes_on(const dp_piece *p, const dp_piece *q) {
     return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line &&
-           p->level == q->level && p->k1 == q->k0;
+           p->level == q->level && p->through == q->through && p->k1 == q->k0;
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
@@ -221,14 +221,12 @@ static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, u
 
 /* Of an x-ray, what surfaces of the style's colour and opacity leave of a line's colour: as ink on
  * paper, where pixels are blended layer by layer (sink/xray.c). */
-static dp_color faded(const dp_style *style, uint32_t level, dp_color color) {
+static dp_color faded(const dp_style *style, float through, dp_color color) {
     const dp_color over = style->surface & 0xff ? style->surface : style->paper;
-    float left = 1;
     dp_color out = color & 0xff;
-    for (uint32_t i = 0; i < level; i++) left *= 1 - style->xray;
     for (int shift = 8; shift < 32; shift += 8) {
         const float c = (float)(color >> shift & 0xff), o = (float)(over >> shift & 0xff);
-        out |= (dp_color)(o + (c - o) * left + 0.5f) << shift;
+        out |= (dp_color)(o + (c - o) * through + 0.5f) << shift;
     }
     return out;
 }
@@ -242,7 +240,8 @@ void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segm
     segment->level = stroke->level = piece->level;
     segment->width = line->width;
     stroke->color = line->color;
-    segment->color = frame->xray ? faded(style, piece->level, line->color) : line->color;
+    segment->color =
+        frame->xray && piece->level ? faded(style, piece->through, line->color) : line->color;
     stroke->half_width = line->width / 2;
 }
 
