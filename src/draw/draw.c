@@ -148,11 +148,14 @@ static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
     dp_draw_tile(&c->finders[worker], &c->printers[worker], index);
-    if (c->frame.xray && c->frame.target.rgba && !c->frame.tile_pieces[index].empty)
-        dp_xray_take(&c->xray, &c->finders[worker].tile, 0);
-    if (!c->shade.active) return;
-    dp_gbuffer_fill(&c->shade.gbuffer, &c->finders[worker].tile, c->frame.styles[0].shade.normals);
-    dp_shade_at_once(&c->shade, index); /* while it is in the cache */
+    const bool xray = c->frame.xray && c->frame.target.rgba && !c->frame.tile_pieces[index].empty;
+    dp_tile *const tile = &c->finders[worker].tile;
+    if (xray) dp_xray_take(&c->xray, tile, worker, 0);
+    if (c->shade.active) {
+        dp_gbuffer_fill(&c->shade.gbuffer, tile, c->frame.styles[0].shade.normals);
+        dp_shade_at_once(&c->shade, index); /* while it is in the cache */
+    }
+    if (xray && c->xray.plain) dp_xray_peel_all(&c->xray, tile, worker);
 }
 
 static void shade_tile(void *arg, uint32_t index, uint32_t worker) {

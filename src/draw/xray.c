@@ -1,6 +1,7 @@
 /* An x-ray's layers, one after the other, between the tiles and the ink.
  *
- *     layer 0 was taken as each tile was found (draw.c); its colours, where it is shaded, now
+ *     layer 0 was taken as each tile was found (draw.c), and where all surfaces are of one colour and
+ *         opacity all others, too; its colours, where it is shaded, now
  *     for each next layer, until there is none:
  *         all tiles: peel it, fill the G-buffer with it              raster/xray.c, gbuffer/fill.c
  *         shade it as a picture of its own                           shade/passes.c
@@ -18,9 +19,8 @@ static void peel_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_xray *const x = &c->xray;
     dp_tile *const w = &c->finders[worker].tile;
     const uint32_t k = c->xray_layer;
-    if (!x->shaded && !x->layers[k - 1].tiles[index]) return;
-    const bool any = dp_xray_peel(x, w, index, worker, k);
-    if (any) dp_xray_take(x, w, k);
+    if (!x->shaded && x->layers[k - 1].tiles[index] < 2) return;
+    if (dp_xray_peel(x, w, index, worker, k)) dp_xray_take(x, w, worker, k);
     if (!x->shaded) return;
     dp_gbuffer_fill(&c->shade.gbuffer, w, c->frame.styles[0].shade.normals);
     dp_shade_at_once(&c->shade, index);
@@ -46,13 +46,6 @@ static bool any_failed(const dp_context *c) {
     return false;
 }
 
-static bool has_tiles(const dp_context *c, uint32_t k) {
-    const size_t tiles = (size_t)c->frame.tiles_x * c->frame.tiles_y;
-    for (size_t i = 0; i < tiles; i++)
-        if (c->xray.layers[k].tiles[i]) return true;
-    return false;
-}
-
 static dp_result out_of_memory(dp_diag *diag) {
     return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the layers of an x-ray");
 }
@@ -63,11 +56,8 @@ static dp_result draw_layer(dp_context *c, double from, double to, dp_diag *diag
     dp_result result = dp_for_tiles(c, peel_tile, c, from, c->xray.shaded ? from : to, diag);
     if (!result && any_failed(c)) result = out_of_memory(diag);
     if (result) return result;
-    if (!has_tiles(c, c->xray_layer)) {
-        c->xray.count--;
-        return DP_OK;
-    }
-    if (!c->xray.shaded) return DP_OK;
+    dp_xray_settle(&c->xray, &c->frame);
+    if (!c->xray.shaded || c->xray.count == c->xray_layer) return DP_OK;
     result = dp_shade_picture(c, from, to, diag);
     return result ? result : dp_for_tiles(c, take_colors, c, to, to, diag);
 }
@@ -91,7 +81,10 @@ dp_result dp_draw_layers(dp_context *c, double from, double to, dp_diag *diag) {
     c->xray_layer = 0;
     if (c->xray.shaded) result = dp_for_tiles(c, take_colors, c, from, from, diag);
     t->edge_map = NULL, t->depth = t->normal = t->eye_normal = t->distance = NULL, t->id = NULL;
-    if (!result) result = draw_layers(c, from, to, diag);
+    if (c->xray.plain)
+        dp_xray_settle(&c->xray, &c->frame);
+    else if (!result)
+        result = draw_layers(c, from, to, diag);
     *t = whole;
     c->stats.xray_layers = c->xray.count;
     for (uint32_t i = 0; i < c->workers; i++) c->stats.xray_lost += c->xray.lost[i];

@@ -107,6 +107,7 @@ typedef struct dp_tile {
                               tile: does that face away? NULL: there are no such samples (only
                               src/stream has them) */
     const float *bound;    /* by sample: only what lies behind is drawn (xray.c); NULL: all is */
+    float nearest_bound;   /* the nearest of these */
     dp_block block;        /* where the samples of a block lie */
 
     uint32_t index;          /* of the tile in the frame */
@@ -132,6 +133,7 @@ typedef struct dp_tile {
     size_t winner_cap, ids_cap, backs_cap, culled_cap, polygons_cap, normals_cap, unsure_cap,
         points_cap, keys_cap, seen_cap, seen_words_cap;
     uint32_t won;     /* not 0: a sample was won since it was last set to 0 */
+    uint32_t deeper;  /* with `bound`, not 0: more lies behind that than was won */
     bool sees_backs;  /* some back face is seen, in the tile or in the strip around it */
     uint32_t undrawn; /* back faces among this many first polygons are not drawn yet */
     uint32_t keys_stride, seen_stride;

@@ -22,12 +22,13 @@
 
 /* ------- memory ------- */
 
-static const dp_array layer_arrays[] = {DP_ARRAY(dp_xray_layer, tiles, tiles_cap),
-                                        DP_ARRAY(dp_xray_layer, weight, weight_cap),
-                                        DP_ARRAY(dp_xray_layer, rgba, rgba_cap)};
+static const dp_array layer_arrays[] = {
+    DP_ARRAY(dp_xray_layer, tiles, tiles_cap), DP_ARRAY(dp_xray_layer, covered, covered_cap),
+    DP_ARRAY(dp_xray_layer, weight, weight_cap), DP_ARRAY(dp_xray_layer, rgba, rgba_cap)};
 static const dp_array arrays[] = {
-    DP_ARRAY(dp_xray, bound, bound_cap), DP_ARRAY(dp_xray, through, through_cap),
-    DP_ARRAY(dp_xray, scratch, scratch_cap), DP_ARRAY(dp_xray, lost, lost_cap)};
+    DP_ARRAY(dp_xray, nearest, nearest_cap), DP_ARRAY(dp_xray, bound, bound_cap),
+    DP_ARRAY(dp_xray, through, through_cap), DP_ARRAY(dp_xray, scratch, scratch_cap),
+    DP_ARRAY(dp_xray, lost, lost_cap)};
 
 void dp_xray_free(dp_xray *x, const dp_allocator *memory) {
     for (int k = 0; k < DP_LEVELS; k++)
@@ -49,31 +50,52 @@ static dp_color shown_color(const dp_frame *f, uint32_t polygon) {
     return c & 0xff ? c : f->styles[0].paper;
 }
 
+/* By layer and covered samples. */
+static void find_weights(dp_xray *x, const dp_frame *f) {
+    const float opacity = f->styles[0].xray, samples = (float)f->target.samples;
+    float passes = 1;
+    for (int k = 0; k < DP_LEVELS; k++) {
+        for (int i = 0; i <= 16; i++) x->weight[k][i] = passes * opacity * ((float)i / samples);
+        passes *= 1 - opacity;
+    }
+}
+
+static bool reserve_samples(dp_xray *x, const dp_frame *f, uint32_t workers) {
+    const size_t tiles = x->plain ? workers : tile_count(f),
+                 samples = dp_times(tiles, f->tile_samples);
+    return dp_reserve(f->memory, &x->nearest, &x->nearest_cap, tile_count(f), sizeof *x->nearest) &&
+           dp_reserve(f->memory, &x->bound, &x->bound_cap, samples, sizeof *x->bound) &&
+           dp_reserve(f->memory, &x->scratch, &x->scratch_cap, dp_times(workers, f->tile_samples),
+                      sizeof *x->scratch) &&
+           dp_reserve(f->memory, &x->lost, &x->lost_cap, workers, sizeof *x->lost) &&
+           (x->uniform ||
+            dp_reserve(f->memory, &x->through, &x->through_cap, samples, sizeof *x->through));
+}
+
 bool dp_xray_begin(dp_xray *x, const dp_frame *f, uint32_t workers, bool shaded) {
-    const size_t samples = dp_times(tile_count(f), f->tile_samples);
     const dp_color surface = f->styles[0].surface;
     x->count = 0;
     x->most = f->xray;
     x->shaded = shaded;
-    x->plain = !shaded && f->style_count == 1;
-    x->color = surface & 0xff ? surface : f->styles[0].paper;
     x->uniform = f->style_count == 1 && !(f->styles[0].mirror.size > 0);
-    if (!dp_reserve(f->memory, &x->bound, &x->bound_cap, samples, sizeof *x->bound) ||
-        !dp_reserve(f->memory, &x->scratch, &x->scratch_cap, dp_times(workers, f->tile_samples),
-                    sizeof *x->scratch) ||
-        !dp_reserve(f->memory, &x->lost, &x->lost_cap, workers, sizeof *x->lost) ||
-        (!x->uniform &&
-         !dp_reserve(f->memory, &x->through, &x->through_cap, samples, sizeof *x->through)))
-        return false;
+    x->plain = x->uniform && !shaded;
+    x->color = surface & 0xff ? surface : f->styles[0].paper;
+    find_weights(x, f);
+    if (!reserve_samples(x, f, workers)) return false;
     memset(x->lost, 0, workers * sizeof *x->lost);
-    return dp_xray_add_layer(x, f);
+    do
+        if (!dp_xray_add_layer(x, f)) return false;
+    while (x->plain && x->count < x->most);
+    return true;
 }
 
 bool dp_xray_add_layer(dp_xray *x, const dp_frame *f) {
     dp_xray_layer *const l = &x->layers[x->count];
     const size_t pixels = (size_t)f->target.width * f->target.height;
     if (!dp_reserve(f->memory, &l->tiles, &l->tiles_cap, tile_count(f), sizeof *l->tiles) ||
-        !dp_reserve(f->memory, &l->weight, &l->weight_cap, pixels, sizeof *l->weight) ||
+        (x->uniform && !dp_reserve(f->memory, &l->covered, &l->covered_cap, pixels, 1)) ||
+        (!x->uniform &&
+         !dp_reserve(f->memory, &l->weight, &l->weight_cap, pixels, sizeof *l->weight)) ||
         (!x->plain && !dp_reserve(f->memory, &l->rgba, &l->rgba_cap, dp_times(4, pixels), 1)))
         return false;
     memset(l->tiles, 0, tile_count(f));
@@ -81,20 +103,33 @@ bool dp_xray_add_layer(dp_xray *x, const dp_frame *f) {
     return true;
 }
 
+static bool has_tiles(const dp_xray_layer *l, size_t tiles) {
+    for (size_t i = 0; i < tiles; i++)
+        if (l->tiles[i]) return true;
+    return false;
+}
+
+void dp_xray_settle(dp_xray *x, const dp_frame *f) {
+    while (x->count && !has_tiles(&x->layers[x->count - 1], tile_count(f))) x->count--;
+}
+
+void dp_xray_weights(const dp_xray *x, const dp_frame *f, uint32_t k, uint32_t px, uint32_t y,
+                     uint32_t n, float *out) {
+    const size_t at = (size_t)y * f->target.width + px;
+    if (x->uniform)
+        for (uint32_t i = 0; i < n; i++) out[i] = x->weight[k][x->layers[k].covered[at + i]];
+    else
+        memcpy(out, x->layers[k].weight + at, n * sizeof *out);
+}
+
 /* ------- one layer of a tile ------- */
 
 static uint32_t count_covered(const uint32_t *winner, uint32_t samples) {
-    uint32_t sum = 0;
-    for (uint32_t i = 0; i < samples; i++) sum += winner[i] != UINT32_MAX;
-    return sum;
-}
-
-/* Weights where all surfaces are of one opacity: by how many samples there are. */
-static void weigh_row(const dp_tile *w, const float table[17], const uint32_t *winner, uint32_t n,
-                      float *weight) {
-    const uint32_t samples = w->frame->target.samples;
-    for (uint32_t x = 0; x < n; x++, winner += samples)
-        weight[x] = table[count_covered(winner, samples)];
+    dp_i4 sum = {0, 0, 0, 0};
+    if (samples % 4) return *winner != UINT32_MAX;
+    for (uint32_t i = 0; i < samples; i += 4)
+        sum -= *(const dp_i4 *)(const void *)(winner + i) != -1;
+    return (uint32_t)(sum[0] + sum[1] + sum[2] + sum[3]);
 }
 
 /* Sums over a pixel's samples: weights, and these times alpha, times colour. */
@@ -133,20 +168,25 @@ static float take_pixel(const dp_xray *x, const dp_tile *w, size_t lane, float *
     return sum.weight / (float)samples;
 }
 
-static void weigh_tile(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span s) {
+/* Where all surfaces are of one opacity, weights follow from how many samples there are. */
+static void count_pixels(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span s) {
     const uint32_t samples = w->frame->target.samples;
-    const float opacity = w->frame->styles[0].xray;
-    float table[17], passes = opacity / (float)samples;
-    for (uint32_t i = 0; i < k; i++) passes *= 1 - opacity;
-    for (uint32_t i = 0; i <= samples; i++) table[i] = (float)i * passes;
-    for (uint32_t y = s.y0; y < s.y1; y++)
-        weigh_row(w, table, w->winner + dp_pixel_lane(&w->sampling, 0, y - s.y0), s.x1 - s.x0,
-                  x->layers[k].weight + (size_t)y * w->frame->target.width + s.x0);
+    for (uint32_t y = s.y0; y < s.y1; y++) {
+        uint8_t *const covered = x->layers[k].covered + (size_t)y * w->frame->target.width + s.x0;
+        const uint32_t *winner = w->winner + dp_pixel_lane(&w->sampling, 0, y - s.y0);
+        for (uint32_t i = 0; i < s.x1 - s.x0; i++, winner += samples)
+            covered[i] = (uint8_t)count_covered(winner, samples);
+    }
+}
+
+/* What a tile has of arrays by sample. */
+static size_t first_sample(const dp_xray *x, const dp_tile *w, uint32_t worker) {
+    return (size_t)(x->plain ? worker : w->index) * w->frame->tile_samples;
 }
 
 static void take_pixels(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span s) {
     const dp_xray_layer *const l = &x->layers[k];
-    float *const through = x->through + (size_t)w->index * w->frame->tile_samples;
+    float *const through = x->through + first_sample(x, w, 0);
     for (size_t i = 0; !k && i < w->frame->tile_samples; i++) through[i] = 1;
     for (uint32_t y = s.y0; y < s.y1; y++)
         for (uint32_t px = s.x0; px < s.x1; px++) {
@@ -156,40 +196,73 @@ static void take_pixels(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span 
         }
 }
 
-/* The next layer begins behind this one; behind what lets nothing through there is none. */
-static void put_bounds(const dp_xray *x, const dp_tile *w) {
-    const dp_frame *const f = w->frame;
-    const size_t first = (size_t)w->index * f->tile_samples;
-    float *const bound = x->bound + first;
-    for (size_t i = 0; i < f->tile_samples; i++)
-        bound[i] = w->winner[i] == UINT32_MAX ? DP_DEPTH_EMPTY : dp_layer_bound(f, w->depth[i]);
-    for (size_t i = 0; !x->uniform && i < f->tile_samples; i++)
-        if (!(x->through[first + i] > 0)) bound[i] = DP_DEPTH_EMPTY;
+/* dp_layer_bound, of four. */
+static inline dp_f4 layer_bounds(const dp_frame *f, dp_f4 depth) {
+    const dp_f4 size = dp_select(depth < 0, -depth, depth);
+    return depth - (size * (DP_LAYER_GAP * f->step_scale) + DP_LAYER_GAP * f->step_offset);
 }
 
-void dp_xray_take(dp_xray *x, const dp_tile *w, uint32_t k) {
+/* The next layer begins behind this one; behind what lets nothing through there is none. */
+static void put_bounds(const dp_xray *x, const dp_tile *w, uint32_t worker) {
+    const dp_frame *const f = w->frame;
+    const size_t first = first_sample(x, w, worker);
+    const dp_f4 empty = dp_splat(DP_DEPTH_EMPTY);
+    float *const bound = x->bound + first;
+    dp_f4 most = empty;
+    for (size_t i = 0; i < f->tile_samples; i += 4) {
+        const dp_f4 d = *(const dp_f4 *)(const void *)(w->depth + i);
+        const dp_i4 none = *(const dp_i4 *)(const void *)(w->winner + i) == -1;
+        dp_f4 next = dp_select(none, empty, layer_bounds(f, d));
+        if (!x->uniform)
+            next =
+                dp_select(*(const dp_f4 *)(const void *)(x->through + first + i) > 0, next, empty);
+        *(dp_f4 *)(void *)(bound + i) = next;
+        most = dp_select(next > most, next, most);
+    }
+    const float nearest = dp_maxf(dp_maxf(most[0], most[1]), dp_maxf(most[2], most[3]));
+    x->nearest[w->index] =
+        nearest > DP_DEPTH_EMPTY ? nearest + dp_depth_steps(f, nearest, DP_CULL_SLACK) : nearest;
+}
+
+void dp_xray_take(dp_xray *x, const dp_tile *w, uint32_t worker, uint32_t k) {
     const dp_span s = dp_span_of_tile(w->frame, w->index);
-    x->layers[k].tiles[w->index] = 1;
-    if (x->uniform && (x->plain || x->shaded))
-        weigh_tile(x, w, k, s);
+    x->layers[k].tiles[w->index] = !k || w->deeper ? 2 : 1;
+    if (x->uniform)
+        count_pixels(x, w, k, s);
     else
         take_pixels(x, w, k, s);
-    put_bounds(x, w);
+    if (x->layers[k].tiles[w->index] == 2) put_bounds(x, w, worker);
 }
 
 bool dp_xray_peel(dp_xray *x, dp_tile *w, uint32_t index, uint32_t worker, uint32_t k) {
     const size_t samples = w->frame->tile_samples;
+    const bool finds_edges = w->finds_edges, tests_near_depth = w->tests_near_depth;
     float *const depth = x->scratch + worker * samples;
+    w->finds_edges = w->tests_near_depth = false;
     dp_tile_open(w, index);
-    if (!x->layers[k - 1].tiles[index]) return false;
-    w->finds_edges = w->tests_near_depth = false; /* until the next picture */
-    for (size_t i = 0; i < samples; i++) depth[i] = DP_DEPTH_EMPTY;
-    w->depth = depth;
-    w->bound = x->bound + (size_t)index * samples;
-    w->won = 0;
-    dp_tile_assemble_fronts(w);
-    w->bound = NULL;
+    w->won = w->deeper = 0;
+    if (x->layers[k - 1].tiles[index] == 2) {
+        for (size_t i = 0; i < samples; i++) depth[i] = DP_DEPTH_EMPTY;
+        w->depth = depth;
+        w->bound = x->bound + first_sample(x, w, worker);
+        w->nearest_bound = x->nearest[index];
+        dp_tile_assemble_fronts(w);
+        w->bound = NULL;
+    }
+    w->finds_edges = finds_edges, w->tests_near_depth = tests_near_depth;
     return w->won;
+}
+
+void dp_xray_peel_all(dp_xray *x, dp_tile *w, uint32_t worker) {
+    const uint32_t index = w->index;
+    for (uint32_t k = 1; x->layers[k - 1].tiles[index] == 2 && !w->failed; k++) {
+        if (!dp_xray_peel(x, w, index, worker, k)) return;
+        if (k == x->most) {
+            dp_xray_count_lost(x, w, worker);
+            return;
+        }
+        dp_xray_take(x, w, worker, k);
+    }
 }
 
 void dp_xray_count_lost(dp_xray *x, const dp_tile *w, uint32_t worker) {

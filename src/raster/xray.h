@@ -17,11 +17,15 @@ static inline float dp_layer_bound(const dp_frame *f, float depth) {
 
 /* Surfaces of one layer: of each sample the nearest, the next one, and so on. */
 typedef struct dp_xray_layer {
-    uint8_t *tiles; /* [tile] 1: the layer has a surface there; the rest of its planes is not set */
-    float *weight;  /* [pixel] share of the pixel's light that comes from it, 0 to 1 */
-    uint8_t *rgba;  /* [pixel][4] its colour, not premultiplied, where its weight is not 0; not used
-                       where all layers have one colour */
-    size_t tiles_cap, weight_cap, rgba_cap;
+    uint8_t
+        *tiles; /* [tile] not 0: the layer has a surface there, elsewhere its planes are not set;
+                         2: there may be another layer behind */
+    uint8_t
+        *covered; /* [pixel] samples that hold it, where all surfaces are of one opacity; else … */
+    float *weight; /* [pixel] … share of the pixel's light that comes from it, 0 to 1 */
+    uint8_t *rgba; /* [pixel][4] its colour, not premultiplied, where its weight is not 0; not used
+                         where all layers have one colour */
+    size_t tiles_cap, covered_cap, weight_cap, rgba_cap;
 } dp_xray_layer;
 
 /* The layers of one picture. Zero is empty. */
@@ -29,15 +33,18 @@ typedef struct dp_xray {
     dp_xray_layer layers[DP_LEVELS];
     uint32_t count; /* layers that are there, of `most` */
     uint32_t most;
-    bool shaded;    /* colours come from src/shade */
-    bool plain;     /* all layers have one colour, … */
-    dp_color color; /* … this */
-    bool uniform;   /* all surfaces are of one opacity: `through` is not used */
-    float *bound;   /* [tile][sample] what lies behind this depth belongs to the next layers */
-    float *through; /* [tile][sample] share of light that passes all layers so far */
+    bool shaded;                 /* colours come from src/shade */
+    bool uniform;                /* all surfaces are of one opacity: `through` is not used */
+    bool plain;                  /* and all layers of one colour, … */
+    dp_color color;              /* … this; each tile is peeled at once */
+    float weight[DP_LEVELS][17]; /* uniform: by layer and covered samples */
+    float *nearest; /* [tile] the nearest of its bounds, and a little more for rounding */
+    /* [tile][sample], plain: [worker][sample] */
+    float *bound;   /* what lies behind this depth belongs to the next layers */
+    float *through; /* share of light that passes all layers so far */
     float *scratch; /* [worker][sample] depth of the layer being peeled */
     uint64_t *lost; /* [worker] samples with more than `most` layers */
-    size_t bound_cap, through_cap, scratch_cap, lost_cap;
+    size_t nearest_cap, bound_cap, through_cap, scratch_cap, lost_cap;
 } dp_xray;
 
 void dp_xray_free(dp_xray *xray, const dp_allocator *memory);
@@ -51,7 +58,7 @@ bool dp_xray_begin(dp_xray *xray, const dp_frame *frame, uint32_t workers, bool 
 bool dp_xray_add_layer(dp_xray *xray, const dp_frame *frame);
 
 /* Takes what a tile's samples hold as its part of layer k; what is peeled next lies behind. */
-void dp_xray_take(dp_xray *xray, const struct dp_tile *tile, uint32_t k);
+void dp_xray_take(dp_xray *xray, const struct dp_tile *tile, uint32_t worker, uint32_t k);
 
 /* Draws a tile's part of layer k, which is not the first: the samples hold it then. Returns whether
  * there is any. Where there was nothing in the layer before, no sample holds anything. */
@@ -60,8 +67,18 @@ bool dp_xray_peel(dp_xray *xray, struct dp_tile *tile, uint32_t index, uint32_t 
 /* Counts the tile's samples that hold something beyond the last layer. */
 void dp_xray_count_lost(dp_xray *xray, const struct dp_tile *tile, uint32_t worker);
 
+/* Plain: peels and takes all further layers of a tile whose first one was taken. */
+void dp_xray_peel_all(dp_xray *xray, struct dp_tile *tile, uint32_t worker);
+
+/* Forgets layers without any surface. */
+void dp_xray_settle(dp_xray *xray, const dp_frame *frame);
+
 /* Takes the colours of a tile's part of layer k from the target. */
 void dp_xray_take_colors(dp_xray *xray, const dp_frame *frame, uint32_t index, uint32_t k);
+
+/* Weights of layer k in n pixels of a row, from (x, y) on. */
+void dp_xray_weights(const dp_xray *xray, const dp_frame *frame, uint32_t k, uint32_t x, uint32_t y,
+                     uint32_t n, float *out);
 
 /* A tile's pixels within the picture, px. */
 typedef struct dp_span {

@@ -39,7 +39,8 @@ void dp_xray_paper(const dp_xray *x, const dp_frame *f, uint32_t tile, dp_xray_t
     for (uint32_t k = 0; k < x->count; k++) {
         if (!x->layers[k].tiles[tile]) continue;
         for (uint32_t y = s.y0; y < s.y1; y++) {
-            const float *const weight = x->layers[k].weight + (size_t)y * f->target.width + s.x0;
+            float weight[DP_TILE];
+            dp_xray_weights(x, f, k, s.x0, y, s.x1 - s.x0, weight);
             float *const left = out->weight + (size_t)(y - s.y0) * DP_TILE;
             for (uint32_t i = 0; i < s.x1 - s.x0; i++) left[i] -= weight[i];
         }
@@ -72,8 +73,10 @@ void dp_xray_lay(const dp_xray *x, const dp_frame *f, uint32_t tile, uint32_t k,
     to_floats(x->color, rgba);
     for (uint32_t y = s.y0; y < s.y1; y++) {
         const size_t at = (size_t)y * f->target.width + s.x0;
-        lay_row(out, (y - s.y0) * DP_TILE, s.x1 - s.x0, l->weight + at,
-                x->plain ? NULL : l->rgba + 4 * at, rgba);
+        float weight[DP_TILE];
+        dp_xray_weights(x, f, k, s.x0, y, s.x1 - s.x0, weight);
+        lay_row(out, (y - s.y0) * DP_TILE, s.x1 - s.x0, weight, x->plain ? NULL : l->rgba + 4 * at,
+                rgba);
     }
 }
 

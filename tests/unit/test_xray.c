@@ -25,7 +25,8 @@ static canvas first, second;
 
 static dp_stats draw_on(canvas *c, const dp_camera *camera, const dp_style *style,
                         uint32_t samples) {
-    const dp_batch batch = scene_batch(&made);
+    dp_batch batch = scene_batch(&made);
+    if (made.corners == 3 * made.polygons) batch.firsts = NULL; /* triangles have kernels */
     const dp_target target = {.width = W,
                               .height = H,
                               .samples = samples,
@@ -132,8 +133,8 @@ static void find_hits(const rays *r, double x, double y, hits *out) {
     out->unsure = false;
     for (size_t i = 0; i < made.polygons; i++)
         for (uint32_t k = made.firsts[i] + 2; k < made.firsts[i + 1]; k++) {
-            const float *const corners[3] = {made.positions[made.firsts[i]],
-                                             made.positions[k - 1], made.positions[k]};
+            const float *const corners[3] = {made.positions[made.firsts[i]], made.positions[k - 1],
+                                             made.positions[k]};
             meet(out, i, (const float **)corners, at, along);
         }
     qsort(out->of, out->count, sizeof *out->of, by_depth);
@@ -159,8 +160,8 @@ static size_t layers_of(const rays *r, hits *h, size_t layers[SCENE_POLYGONS]) {
 /* What the picture should be. */
 typedef struct reference {
     const rays *rays;
-    const float *opacity;     /* by polygon */
-    const dp_color *surface;  /* by polygon */
+    const float *opacity;    /* by polygon */
+    const dp_color *surface; /* by polygon */
     dp_color paper;
     size_t most;
     uint64_t lost;
@@ -234,10 +235,10 @@ static void expect_scene(const dp_camera *camera, const rays *r, float opacity, 
     const dp_style style = faint(opacity, layers);
     one_look(opacity, surface);
     reference e = {.rays = r,
-                  .opacity = opacities,
-                  .surface = surfaces,
-                  .paper = paper,
-                  .most = layers ? layers : DP_LEVELS};
+                   .opacity = opacities,
+                   .surface = surfaces,
+                   .paper = paper,
+                   .most = layers ? layers : DP_LEVELS};
     const dp_stats stats = draw_on(&first, camera, &style, samples);
     expect_picture(&e, &first, samples);
     /* unsure samples may have more */
@@ -372,7 +373,8 @@ static void ink_lies_between_surfaces(void **state) {
         draw_on(&first, &flat, &style, 4);
         for (int k = 0; k < 3; k++) {
             double expected = ink >> (24 - 8 * k) & 0xff;
-            for (int i = 0; i < plates; i++) expected = over(surface >> (24 - 8 * k) & 0xff, expected, 0.3);
+            for (int i = 0; i < plates; i++)
+                expected = over(surface >> (24 - 8 * k) & 0xff, expected, 0.3);
             assert_true(fabs(expected - pixel_of(&first, W / 2, H / 2)[k]) <= 1);
         }
     }
@@ -460,8 +462,9 @@ static void every_look_is_drawn_layer_by_layer(void **state) {
             for (int x = 0; x < W; x++) {
                 /* not at the plates' edges, where pixels are mixed */
                 const int wx = x - W / 2, wy = abs(H / 2 - y);
-                const bool a = wx > -58 && wx < 28 && wy < 48, b = wx > -28 && wx < 78 && wy < 38;
-                if ((!a && wx > -62 && wx < 32 && wy < 52) || (!b && wx > -32 && wx < 82 && wy < 42))
+                const bool a = wx > -58 && wx < 28 && wy<48, b = wx> - 28 && wx < 78 && wy < 38;
+                if ((!a && wx > -62 && wx < 32 && wy < 52) ||
+                    (!b && wx > -32 && wx < 82 && wy < 42))
                     continue;
                 for (int k = 0; k < 3; k++) {
                     double expected = paper >> (24 - 8 * k) & 0xff;
@@ -486,8 +489,12 @@ static void put_polygon(size_t i) {
 
 static dp_stats draw_groups(canvas *c, const dp_camera *camera, const dp_style *picture_style,
                             uint32_t samples) {
-    const dp_target target = {
-        .width = W, .height = H, .samples = samples, .rgba = c->rgba, .depth = c->depth, .id = c->id};
+    const dp_target target = {.width = W,
+                              .height = H,
+                              .samples = samples,
+                              .rgba = c->rgba,
+                              .depth = c->depth,
+                              .id = c->id};
     dp_diag diag = {0};
     dp_stats stats;
     dp_set_style(context, picture_style);
@@ -515,10 +522,10 @@ static void groups_have_opacities_of_their_own(void **state) {
         for (size_t i = 0; i < made.polygons; i++)
             opacities[i] = own[i % 4], surfaces[i] = colors[i / 4 % 4];
         reference e = {.rays = &meeting,
-                      .opacity = opacities,
-                      .surface = surfaces,
-                      .paper = paper,
-                      .most = DP_LEVELS};
+                       .opacity = opacities,
+                       .surface = surfaces,
+                       .paper = paper,
+                       .most = DP_LEVELS};
         dp_disable(context, DP_ALL_LINES);
         draw_groups(&first, &near, &style, 4);
         expect_picture(&e, &first, 4);
