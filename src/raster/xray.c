@@ -16,6 +16,7 @@
  * none, nothing lies behind that. Invariant: weights of all layers sum to 1 at most. */
 #include "raster/xray.h"
 
+#include "raster/kernels.h"
 #include "raster/tile.h"
 
 #include <string.h>
@@ -93,7 +94,8 @@ bool dp_xray_add_layer(dp_xray *x, const dp_frame *f) {
     dp_xray_layer *const l = &x->layers[x->count];
     const size_t pixels = (size_t)f->target.width * f->target.height;
     if (!dp_reserve(f->memory, &l->tiles, &l->tiles_cap, tile_count(f), sizeof *l->tiles) ||
-        (x->uniform && !dp_reserve(f->memory, &l->covered, &l->covered_cap, pixels, 1)) ||
+        (x->uniform && !dp_reserve(f->memory, &l->covered, &l->covered_cap,
+                                   dp_times(tile_count(f), DP_TILE * DP_TILE), 1)) ||
         (!x->uniform &&
          !dp_reserve(f->memory, &l->weight, &l->weight_cap, pixels, sizeof *l->weight)) ||
         (!x->plain && !dp_reserve(f->memory, &l->rgba, &l->rgba_cap, dp_times(4, pixels), 1)))
@@ -113,24 +115,18 @@ void dp_xray_settle(dp_xray *x, const dp_frame *f) {
     while (x->count && !has_tiles(&x->layers[x->count - 1], tile_count(f))) x->count--;
 }
 
-void dp_xray_weights(const dp_xray *x, const dp_frame *f, uint32_t k, uint32_t px, uint32_t y,
+void dp_xray_weights(const dp_xray *x, const dp_frame *f, uint32_t k, uint32_t tile, uint32_t row,
                      uint32_t n, float *out) {
-    const size_t at = (size_t)y * f->target.width + px;
+    const dp_span s = dp_span_of_tile(f, tile);
+    const uint8_t *const covered = x->layers[k].covered + ((size_t)tile * DP_TILE + row) * DP_TILE;
     if (x->uniform)
-        for (uint32_t i = 0; i < n; i++) out[i] = x->weight[k][x->layers[k].covered[at + i]];
+        for (uint32_t i = 0; i < n; i++) out[i] = x->weight[k][covered[i]];
     else
-        memcpy(out, x->layers[k].weight + at, n * sizeof *out);
+        memcpy(out, x->layers[k].weight + (size_t)(s.y0 + row) * f->target.width + s.x0,
+               n * sizeof *out);
 }
 
 /* ------- one layer of a tile ------- */
-
-static uint32_t count_covered(const uint32_t *winner, uint32_t samples) {
-    dp_i4 sum = {0, 0, 0, 0};
-    if (samples % 4) return *winner != UINT32_MAX;
-    for (uint32_t i = 0; i < samples; i += 4)
-        sum -= *(const dp_i4 *)(const void *)(winner + i) != -1;
-    return (uint32_t)(sum[0] + sum[1] + sum[2] + sum[3]);
-}
 
 /* Sums over a pixel's samples: weights, and these times alpha, times colour. */
 typedef struct sums {
@@ -168,17 +164,6 @@ static float take_pixel(const dp_xray *x, const dp_tile *w, size_t lane, float *
     return sum.weight / (float)samples;
 }
 
-/* Where all surfaces are of one opacity, weights follow from how many samples there are. */
-static void count_pixels(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span s) {
-    const uint32_t samples = w->frame->target.samples;
-    for (uint32_t y = s.y0; y < s.y1; y++) {
-        uint8_t *const covered = x->layers[k].covered + (size_t)y * w->frame->target.width + s.x0;
-        const uint32_t *winner = w->winner + dp_pixel_lane(&w->sampling, 0, y - s.y0);
-        for (uint32_t i = 0; i < s.x1 - s.x0; i++, winner += samples)
-            covered[i] = (uint8_t)count_covered(winner, samples);
-    }
-}
-
 /* What a tile has of arrays by sample. */
 static size_t first_sample(const dp_xray *x, const dp_tile *w, uint32_t worker) {
     return (size_t)(x->plain ? worker : w->index) * w->frame->tile_samples;
@@ -196,80 +181,69 @@ static void take_pixels(const dp_xray *x, const dp_tile *w, uint32_t k, dp_span 
         }
 }
 
-/* dp_layer_bound, of four. */
-static inline dp_f4 layer_bounds(const dp_frame *f, dp_f4 depth) {
-    const dp_f4 size = dp_select(depth < 0, -depth, depth);
-    return depth - (size * (DP_LAYER_GAP * f->step_scale) + DP_LAYER_GAP * f->step_offset);
-}
-
-/* The next layer begins behind this one; behind what lets nothing through there is none. */
-static void put_bounds(const dp_xray *x, const dp_tile *w, uint32_t worker) {
-    const dp_frame *const f = w->frame;
-    const size_t first = first_sample(x, w, worker);
-    const dp_f4 empty = dp_splat(DP_DEPTH_EMPTY);
-    float *const bound = x->bound + first;
-    dp_f4 most = empty;
-    for (size_t i = 0; i < f->tile_samples; i += 4) {
-        const dp_f4 d = *(const dp_f4 *)(const void *)(w->depth + i);
-        const dp_i4 none = *(const dp_i4 *)(const void *)(w->winner + i) == -1;
-        dp_f4 next = dp_select(none, empty, layer_bounds(f, d));
-        if (!x->uniform)
-            next =
-                dp_select(*(const dp_f4 *)(const void *)(x->through + first + i) > 0, next, empty);
-        *(dp_f4 *)(void *)(bound + i) = next;
-        most = dp_select(next > most, next, most);
-    }
-    const float nearest = dp_maxf(dp_maxf(most[0], most[1]), dp_maxf(most[2], most[3]));
-    x->nearest[w->index] =
-        nearest > DP_DEPTH_EMPTY ? nearest + dp_depth_steps(f, nearest, DP_CULL_SLACK) : nearest;
+/* What lets nothing through has nothing behind it. */
+static void stop_behind_opaque(const float *through, size_t samples, float *bound) {
+    for (size_t i = 0; i < samples; i++)
+        if (!(through[i] > 0)) bound[i] = DP_DEPTH_EMPTY;
 }
 
 void dp_xray_take(dp_xray *x, const dp_tile *w, uint32_t worker, uint32_t k) {
-    const dp_span s = dp_span_of_tile(w->frame, w->index);
-    x->layers[k].tiles[w->index] = !k || w->deeper ? 2 : 1;
-    if (x->uniform)
-        count_pixels(x, w, k, s);
-    else
-        take_pixels(x, w, k, s);
-    if (x->layers[k].tiles[w->index] == 2) put_bounds(x, w, worker);
+    const dp_frame *const f = w->frame;
+    const size_t first = first_sample(x, w, worker);
+    const bool goes_on = !k || w->deeper;
+    uint8_t *const covered =
+        x->uniform ? x->layers[k].covered + (size_t)w->index * DP_TILE * DP_TILE : NULL;
+    x->layers[k].tiles[w->index] = goes_on ? 2 : 1;
+    if (!x->uniform) take_pixels(x, w, k, dp_span_of_tile(f, w->index));
+    const float nearest =
+        dp_raster_kernels_for(f->lanes)->layer(w, covered, goes_on ? x->bound + first : NULL);
+    x->nearest[w->index] =
+        nearest > DP_DEPTH_EMPTY ? nearest + dp_depth_steps(f, nearest, DP_CULL_SLACK) : nearest;
+    if (!x->uniform && goes_on)
+        stop_behind_opaque(x->through + first, f->tile_samples, x->bound + first);
 }
 
-bool dp_xray_peel(dp_xray *x, dp_tile *w, uint32_t index, uint32_t worker, uint32_t k) {
+/* Draws what lies behind the bounds of the tile that is open. */
+static bool peel(dp_xray *x, dp_tile *w, uint32_t worker) {
     const size_t samples = w->frame->tile_samples;
     const bool finds_edges = w->finds_edges, tests_near_depth = w->tests_near_depth;
     float *const depth = x->scratch + worker * samples;
+    for (size_t i = 0; i < samples; i++) depth[i] = DP_DEPTH_EMPTY;
     w->finds_edges = w->tests_near_depth = false;
-    dp_tile_open(w, index);
+    w->depth = depth;
+    w->bound = x->bound + first_sample(x, w, worker);
+    w->nearest_bound = x->nearest[w->index];
     w->won = w->deeper = 0;
-    if (x->layers[k - 1].tiles[index] == 2) {
-        for (size_t i = 0; i < samples; i++) depth[i] = DP_DEPTH_EMPTY;
-        w->depth = depth;
-        w->bound = x->bound + first_sample(x, w, worker);
-        w->nearest_bound = x->nearest[index];
-        dp_tile_assemble_fronts(w);
-        w->bound = NULL;
-    }
+    dp_tile_assemble_fronts(w);
+    w->bound = NULL;
     w->finds_edges = finds_edges, w->tests_near_depth = tests_near_depth;
     return w->won;
 }
 
+bool dp_xray_peel(dp_xray *x, dp_tile *w, uint32_t index, uint32_t worker, uint32_t k) {
+    dp_tile_open(w, index);
+    return x->layers[k - 1].tiles[index] == 2 && peel(x, w, worker);
+}
+
+void dp_xray_count_lost(dp_xray *x, const dp_tile *w, uint32_t worker) {
+    const dp_span s = dp_span_of_tile(w->frame, w->index);
+    const uint32_t samples = w->frame->target.samples;
+    for (uint32_t y = s.y0; y < s.y1; y++) {
+        const float *const depth = w->depth + dp_pixel_lane(&w->sampling, 0, y - s.y0);
+        for (uint32_t i = 0; i < (s.x1 - s.x0) * samples; i++)
+            x->lost[worker] += depth[i] > DP_DEPTH_EMPTY;
+    }
+}
+
 void dp_xray_peel_all(dp_xray *x, dp_tile *w, uint32_t worker) {
-    const uint32_t index = w->index;
-    for (uint32_t k = 1; x->layers[k - 1].tiles[index] == 2 && !w->failed; k++) {
-        if (!dp_xray_peel(x, w, index, worker, k)) return;
+    for (uint32_t k = 1; x->layers[k - 1].tiles[w->index] == 2 && !w->failed; k++) {
+        if (!peel(x, w, worker)) return; /* winners are not asked for */
         if (k == x->most) {
             dp_xray_count_lost(x, w, worker);
             return;
         }
         dp_xray_take(x, w, worker, k);
     }
-}
-
-void dp_xray_count_lost(dp_xray *x, const dp_tile *w, uint32_t worker) {
-    const dp_span s = dp_span_of_tile(w->frame, w->index);
-    for (uint32_t y = s.y0; y < s.y1; y++)
-        x->lost[worker] += count_covered(w->winner + dp_pixel_lane(&w->sampling, 0, y - s.y0),
-                                         (s.x1 - s.x0) * w->frame->target.samples);
 }
 
 void dp_xray_take_colors(dp_xray *x, const dp_frame *f, uint32_t index, uint32_t k) {

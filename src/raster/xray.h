@@ -76,9 +76,9 @@ void dp_xray_settle(dp_xray *xray, const dp_frame *frame);
 /* Takes the colours of a tile's part of layer k from the target. */
 void dp_xray_take_colors(dp_xray *xray, const dp_frame *frame, uint32_t index, uint32_t k);
 
-/* Weights of layer k in n pixels of a row, from (x, y) on. */
-void dp_xray_weights(const dp_xray *xray, const dp_frame *frame, uint32_t k, uint32_t x, uint32_t y,
-                     uint32_t n, float *out);
+/* Weights of layer k in n pixels of a row of a tile. */
+void dp_xray_weights(const dp_xray *xray, const dp_frame *frame, uint32_t k, uint32_t tile,
+                     uint32_t row, uint32_t n, float *out);
 
 /* A tile's pixels within the picture, px. */
 typedef struct dp_span {

@@ -259,7 +259,7 @@ void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
         worker->failed = true;
         return;
     }
-    if (!count && !k->xray) return;
+    if (!count && !(k->xray && k->xray->layers[0].tiles[tile])) return;
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
     const bool empty = frame->tile_pieces[tile].empty;

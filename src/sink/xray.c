@@ -40,7 +40,7 @@ void dp_xray_paper(const dp_xray *x, const dp_frame *f, uint32_t tile, dp_xray_t
         if (!x->layers[k].tiles[tile]) continue;
         for (uint32_t y = s.y0; y < s.y1; y++) {
             float weight[DP_TILE];
-            dp_xray_weights(x, f, k, s.x0, y, s.x1 - s.x0, weight);
+            dp_xray_weights(x, f, k, tile, y - s.y0, s.x1 - s.x0, weight);
             float *const left = out->weight + (size_t)(y - s.y0) * DP_TILE;
             for (uint32_t i = 0; i < s.x1 - s.x0; i++) left[i] -= weight[i];
         }
@@ -74,7 +74,7 @@ void dp_xray_lay(const dp_xray *x, const dp_frame *f, uint32_t tile, uint32_t k,
     for (uint32_t y = s.y0; y < s.y1; y++) {
         const size_t at = (size_t)y * f->target.width + s.x0;
         float weight[DP_TILE];
-        dp_xray_weights(x, f, k, s.x0, y, s.x1 - s.x0, weight);
+        dp_xray_weights(x, f, k, tile, y - s.y0, s.x1 - s.x0, weight);
         lay_row(out, (y - s.y0) * DP_TILE, s.x1 - s.x0, weight, x->plain ? NULL : l->rgba + 4 * at,
                 rgba);
     }
@@ -94,6 +94,13 @@ void dp_xray_blend(dp_xray_tile *t, uint32_t row, const float *coverage, uint64_
 
 static uint8_t rounded(float v) { return (uint8_t)(dp_minf(v, 255) + 0.5f); }
 
+static void put_pixel(const dp_xray_tile *t, uint32_t i, dp_color paper, uint8_t out[4]) {
+    const float alpha = t->alpha[i];
+    for (int c = 0; c < 3; c++)
+        out[c] = alpha > 0 ? rounded(t->rgb[c][i] / alpha) : (uint8_t)(paper >> (24 - 8 * c));
+    out[3] = rounded(255 * alpha);
+}
+
 void dp_xray_put(const dp_frame *f, uint32_t tile, const dp_xray_tile *from) {
     const dp_span s = dp_span_of_tile(f, tile);
     const dp_color paper = f->styles[0].paper;
@@ -101,11 +108,12 @@ void dp_xray_put(const dp_frame *f, uint32_t tile, const dp_xray_tile *from) {
         uint8_t *out = f->target.rgba + (size_t)y * f->target.rgba_stride + 4 * (size_t)s.x0;
         for (uint32_t x = s.x0; x < s.x1; x++, out += 4) {
             const uint32_t i = (y - s.y0) * DP_TILE + x - s.x0;
-            const float alpha = from->alpha[i];
-            for (int c = 0; c < 3; c++)
-                out[c] =
-                    alpha > 0 ? rounded(from->rgb[c][i] / alpha) : (uint8_t)(paper >> (24 - 8 * c));
-            out[3] = rounded(255 * alpha);
+            if (!(from->alpha[i] > 0.9999f)) {
+                put_pixel(from, i, paper, out);
+                continue;
+            }
+            for (int c = 0; c < 3; c++) out[c] = rounded(from->rgb[c][i]);
+            out[3] = 255;
         }
     }
 }
