@@ -102,6 +102,13 @@ dp_result dp_for_tiles(dp_context *context, dp_task *task, void *arg, double fro
 /* The passes of shading over all tiles, and of the edge map, if there are any (draw.c). */
 dp_result dp_shade_picture(dp_context *context, double from, double to, dp_diag *diag);
 
+/* Which lines are looked for behind surfaces: those asked for, or all that an x-ray shows
+ * (draw/xray.c). */
+void dp_begin_hidden(dp_frame *frame);
+
+/* The layer that is shaded next keeps its edge map's edges apart: they are ink on it (draw/xray.c). */
+void dp_take_edges(dp_context *context, uint32_t layer);
+
 /* Draws the layers of an x-ray behind the first one, if there is one (draw/xray.c). */
 dp_result dp_draw_layers(dp_context *context, double from, double to, dp_diag *diag);
 

@@ -87,22 +87,11 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
     return DP_OK;
 }
 
-/* Hidden lines: those asked for, or all that an x-ray shows. */
-static void begin_hidden(dp_frame *f) {
-    const dp_hidden *const h = &f->styles[0].hidden;
-    f->xray = 0;
-    for (uint32_t i = 0; i < f->style_count; i++)
-        if (f->styles[i].xray > 0 && f->styles[i].xray < 1) f->xray = f->styles[0].xray_layers;
-    f->hidden = f->xray ? f->xray : h->look ? h->levels : 0;
-    f->hidden_look = f->xray && !h->look ? DP_HIDDEN_SOLID : h->look;
-    f->hidden_smooth = h->smooth || (f->xray && !h->look);
-}
-
 /* What kernels need of the view, in float32. */
 static void begin_view(dp_frame *f) {
     const float size = (float)(1 / f->view.focal);
     f->lanes = dp_lanes_best();
-    begin_hidden(f);
+    dp_begin_hidden(f);
     f->culls_backs =
         f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
     f->nearly_edge_on = dp_nearly_edge_on(&f->view);
@@ -477,6 +466,7 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     if (!make_lines(c)) return out_of_memory(diag);
     c->stats.segments = c->drawing.count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
+    dp_take_edges(c, 0);
     if ((result = dp_shade_picture(c, FOUND, SHADED, diag)) ||
         (result = dp_draw_layers(c, SHADED, XRAYED, diag)))
         return result;

@@ -14,6 +14,16 @@
 
 #include "base/diag.h"
 
+void dp_begin_hidden(dp_frame *f) {
+    const dp_hidden *const h = &f->styles[0].hidden;
+    f->xray = 0;
+    for (uint32_t i = 0; i < f->style_count; i++)
+        if (f->styles[i].xray > 0 && f->styles[i].xray < 1) f->xray = f->styles[0].xray_layers;
+    f->hidden = f->xray ? f->xray : h->look ? h->levels : 0;
+    f->hidden_look = f->xray && !h->look ? DP_HIDDEN_SOLID : h->look;
+    f->hidden_smooth = h->smooth || (f->xray && !h->look);
+}
+
 static void peel_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     dp_xray *const x = &c->xray;
@@ -50,6 +60,11 @@ static dp_result out_of_memory(dp_diag *diag) {
     return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the layers of an x-ray");
 }
 
+void dp_take_edges(dp_context *c, uint32_t layer) {
+    const bool apart = c->frame.xray && c->frame.target.rgba && c->xray.edges;
+    c->shade.edges = apart ? c->xray.layers[layer].ink : NULL;
+}
+
 /* Peels and shades layer c->xray_layer; forgets it if it has no surface. */
 static dp_result draw_layer(dp_context *c, double from, double to, dp_diag *diag) {
     if (!dp_xray_add_layer(&c->xray, &c->frame)) return out_of_memory(diag);
@@ -58,6 +73,7 @@ static dp_result draw_layer(dp_context *c, double from, double to, dp_diag *diag
     if (result) return result;
     dp_xray_settle(&c->xray, &c->frame);
     if (!c->xray.shaded || c->xray.count == c->xray_layer) return DP_OK;
+    dp_take_edges(c, c->xray_layer);
     result = dp_shade_picture(c, from, to, diag);
     return result ? result : dp_for_tiles(c, take_colors, c, to, to, diag);
 }

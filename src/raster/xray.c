@@ -25,7 +25,8 @@
 
 static const dp_array layer_arrays[] = {
     DP_ARRAY(dp_xray_layer, tiles, tiles_cap), DP_ARRAY(dp_xray_layer, covered, covered_cap),
-    DP_ARRAY(dp_xray_layer, weight, weight_cap), DP_ARRAY(dp_xray_layer, rgba, rgba_cap)};
+    DP_ARRAY(dp_xray_layer, weight, weight_cap), DP_ARRAY(dp_xray_layer, rgba, rgba_cap),
+    DP_ARRAY(dp_xray_layer, ink, ink_cap)};
 static const dp_array arrays[] = {
     DP_ARRAY(dp_xray, nearest, nearest_cap), DP_ARRAY(dp_xray, bound, bound_cap),
     DP_ARRAY(dp_xray, through, through_cap), DP_ARRAY(dp_xray, scratch, scratch_cap),
@@ -78,6 +79,7 @@ bool dp_xray_begin(dp_xray *x, const dp_frame *f, uint32_t workers, bool shaded)
     x->count = 0;
     x->most = f->xray;
     x->shaded = shaded;
+    x->edges = shaded && f->styles[0].edge_map.detector && !f->styles[0].edge_map.hidden;
     x->uniform = f->style_count == 1 && !(f->styles[0].mirror.size > 0);
     x->plain = x->uniform && !shaded;
     x->color = surface & 0xff ? surface : f->styles[0].paper;
@@ -98,8 +100,10 @@ bool dp_xray_add_layer(dp_xray *x, const dp_frame *f) {
                                    dp_times(tile_count(f), DP_TILE * DP_TILE), 1)) ||
         (!x->uniform &&
          !dp_reserve(f->memory, &l->weight, &l->weight_cap, pixels, sizeof *l->weight)) ||
-        (!x->plain && !dp_reserve(f->memory, &l->rgba, &l->rgba_cap, dp_times(4, pixels), 1)))
+        (!x->plain && !dp_reserve(f->memory, &l->rgba, &l->rgba_cap, dp_times(4, pixels), 1)) ||
+        (x->edges && !dp_reserve(f->memory, &l->ink, &l->ink_cap, dp_times(4, pixels), 1)))
         return false;
+    if (x->edges) memset(l->ink, 0, 4 * pixels);
     memset(l->tiles, 0, tile_count(f));
     x->count++;
     return true;

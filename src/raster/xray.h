@@ -25,7 +25,8 @@ typedef struct dp_xray_layer {
     float *weight; /* [pixel] … share of the pixel's light that comes from it, 0 to 1 */
     uint8_t *rgba; /* [pixel][4] its colour, not premultiplied, where its weight is not 0; not used
                          where all layers have one colour */
-    size_t tiles_cap, covered_cap, weight_cap, rgba_cap;
+    uint8_t *ink;  /* [pixel][4] edges of its edge map, over it; where there is one */
+    size_t tiles_cap, covered_cap, weight_cap, rgba_cap, ink_cap;
 } dp_xray_layer;
 
 /* The layers of one picture. Zero is empty. */
@@ -33,7 +34,8 @@ typedef struct dp_xray {
     dp_xray_layer layers[DP_LEVELS];
     uint32_t count; /* layers that are there, of `most` */
     uint32_t most;
-    bool shaded;                 /* colours come from src/shade */
+    bool shaded;                 /* colours come from src/shade, … */
+    bool edges;                  /* … and edges of an edge map */
     bool uniform;                /* all surfaces are of one opacity: `through` is not used */
     bool plain;                  /* and all layers of one colour, … */
     dp_color color;              /* … this; each tile is peeled at once */

@@ -34,7 +34,7 @@ static void edges_row(dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1) {
     uint8_t *const out = s->frame->target.edge_map;
     if (out) dp_edge_map_store(&run, x1 - x0, out + 4 * ((size_t)y * g->width + x0));
     if (!s->colored || map->hidden) return;
-    uint8_t *const colors = s->shown + 4 * ((size_t)y * g->width + x0);
+    uint8_t *const colors = (s->edges ? s->edges : s->shown) + 4 * ((size_t)y * g->width + x0);
     for (uint64_t bits = run.strong; bits; bits &= bits - 1) {
         const uint32_t i = (uint32_t)__builtin_ctzll(bits);
         blend(colors + 4 * (size_t)i, map->inner, run.inner[i]);

@@ -2,7 +2,7 @@
  *
  *     paper; for each layer k, the last one first:
  *         ink of level k + 1, which lies below that layer and above the next one
- *         the layer's surfaces
+ *         the layer's surfaces, and the edges of its edge map
  *     ink of level 0
  *
  * With w(k) the weight of layer k in a pixel, t(k) = 1 - w(0) - … - w(k - 1) is what the layers
@@ -64,6 +64,21 @@ static void lay_row(dp_xray_tile *out, uint32_t first, uint32_t n, const float *
     }
 }
 
+/* Lays ink over pixel i. */
+static inline void blend(dp_xray_tile *t, uint32_t i, const float rgba[4], float coverage) {
+    const float ink = coverage * rgba[3], of = ink * t->weight[i];
+    for (int c = 0; c < 3; c++) t->rgb[c][i] = t->rgb[c][i] * (1 - ink) + rgba[c] * of;
+    t->alpha[i] = t->alpha[i] * (1 - ink) + of;
+}
+
+/* A row of a layer's edge map. */
+static void ink_edges(dp_xray_tile *out, uint32_t first, uint32_t n, const uint8_t *ink) {
+    for (uint32_t i = 0; i < n; i++, ink += 4) {
+        const float rgba[4] = {ink[0], ink[1], ink[2], (float)ink[3] / 255};
+        if (ink[3]) blend(out, first + i, rgba, 1);
+    }
+}
+
 void dp_xray_lay(const dp_xray *x, const dp_frame *f, uint32_t tile, uint32_t k,
                  dp_xray_tile *out) {
     if (k >= x->count || !x->layers[k].tiles[tile]) return;
@@ -77,6 +92,7 @@ void dp_xray_lay(const dp_xray *x, const dp_frame *f, uint32_t tile, uint32_t k,
         dp_xray_weights(x, f, k, tile, y - s.y0, s.x1 - s.x0, weight);
         lay_row(out, (y - s.y0) * DP_TILE, s.x1 - s.x0, weight, x->plain ? NULL : l->rgba + 4 * at,
                 rgba);
+        if (x->edges) ink_edges(out, (y - s.y0) * DP_TILE, s.x1 - s.x0, l->ink + 4 * at);
     }
 }
 
@@ -85,10 +101,8 @@ void dp_xray_blend(dp_xray_tile *t, uint32_t row, const float *coverage, uint64_
     float rgba[4];
     to_floats(color, rgba);
     for (uint64_t bits = pixels; bits; bits &= bits - 1) {
-        const uint32_t px = (uint32_t)__builtin_ctzll(bits), i = row * DP_TILE + px;
-        const float ink = coverage[px] * rgba[3], of = ink * t->weight[i];
-        for (int c = 0; c < 3; c++) t->rgb[c][i] = t->rgb[c][i] * (1 - ink) + rgba[c] * of;
-        t->alpha[i] = t->alpha[i] * (1 - ink) + of;
+        const uint32_t px = (uint32_t)__builtin_ctzll(bits);
+        blend(t, row * DP_TILE + px, rgba, coverage[px]);
     }
 }
 

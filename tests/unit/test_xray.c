@@ -478,6 +478,37 @@ static void every_look_is_drawn_layer_by_layer(void **state) {
     }
 }
 
+/* Edges of a layer's edge map are ink on it: the layers above fade them, its own opacity does not. */
+static void edge_maps_are_ink_on_their_layers(void **state) {
+    static canvas alone;
+    const dp_camera flat = scene_flat_camera();
+    dp_style style = {.lines = DP_NO_LINES, .surface = surface, .paper = paper};
+    size_t hidden = 0, shown_edges = 0;
+    (void)state;
+    style.edge_map.detector = DP_EDGE_MAP_DIAGONAL;
+    style.edge_map.profile = DP_RGB(255, 0, 255);
+    made.corners = made.polygons = 0;
+    scene_wall(&made, -20, 0, 50, 0, 20);
+    draw_on(&alone, &flat, &style, 4);
+    scene_wall(&made, -60, 20, 30, 20, 50);
+    style.xray = 0.45f;
+    draw_on(&first, &flat, &style, 4);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            const uint8_t *const p = pixel_of(&alone, x, y), *const q = pixel_of(&first, x, y);
+            if (p[0] != 255 || p[1] || p[2] != 255) continue;
+            if (x > W / 2 + 32) {
+                assert_memory_equal(p, q, 4);
+                shown_edges++;
+            } else if (x < W / 2 + 28) {
+                assert_true(fabs(over(200, 255, 0.45) - q[0]) <= 1);
+                assert_true(fabs(over(120, 0, 0.45) - q[1]) <= 1);
+                hidden++;
+            }
+        }
+    assert_true(hidden > 50 && shown_edges > 30);
+}
+
 /* ------- groups ------- */
 
 static void put_polygon(size_t i) {
@@ -635,6 +666,7 @@ int main(void) {
         cmocka_unit_test(sheets_from_behind_count_where_they_are_seen),
         cmocka_unit_test(visible_lines_stay),
         cmocka_unit_test(every_look_is_drawn_layer_by_layer),
+        cmocka_unit_test(edge_maps_are_ink_on_their_layers),
         cmocka_unit_test(groups_have_opacities_of_their_own),
         cmocka_unit_test(lines_fade_by_the_groups_before_them),
         cmocka_unit_test(threads_and_vectors_make_no_difference),
