@@ -53,6 +53,7 @@ struct dp_context {
     int shade_pass;          /* the one that runs */
     dp_xray xray;            /* layers of surfaces that are seen through */
     uint32_t xray_layer;     /* the one that is drawn */
+    dp_target xray_target;   /* the picture's, while layers are shaded */
     dp_mirror_store mirror;
     dp_bin_worker *bin_workers; /* [workers] */
     dp_finder *finders;         /* [workers] */
@@ -106,8 +107,9 @@ dp_result dp_shade_picture(dp_context *context, double from, double to, dp_diag 
  * (draw/xray.c). */
 void dp_begin_hidden(dp_frame *frame);
 
-/* The layer that is shaded next keeps its edge map's edges apart: they are ink on it (draw/xray.c). */
-void dp_take_edges(dp_context *context, uint32_t layer);
+/* What is shaded next is that layer of an x-ray, if there is one, up to dp_draw_layers' end; edges of its
+ * edge map are kept apart: they are ink on it (draw/xray.c). */
+void dp_shade_layer(dp_context *context, uint32_t layer);
 
 /* Draws the layers of an x-ray behind the first one, if there is one (draw/xray.c). */
 dp_result dp_draw_layers(dp_context *context, double from, double to, dp_diag *diag);

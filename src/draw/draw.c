@@ -466,7 +466,7 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     if (!make_lines(c)) return out_of_memory(diag);
     c->stats.segments = c->drawing.count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
-    dp_take_edges(c, 0);
+    dp_shade_layer(c, 0);
     if ((result = dp_shade_picture(c, FOUND, SHADED, diag)) ||
         (result = dp_draw_layers(c, SHADED, XRAYED, diag)))
         return result;

@@ -1,14 +1,13 @@
 /* An x-ray's layers, one after the other, between the tiles and the ink.
  *
  *     layer 0 was taken as each tile was found (draw.c), and where all surfaces are of one colour and
- *         opacity all others, too; its colours, where it is shaded, now
+ *         opacity all others, too
  *     for each next layer, until there is none:
  *         all tiles: peel it, fill the G-buffer with it              raster/xray.c, gbuffer/fill.c
- *         shade it as a picture of its own                           shade/passes.c
- *         take its colours from the target
+ *         shade it as a picture of its own, into the layer           shade/passes.c
  *     once more, to count the samples that have still more layers
  *
- * The target is scratch until the layers are put together (sink/xray.c). Invariant: the target's
+ * They are put together when they are inked (sink/xray.c). Invariant: the target's
  * other planes are those of the nearest surface, as in any picture. */
 #include "draw/context.h"
 
@@ -29,9 +28,13 @@ static void peel_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_xray *const x = &c->xray;
     dp_tile *const w = &c->finders[worker].tile;
     const uint32_t k = c->xray_layer;
-    if (!x->shaded && x->layers[k - 1].tiles[index] < 2) return;
-    if (dp_xray_peel(x, w, index, worker, k)) dp_xray_take(x, w, worker, k);
+    const bool any = dp_xray_peel(x, w, index, worker, k);
+    if (any) dp_xray_take(x, w, worker, k);
     if (!x->shaded) return;
+    if (!any) {
+        dp_gbuffer_clear(&c->shade.gbuffer, index);
+        return;
+    }
     dp_gbuffer_fill(&c->shade.gbuffer, w, c->frame.styles[0].shade.normals);
     dp_shade_at_once(&c->shade, index);
 }
@@ -39,15 +42,8 @@ static void peel_tile(void *arg, uint32_t index, uint32_t worker) {
 static void count_lost(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     dp_tile *const w = &c->finders[worker].tile;
-    if (c->xray.layers[c->xray_layer - 1].tiles[index] &&
-        dp_xray_peel(&c->xray, w, index, worker, c->xray_layer))
+    if (dp_xray_peel(&c->xray, w, index, worker, c->xray_layer))
         dp_xray_count_lost(&c->xray, w, worker);
-}
-
-static void take_colors(void *arg, uint32_t index, uint32_t worker) {
-    dp_context *const c = arg;
-    (void)worker;
-    dp_xray_take_colors(&c->xray, &c->frame, index, c->xray_layer);
 }
 
 static bool any_failed(const dp_context *c) {
@@ -60,9 +56,13 @@ static dp_result out_of_memory(dp_diag *diag) {
     return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the layers of an x-ray");
 }
 
-void dp_take_edges(dp_context *c, uint32_t layer) {
-    const bool apart = c->frame.xray && c->frame.target.rgba && c->xray.edges;
-    c->shade.edges = apart ? c->xray.layers[layer].ink : NULL;
+void dp_shade_layer(dp_context *c, uint32_t layer) {
+    dp_target *const t = &c->frame.target;
+    if (!layer) c->xray_target = *t;
+    c->shade.edges = NULL;
+    if (!c->frame.xray || !t->rgba || !c->xray.shaded) return;
+    t->rgba = c->xray.layers[layer].rgba, t->rgba_stride = 4 * (size_t)t->width;
+    if (c->xray.edges) c->shade.edges = c->xray.layers[layer].ink;
 }
 
 /* Peels and shades layer c->xray_layer; forgets it if it has no surface. */
@@ -73,9 +73,8 @@ static dp_result draw_layer(dp_context *c, double from, double to, dp_diag *diag
     if (result) return result;
     dp_xray_settle(&c->xray, &c->frame);
     if (!c->xray.shaded || c->xray.count == c->xray_layer) return DP_OK;
-    dp_take_edges(c, c->xray_layer);
-    result = dp_shade_picture(c, from, to, diag);
-    return result ? result : dp_for_tiles(c, take_colors, c, to, to, diag);
+    dp_shade_layer(c, c->xray_layer);
+    return dp_shade_picture(c, from, to, diag);
 }
 
 static dp_result draw_layers(dp_context *c, double from, double to, dp_diag *diag) {
@@ -91,17 +90,14 @@ static dp_result draw_layers(dp_context *c, double from, double to, dp_diag *dia
 
 dp_result dp_draw_layers(dp_context *c, double from, double to, dp_diag *diag) {
     dp_target *const t = &c->frame.target;
-    const dp_target whole = *t;
     dp_result result = DP_OK;
     if (!c->frame.xray || !t->rgba) return DP_OK;
-    c->xray_layer = 0;
-    if (c->xray.shaded) result = dp_for_tiles(c, take_colors, c, from, from, diag);
     t->edge_map = NULL, t->depth = t->normal = t->eye_normal = t->distance = NULL, t->id = NULL;
     if (c->xray.plain)
         dp_xray_settle(&c->xray, &c->frame);
-    else if (!result)
+    else
         result = draw_layers(c, from, to, diag);
-    *t = whole;
+    *t = c->xray_target;
     c->stats.xray_layers = c->xray.count;
     for (uint32_t i = 0; i < c->workers; i++) c->stats.xray_lost += c->xray.lost[i];
     return result;

@@ -225,8 +225,9 @@ static bool peel(dp_xray *x, dp_tile *w, uint32_t worker) {
 }
 
 bool dp_xray_peel(dp_xray *x, dp_tile *w, uint32_t index, uint32_t worker, uint32_t k) {
+    if (x->layers[k - 1].tiles[index] < 2) return false;
     dp_tile_open(w, index);
-    return x->layers[k - 1].tiles[index] == 2 && peel(x, w, worker);
+    return peel(x, w, worker);
 }
 
 void dp_xray_count_lost(dp_xray *x, const dp_tile *w, uint32_t worker) {
@@ -248,13 +249,4 @@ void dp_xray_peel_all(dp_xray *x, dp_tile *w, uint32_t worker) {
         }
         dp_xray_take(x, w, worker, k);
     }
-}
-
-void dp_xray_take_colors(dp_xray *x, const dp_frame *f, uint32_t index, uint32_t k) {
-    const dp_target *const t = &f->target;
-    const dp_span s = dp_span_of_tile(f, index);
-    if (!x->layers[k].tiles[index]) return;
-    for (uint32_t y = s.y0; y < s.y1; y++)
-        memcpy(x->layers[k].rgba + 4 * ((size_t)y * t->width + s.x0),
-               t->rgba + (size_t)y * t->rgba_stride + 4 * (size_t)s.x0, 4 * (size_t)(s.x1 - s.x0));
 }

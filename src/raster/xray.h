@@ -52,8 +52,7 @@ typedef struct dp_xray {
 void dp_xray_free(dp_xray *xray, const dp_allocator *memory);
 uint64_t dp_xray_bytes(const dp_xray *xray);
 
-/* Begins a picture, and its first layer. `shaded`: colours are put by dp_xray_take_colors. False:
- * out of memory. */
+/* Begins a picture, and its first layer. `shaded`: src/shade puts the colours. False: out of memory. */
 bool dp_xray_begin(dp_xray *xray, const dp_frame *frame, uint32_t workers, bool shaded);
 
 /* Makes room for the next layer, `count`; false: out of memory. */
@@ -63,7 +62,7 @@ bool dp_xray_add_layer(dp_xray *xray, const dp_frame *frame);
 void dp_xray_take(dp_xray *xray, const struct dp_tile *tile, uint32_t worker, uint32_t k);
 
 /* Draws a tile's part of layer k, which is not the first: the samples hold it then. Returns whether
- * there is any. Where there was nothing in the layer before, no sample holds anything. */
+ * there is any. */
 bool dp_xray_peel(dp_xray *xray, struct dp_tile *tile, uint32_t index, uint32_t worker, uint32_t k);
 
 /* Counts the tile's samples that hold something beyond the last layer. */
@@ -74,9 +73,6 @@ void dp_xray_peel_all(dp_xray *xray, struct dp_tile *tile, uint32_t worker);
 
 /* Forgets layers without any surface. */
 void dp_xray_settle(dp_xray *xray, const dp_frame *frame);
-
-/* Takes the colours of a tile's part of layer k from the target. */
-void dp_xray_take_colors(dp_xray *xray, const dp_frame *frame, uint32_t index, uint32_t k);
 
 /* Weights of layer k in n pixels of a row of a tile. */
 void dp_xray_weights(const dp_xray *xray, const dp_frame *frame, uint32_t k, uint32_t tile,

@@ -179,8 +179,8 @@ static void layers_are_counted(void **state) {
     frame.step_scale = 0.01f, frame.step_offset = 0.5f;
     tile.frame = &frame, tile.depth = depth;
     for (size_t i = 0; i < MOST; i++)
-        depth[i] = random_number(&seed) < 0.4 ? DP_DEPTH_EMPTY
-                                              : (float)(200 * random_number(&seed) - 100);
+        depth[i] =
+            random_number(&seed) < 0.4 ? DP_DEPTH_EMPTY : (float)(200 * random_number(&seed) - 100);
     for (int s = 0; s < 4; s++) {
         frame.tile_samples = (size_t)PIXELS * samples[s], tile.sampling.samples = samples[s];
         const float truth = dp_raster_kernels_plain.layer(&tile, covered[0], bound[0]);
@@ -317,17 +317,16 @@ static void lines_need_no_pixels(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ink_lies_between_surfaces),
-        cmocka_unit_test(segments_fade_by_level),
-        cmocka_unit_test(visible_lines_stay),
-        cmocka_unit_test(lines_fade_by_the_groups_before_them),
-        cmocka_unit_test(every_look_is_drawn_layer_by_layer),
-        cmocka_unit_test(edge_maps_are_ink_on_their_layers),
-        cmocka_unit_test(layers_are_counted),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(threads_and_vectors_make_no_difference),
-        cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(lines_need_no_pixels)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ink_lies_between_surfaces),
+                                       cmocka_unit_test(segments_fade_by_level),
+                                       cmocka_unit_test(visible_lines_stay),
+                                       cmocka_unit_test(lines_fade_by_the_groups_before_them),
+                                       cmocka_unit_test(every_look_is_drawn_layer_by_layer),
+                                       cmocka_unit_test(edge_maps_are_ink_on_their_layers),
+                                       cmocka_unit_test(layers_are_counted),
+                                       cmocka_unit_test(every_allocation_may_fail),
+                                       cmocka_unit_test(threads_and_vectors_make_no_difference),
+                                       cmocka_unit_test(what_cannot_be_is_refused),
+                                       cmocka_unit_test(lines_need_no_pixels)};
     return cmocka_run_group_tests(tests, make_context, destroy_context);
 }

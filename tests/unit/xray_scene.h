@@ -17,7 +17,7 @@ typedef struct canvas {
 static canvas first;
 
 static inline dp_stats draw_on(canvas *c, const dp_camera *camera, const dp_style *style,
-                        uint32_t samples) {
+                               uint32_t samples) {
     dp_batch batch = scene_batch(&made);
     if (made.corners == 3 * made.polygons) batch.firsts = NULL; /* triangles have kernels */
     const dp_target target = {.width = W,
@@ -36,7 +36,9 @@ static inline dp_stats draw_on(canvas *c, const dp_camera *camera, const dp_styl
     return stats;
 }
 
-static inline const uint8_t *pixel_of(const canvas *c, int x, int y) { return c->rgba + 4 * (y * W + x); }
+static inline const uint8_t *pixel_of(const canvas *c, int x, int y) {
+    return c->rgba + 4 * (y * W + x);
+}
 
 static const dp_color surface = DP_RGB(200, 120, 40), paper = DP_RGB(240, 250, 230);
 static float opacities[SCENE_POLYGONS];
@@ -56,8 +58,8 @@ static inline void put_polygon(size_t i) {
     dp_end(context);
 }
 
-static inline dp_stats draw_groups(canvas *c, const dp_camera *camera, const dp_style *picture_style,
-                            uint32_t samples) {
+static inline dp_stats draw_groups(canvas *c, const dp_camera *camera,
+                                   const dp_style *picture_style, uint32_t samples) {
     const dp_target target = {.width = W,
                               .height = H,
                               .samples = samples,
