@@ -1,6 +1,7 @@
 /* What the options must say, and what they cannot say together. No option is ignored without a
  * message. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -110,6 +111,16 @@ static bool check_sheet(const tool_settings *s) {
     return true;
 }
 
+static bool check_motion(const tool_settings *s) {
+    if (s->morph && s->model_count > 1)
+        return wrong_usage(
+            "--morph blends one model with another, but %u are given; leave the others "
+            "out",
+            s->model_count);
+    return true;
+}
+
 bool options_check(const tool_settings *s) {
-    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) && check_sheet(s);
+    return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
+           check_sheet(s) && check_motion(s) && film_check(s);
 }

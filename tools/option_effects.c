@@ -4,6 +4,7 @@
  * The rules are data: what must be so for some options to count, and what to say if it is not. An
  * option is told of by the first rule that it breaks. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -91,6 +92,13 @@ static bool has_normals(const tool_settings *s) {
     return is_shaded(s) || makes_map(s) || s->outputs[PLANE_NORMALS] || has_smooth(s);
 }
 
+static bool has_morph(const tool_settings *s) { return s->morph != NULL; }
+/* Only breathing begins at rest. */
+static bool is_deformed(const tool_settings *s) {
+    return s->command == COMMAND_BENCH || s->deform.kind != DP_DEFORM_BREATHE ||
+           (s->has_time && (s->time[0] != 0 || s->time[1] != 0));
+}
+
 static bool is_terrain(const tool_settings *s) { return !strcmp(s->model, "terrain"); }
 
 /* ---- the rules ---- */
@@ -165,6 +173,9 @@ static const rule drawing_rules[] = {
     {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
     {"json", is_listing,
      "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
+    {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
+    {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
+    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

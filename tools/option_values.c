@@ -466,6 +466,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_angles(o, value, to);
     case OPTION_TIME:
         return store_time(o, value, to);
+    case OPTION_DEFORM:
+        return store_deform(o, value, to);
     case OPTION_PLANE:
         return store_plane(o, value, settings);
     case OPTION_OUTPUT:

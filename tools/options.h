@@ -203,11 +203,20 @@ typedef struct tool_settings {
 
     double time[2]; /* s: from and to, the same for a picture */
     bool has_time;
+    const char *animation; /* name or number, from 1; "none" */
+    dp_deform deform;
+    const char *morph; /* a model */
+    double blend;
+    bool has_deform, has_blend;
+    double fps, turn; /* turn: degrees */
+    const char *path; /* of the camera: a file */
+    uint32_t frame, jobs;
+    bool has_turn, has_frame, resume;
 
     stats_kind stats;
     bool json, quiet;
     double read_time; /* s */
-    uint32_t frames;
+    uint32_t frames;  /* of a film, or of bench */
     uint64_t triangles;
     double shape_size;
     uint32_t seed;
@@ -224,6 +233,7 @@ typedef enum option_kind {
     OPTION_UP,            /* double[3]: a direction, or the word for one */
     OPTION_ANGLES,        /* double[2] */
     OPTION_TIME,          /* double[2]: a time, s, or from and to */
+    OPTION_DEFORM,        /* dp_deform */
     OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
     OPTION_OUTPUT,        /* tool_settings.files, .outputs, or of make .output */
     OPTION_WORD,          /* int: which of the argument's words */
@@ -308,6 +318,8 @@ bool store_list(const option *o, const char *value, text_list *to);
 void option_lists_free(tool_settings *s);
 /* Is none of the names in [text, end), with commas between, empty? */
 bool option_names_check(const char *name, const char *text, const char *end);
+/* KIND:NAME=VALUE,... (deform.c). */
+bool store_deform(const option *o, const char *value, dp_deform *to);
 
 /* Reads a plain decimal number, and nothing else, up to `end`. */
 bool read_number(const char *text, const char *end, double *number);

@@ -20,9 +20,10 @@ typedef struct dp_recording dp_recording; /* immediate.c */
 
 /* A mirror's own memory (mirror.c). Zero is empty. */
 typedef struct dp_mirror_store {
-    dp_normal_store normals; /* of the reflected scene */
-    uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
-    float *distance;         /* the same, INFINITY: paper */
+    struct dp_reflection *reflection; /* its sources */
+    dp_normal_store normals;          /* of the reflected scene */
+    uint8_t *rgba;                    /* what is seen in the mirror, over the whole picture */
+    float *distance;                  /* the same, INFINITY: paper */
     size_t rgba_cap, distance_cap;
 } dp_mirror_store;
 

@@ -349,12 +349,18 @@ static bool make_normals(dp_context *c, dp_source *source) {
     return true;
 }
 
+/* What is made of a model that moves is made again in each frame, and keeps its scratch. */
+static void expect_motion(dp_context *c, bool moves) {
+    c->normals.moves = c->smooth.edges.moves = c->shade.pencil.curvature.moves = moves;
+}
+
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
     dp_result result = gather(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, since, diag);
+    expect_motion(c, source->moves);
     if (f->styles[0].smooth && (result = dp_smooth_frame(c, source, diag))) return result;
     c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
@@ -441,9 +447,9 @@ static dp_result ink(dp_context *c, double from, dp_diag *diag) {
     return dp_hand_over(&c->frame, inking.drawing, &sink, diag);
 }
 
-static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
-    double since = now_ms();
-    const double start = since;
+/* start: when reading the source began. */
+static dp_result draw_stages(dp_context *c, dp_source *source, double start, dp_diag *diag) {
+    double since = start;
     c->shade.source = source;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
@@ -459,9 +465,9 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     return DP_OK;
 }
 
-static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+static dp_result draw(dp_context *c, dp_source *source, double start, dp_diag *diag) {
     const double from = c->share_from;
-    const dp_result result = draw_stages(c, source, diag);
+    const dp_result result = draw_stages(c, source, start, diag);
     c->share_from = from;
     dp_stream_free(c->stream);
     c->stream = NULL;
@@ -505,9 +511,10 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);
     dp_result result = dp_check_target(target, &f->target, diag);
+    const double start = now_ms();
     if (!result) result = init_view(f, source, camera, diag);
     if (!result) begin_view(f);
-    if (!result) result = draw(c, source, diag);
+    if (!result) result = draw(c, source, start, diag);
     if (result) c->drawing.count = 0;
     c->drawn = !result;
     f->styles = NULL; /* borrowed for this call only */

@@ -20,10 +20,12 @@ static const dp_array arrays[] = {DP_ARRAY(dp_mirror_store, rgba, rgba_cap),
 void dp_mirror_store_free(dp_mirror_store *store, const dp_allocator *memory) {
     dp_normal_store_free(&store->normals, memory);
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+    dp_reflection_free(store->reflection);
 }
 
 uint64_t dp_mirror_store_bytes(const dp_mirror_store *store) {
-    return dp_normal_store_bytes(&store->normals) + dp_arrays_bytes(store, DP_ARRAYS(arrays));
+    return dp_normal_store_bytes(&store->normals) + dp_arrays_bytes(store, DP_ARRAYS(arrays)) +
+           dp_reflection_bytes(store->reflection);
 }
 
 /* The plane, its normal turned to the eye. */
@@ -107,6 +109,13 @@ static void tint_row(void *arg, uint32_t y, uint32_t worker) {
     }
 }
 
+/* The scene's normals and the reflected one's. */
+static void exchange_normals(dp_context *c) {
+    const dp_normal_store other = c->mirror.normals;
+    c->mirror.normals = c->normals;
+    c->normals = other;
+}
+
 /* Fills the context's mirror picture. */
 static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *camera,
                             dp_style *styles, uint32_t style_count, const dp_target *target,
@@ -123,18 +132,13 @@ static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *c
                              .samples = target->samples,
                              .rgba = c->mirror.rgba,
                              .distance = fades ? c->mirror.distance : NULL};
-    dp_source *other = NULL;
-    dp_result result = dp_reflect_source(source, plane, &c->memory, &other, diag);
-    if (result) return result;
-    const dp_normal_store own = c->normals;
+    dp_source *const other = dp_reflect_source(c->mirror.reflection, source, plane);
     const dp_shade shade = style->shade;
-    c->normals = c->mirror.normals;
     reflect_light(camera, plane, style->shade.light);
-    result = dp_draw_groups(c, other, camera, styles, style_count, &image, diag);
+    exchange_normals(c);
+    const dp_result result = dp_draw_groups(c, other, camera, styles, style_count, &image, diag);
+    exchange_normals(c);
     style->shade = shade;
-    c->mirror.normals = c->normals;
-    c->normals = own;
-    dp_source_destroy(other);
     if (result) return result;
     tinting t = {.mirror = &style->mirror,
                  .plane = *plane,
@@ -152,7 +156,6 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
                            dp_diag *diag) {
     dp_view view;
     double corners[4][3];
-    dp_source *with_mirror = NULL;
     if (!dp_source_rewindable(source))
         return dp_fail(diag, DP_ERR_UNSUPPORTED, "a mirror needs a source that can be read twice");
     dp_target checked;
@@ -160,6 +163,9 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     if (result) return result;
     result = dp_view_init(&view, camera, target->width, target->height, diag);
     if (result) return result;
+    dp_reflection **const reflection = &c->mirror.reflection;
+    if (!*reflection && !(*reflection = dp_reflection_create(&c->memory)))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
     const dp_plane_equation plane = plane_of(&styles[0].mirror, &view);
     make_square(&styles[0].mirror, &plane, corners);
     c->share_to = 0.5; /* two pictures, of much the same work */
@@ -167,14 +173,12 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     c->share_to = 1;
     dp_forget_drawing(c); /* the image's is not the picture's */
     if (result) return result;
-    result = dp_add_quad_source(source, (const double(*)[3])corners, DP_MIRROR_GROUP, &c->memory,
-                                &with_mirror, diag);
-    if (result) return result;
+    dp_source *const with_mirror =
+        dp_add_quad_source(*reflection, source, (const double(*)[3])corners, DP_MIRROR_GROUP);
     c->share_from = 0.5;
     c->shade.mirrored = c->mirror.rgba;
     result = dp_draw_groups(c, with_mirror, camera, styles, style_count, target, diag);
     c->shade.mirrored = NULL;
     c->share_from = 0;
-    dp_source_destroy(with_mirror);
     return result;
 }
