@@ -6,6 +6,7 @@
 #include "draw.h"
 #include "film.h"
 #include "files.h"
+#include "look.h"
 #include "objects.h"
 #include "output.h"
 #include "page_ink.h"

@@ -12,9 +12,9 @@ typedef struct drawing {
     dp_context *context;
     dp_texture *texture;
     dp_style style;
-    dp_target target; /* planes of the only view; rgba is the whole page */
-    look_data look;
     object_styles objects; /* of those that have their own */
+    dp_target target;      /* planes of the only view; rgba is the whole page */
+    look_data look;
     page_plan plan;
     bool pixels, paths; /* what is wanted */
     bool lent;          /* target.rgba is not the drawing's own */

@@ -170,12 +170,12 @@ static const rule drawing_rules[] = {
     {"edge-sides|inner-angle|inner-softness|profile-softness", is_scaled,
      "--edge-measure paper has no thresholds and both sides; leave it out"},
 
-    {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
-    {"json", is_listing,
-     "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
     {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
     {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
     {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
+    {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
+    {"json", is_listing,
+     "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

@@ -313,13 +313,13 @@ bool store_margin(const option *o, const char *value, double to[4]);
 bool store_scale(const option *o, const char *value, tool_scale *to);
 bool store_sheet(const option *o, const char *value, tool_sheet *to);
 bool store_length(const option *o, const char *value, tool_length *to);
+/* KIND:NAME=VALUE,... (deform.c). */
+bool store_deform(const option *o, const char *value, dp_deform *to);
 /* Adds a value to an option's list (option_lists.c). */
 bool store_list(const option *o, const char *value, text_list *to);
 void option_lists_free(tool_settings *s);
 /* Is none of the names in [text, end), with commas between, empty? */
 bool option_names_check(const char *name, const char *text, const char *end);
-/* KIND:NAME=VALUE,... (deform.c). */
-bool store_deform(const option *o, const char *value, dp_deform *to);
 
 /* Reads a plain decimal number, and nothing else, up to `end`. */
 bool read_number(const char *text, const char *end, double *number);
