@@ -41,6 +41,9 @@ assert objects[2]["color"] == "#ff0000ff" and objects[0]["color"] is None
 assert objects[1]["min"] == [1.5, 0, 0] and objects[1]["polygons"] == 6' <out || fail "the JSON differs"
     run 0 colored.obj --list --only 'm*,right'
     [ "$(wc -l <out)" = 3 ] || fail "--list does not leave out what --only does"
+    run 0 colored.obj --list -o out.png --color red --time 0
+    says err 'warning: --output, --color change nothing: --list draws nothing'
+    absent out.png
     run 0 shape:cube --list
     says out '        12  -        (no name)'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\no a\033[31mb\nf 1 2 3\n' >sly.obj
