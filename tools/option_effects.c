@@ -251,9 +251,26 @@ static void check_angles(const tool_settings *s) {
              ridge, valley);
 }
 
+/* With --list only those count that say which model there is, and which objects of it. */
+static void warn_of_list(const tool_settings *s) {
+    static const char counting[] =
+        "list|json|object|only|without|explode|explode-axis|animation|time|"
+        "deform|morph|blend|memory|read-time|quiet";
+    names found = {0};
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (s->given[o - option_table] && !word_index(counting, o->name)) add_name(&found, o->name);
+    if (found.count)
+        warn("%s change%s nothing: --list draws nothing; leave it out to draw", found.text,
+             found.count == 1 ? "s" : "");
+}
+
 void options_warn(const tool_settings *s) {
     bool told[OPTIONS_MOST] = {false};
     if (s->quiet || s->command == COMMAND_INFO) return;
+    if (s->list) {
+        warn_of_list(s);
+        return;
+    }
     const bool making = s->command == COMMAND_MAKE;
     const rule *const rules = making ? making_rules : drawing_rules;
     const size_t count =
