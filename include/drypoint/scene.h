@@ -24,7 +24,8 @@
 extern "C" {
 #endif
 
-/* A node: a transform within its parent's. Of the matrix, or of translation * rotation * scale. */
+/* A node: a transform within its parent's. Of the matrix, or of translation * rotation * scale. A matrix
+ * of which a channel moves a part is split into these three while it does; its shear is lost then. */
 typedef struct dp_scene_node {
     const char *name;     /* NULL: none */
     uint32_t parent;      /* 1 + number of a node; 0: none. May come before or after; no circles */
@@ -52,7 +53,7 @@ typedef struct dp_scene_mesh {
      * all are 0, the vertex follows the first joint. */
     const uint16_t *joints; /* [vertex_count][influences] places in the skin's list, from 0 on */
     const float *weights;   /* [vertex_count][influences] */
-    uint32_t influences;    /* 0: the mesh cannot be skinned */
+    uint32_t influences;    /* 0: the mesh cannot be skinned, and follows its node */
 } dp_scene_mesh;
 
 /* Joints that move a mesh. */
@@ -64,7 +65,8 @@ typedef struct dp_scene_skin {
 } dp_scene_skin;
 
 /* A mesh in its place: at a node, or, with a skin, where the joints take it, whatever its node's
- * transform is (glTF 2.0, 3.7.3.3). Any number of instances may share a mesh. Each is a group,
+ * transform is (glTF 2.0, 3.7.3.3). Where that mirrors (of a skin, where most of it follows joints that do),
+ * corners are reversed. Any number of instances may share a mesh. Each is a group,
  * called "node/mesh"; those beyond 65536 share the last one. */
 typedef struct dp_scene_instance {
     uint32_t node, mesh;  /* 1 + numbers; node 0: none, as if at a node that is not moved */

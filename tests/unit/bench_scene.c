@@ -158,7 +158,7 @@ static void bench_skin(void) {
     static const double times[] = {0, 1};
     static const float turns[] = {0, 0, 0, 1, 0, 0.2f, 0, 0.98f};
     static const uint32_t joints[] = {1, 2, 3, 4};
-    const dp_batch part = shape_of("bolt", 640000);
+    const dp_batch part = shape_of("sphere", 200000);
     const size_t count = 4 * part.vertex_count;
     uint16_t *const numbers = malloc(count * sizeof *numbers);
     float *const weights = malloc(count * sizeof *weights);

@@ -176,6 +176,24 @@ static void polygons_of_all_kinds_lie_in_one_batch(void **state) {
     dp_source_destroy(source);
 }
 
+static void instances_beyond_the_last_group_share_it(void **state) {
+    (void)state;
+    enum { MANY = 65540 };
+    small *const s = new_small();
+    dp_scene_instance *const instances = calloc(MANY, sizeof *instances);
+    for (uint32_t i = 0; i < MANY; i++) instances[i] = (dp_scene_instance){.node = 2, .mesh = 1};
+    instances[MANY - 1].node = 0;
+    s->desc.instances = instances, s->desc.instance_count = MANY;
+    dp_source *const source = source_of(&s->desc);
+    const dp_batch batch = read_all(source);
+    assert_int_equal(batch.polygon_count, 2 * MANY);
+    assert_int_equal(batch.groups[2 * MANY - 1], 65535);
+    assert_int_equal(batch.groups[2 * 65534], 65534);
+    assert_string_equal(dp_source_group_name(source, 65535), "hand/plate");
+    dp_source_destroy(source);
+    free(instances);
+}
+
 static void far_scenes_have_an_origin(void **state) {
     (void)state;
     small *const s = new_small();
@@ -514,6 +532,7 @@ int main(void) {
         cmocka_unit_test(tables_are_copied_and_filled_in),
         cmocka_unit_test(mirrored_instances_keep_their_fronts),
         cmocka_unit_test(polygons_of_all_kinds_lie_in_one_batch),
+        cmocka_unit_test(instances_beyond_the_last_group_share_it),
         cmocka_unit_test(far_scenes_have_an_origin),
         cmocka_unit_test(channels_are_sampled),
         cmocka_unit_test(steps_hold_and_splines_bend),
