@@ -1,5 +1,5 @@
-/* bench_scene: what scenes cost, in processors' time. A thousand instances of a part, beside the same polygons in one array; and
- * a skinned model that moves, beside the same at rest. */
+/* bench_scene: what scenes cost, in processors' time. A thousand instances of a part, beside the
+ * same polygons in one array; and a skinned model that moves, beside the same at rest. */
 #include <drypoint/drypoint.h>
 
 #include <math.h>
