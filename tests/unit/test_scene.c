@@ -505,21 +505,25 @@ static void frames_allocate_nothing(void **state) {
     play(source, 1);
     dp_context *context;
     static uint8_t rgba[BYTES], first[BYTES];
-    const dp_context_desc desc = {.allocator = &allocator, .threads = 1};
+    meter drawing = {0};
+    const dp_allocator beside = {meter_alloc, meter_realloc, meter_free, &drawing};
+    const dp_context_desc desc = {.allocator = &beside, .threads = 1};
     assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+    const long made = m.calls;
     const double order[] = {0, 1, 0.5, 0.25, 0.75, 0, 1, 0.5, 0.25, 0.75, 0};
     long calls = 0;
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
         assert_int_equal(dp_source_set_time(source, order[i], NULL), DP_OK);
         assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
         if (i == 4)
-            calls = m.calls; /* each picture was drawn once: its lists are as long as ever */
+            calls = drawing.calls; /* each picture was drawn once: its lists are as long as ever */
         if (i == 0) memcpy(first, rgba, BYTES);
     }
     assert_memory_equal(rgba, first, BYTES);
-    assert_int_equal(m.calls, calls);
+    assert_int_equal(drawing.calls, calls);
     dp_context_destroy(context);
     assert_same_with_threads(source, first);
+    assert_int_equal(m.calls, made); /* a pose takes no memory at all */
     dp_source_destroy(source);
     assert_int_equal(m.alive, 0);
     free((void *)s->mesh.joints), free((void *)s->mesh.weights);
