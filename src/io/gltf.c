@@ -1,11 +1,12 @@
-/* glTF 2.0 (Khronos, ISO/IEC 12113): .gltf with its buffers in data: URIs or in files beside it, and .glb.
+/* glTF 2.0 (Khronos, ISO/IEC 12113): .gltf with its buffers in data: URIs or in files beside it,
+ * and .glb.
  *
- * The file is read whole, its JSON parsed, and what is drawn of it made into tables of a scene, which
- * dp_source_from_scene copies. Nothing in the file is trusted: numbers of objects and bytes are checked
- * where they are used, and messages name the object, by its number from 0 on.
+ * The file is read whole, its JSON parsed, and what is drawn of it made into tables of a scene,
+ * which dp_source_from_scene copies. Nothing in the file is trusted: numbers of objects and
+ * bytes are checked where they are used, and messages name the object, by its number from 0 on.
  *
- * Not handled: glTF 1.0, and meshes that are compressed (Draco, meshopt): DP_ERR_UNSUPPORTED, so that
- * Assimp may try; materials but for their colours; cameras and lights. */
+ * Not handled: glTF 1.0, and meshes that are compressed (Draco, meshopt): DP_ERR_UNSUPPORTED, so
+ * that Assimp may try; materials but for their colours; cameras and lights. */
 #include "io/gltf.h"
 
 #include "io/readers.h"
@@ -49,6 +50,7 @@ static bool open_binary(dp_gltf *g, dp_gltf_bytes *json) {
     if (!next_chunk(g, &at, &kind, json) || kind != json_kind)
         return dp_gltf_fail(g, DP_ERR_FORMAT,
                             "its first chunk is not JSON, or is cut off: the file is damaged");
+    while (json->size && !json->data[json->size - 1]) json->size--; /* some fill up with zeros */
     while (!g->chunk.data && next_chunk(g, &at, &kind, &chunk))
         if (kind == bin_kind) g->chunk = chunk;
     return true;
@@ -94,8 +96,7 @@ static bool has_text(const dp_json *list, const char *text) {
 /* Extensions without which vertices cannot be read. */
 static bool check_extensions(dp_gltf *g) {
     static const char *const compressed[] = {"KHR_draco_mesh_compression",
-                                             "EXT_meshopt_compression", "KHR_meshopt_compression",
-                                             "MESHOPT_compression"};
+                                             "EXT_meshopt_compression", "KHR_meshopt_compression"};
     const dp_json *required;
     if (!dp_gltf_member(g, g->root, "extensionsRequired", DP_JSON_ARRAY, &required)) return false;
     for (size_t i = 0; i < sizeof compressed / sizeof *compressed; i++)
@@ -131,6 +132,17 @@ static size_t count_polygons(const dp_gltf *g) {
     return count;
 }
 
+/* Files' bytes are not needed any more when the tables are made of them. */
+static void release_bytes(dp_gltf *g) {
+    const dp_allocator memory = g->arena.memory;
+    for (uint32_t i = 0; g->buffer && i < g->buffer_count; i++) {
+        dp_free(&memory, g->buffer[i].owned);
+        g->buffer[i] = (dp_gltf_bytes){0};
+    }
+    dp_free(&memory, g->file.owned);
+    g->file = g->chunk = (dp_gltf_bytes){0};
+}
+
 static bool make_source(dp_gltf *g, dp_source **out) {
     const dp_scene_desc desc = {.nodes = g->scene_nodes,
                                 .node_count = g->scene_node_count,
@@ -149,15 +161,14 @@ static bool make_source(dp_gltf *g, dp_source **out) {
         return dp_gltf_fail(
             g, DP_ERR_FORMAT,
             "no polygons: there is nothing to draw, export the model with its faces");
+    release_bytes(g);
     g->result = dp_source_from_scene(&desc, &g->arena.memory, out, g->diag);
     return !g->result;
 }
 
 static void release(dp_gltf *g) {
     const dp_allocator memory = g->arena.memory;
-    for (uint32_t i = 0; g->buffer && i < g->buffer_count; i++)
-        dp_free(&memory, g->buffer[i].owned);
-    dp_free(&memory, g->file.owned);
+    release_bytes(g);
     dp_free(&memory, g->scene_meshes);
     dp_free(&memory, g->scene_nodes);
     dp_free(&memory, g->instances);

@@ -1,5 +1,6 @@
-/* The bytes of a glTF file: a .glb file's chunk, data: URIs, and files beside it, each read when it is first
- * asked for. Invariant: no view reaches beyond its buffer, nor beyond what the buffer says it has. */
+/* The bytes of a glTF file: a .glb file's chunk, data: URIs, and files beside it, each read when
+ * it is first asked for. Invariant: no view reaches beyond its buffer, nor beyond what the
+ * buffer says it has. */
 #include "io/gltf.h"
 
 #include "io/beside.h"
@@ -112,6 +113,13 @@ static bool read_file(dp_gltf *g, const char *uri, size_t size, dp_gltf_bytes *t
 
 /* ------- buffers and views ------- */
 
+/* Does it only say how large what is compressed would be? */
+static bool is_filler(const dp_json *buffer) {
+    const dp_json *const extensions = dp_json_find(buffer, "extensions");
+    return dp_json_find(extensions, "EXT_meshopt_compression") ||
+           dp_json_find(extensions, "KHR_meshopt_compression");
+}
+
 static bool read_buffer(dp_gltf *g, uint32_t number, dp_gltf_bytes *to) {
     const dp_json *const buffer = dp_json_item(g->buffers, number), *uri;
     if (!dp_gltf_member(g, buffer, "uri", DP_JSON_STRING, &uri)) return false;
@@ -119,6 +127,9 @@ static bool read_buffer(dp_gltf *g, uint32_t number, dp_gltf_bytes *to) {
         *to = g->chunk;
         return true;
     }
+    if (!uri && is_filler(buffer))
+        return dp_gltf_fail(g, DP_ERR_UNSUPPORTED,
+                            "it is compressed with meshopt: export the model without compression");
     if (!uri)
         return dp_gltf_fail(g, DP_ERR_FORMAT,
                             "it has no \"uri\": the bytes that it stands for are not there");
