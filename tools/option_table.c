@@ -25,7 +25,7 @@ const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",  
                                                NULL,      "program", NULL};
 
 const char *const models_text[] = {
-    "MODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more through Assimp), - for "
+    "MODEL is a file (STL, PLY, OBJ, OFF, glTF; FBX, 3MF, COLLADA and more through Assimp), - for "
     "standard input, or a generated model: shape:gear, or shape:terrain:1000000 with a number of "
     "triangles.",
     "A quoted pattern like 'parts/*.stl' stands for the files that it fits.",
@@ -202,7 +202,7 @@ const option option_table[] = {
      "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
      "above. Default: -40,42."},
     {"model-colors", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(model_colors), 0, 0, 0,
-     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, and formats read through Assimp), faces (PLY, OFF) or "
+     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, glTF, and formats read through Assimp), faces (PLY, OFF) or "
      "materials (an OBJ's .mtl files, and those formats); textures are not drawn. "
      "Default: on where there is light (lambert, gooch, toon, hatch, halftone) and no --surface."},
     {"normals", 0, "model|smooth|facet", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(normals), 0, 0, 0,

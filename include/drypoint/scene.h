@@ -65,7 +65,7 @@ typedef struct dp_scene_skin {
 
 /* A mesh in its place: at a node, or, with a skin, where the joints take it, whatever its node's
  * transform is (glTF 2.0, 3.7.3.3). Any number of instances may share a mesh. Each is a group,
- * called "node/mesh". */
+ * called "node/mesh"; those beyond 65536 share the last one. */
 typedef struct dp_scene_instance {
     uint32_t node, mesh;  /* 1 + numbers; node 0: none, as if at a node that is not moved */
     uint32_t skin;        /* 1 + number; 0: none */
@@ -125,8 +125,8 @@ typedef struct dp_scene_desc {
 
 /* Makes a source of a scene, which is copied; the caller destroys *out. It is at rest, at time 0, until
  * a clip is chosen. DP_ERR_ARGUMENT where numbers are out of range, nodes are their own ancestors or
- * counts contradict each other (the message says which); DP_ERR_LIMIT for more than 65536
- * instances or 2^32 vertices in all, DP_ERR_MEMORY. */
+ * counts contradict each other (the message says which); DP_ERR_LIMIT for 2^32 vertices or corners in
+ * all, DP_ERR_MEMORY. */
 DP_API dp_result dp_source_from_scene(const dp_scene_desc *desc, const dp_allocator *allocator,
                                       dp_source **out, dp_diag *diag);
 

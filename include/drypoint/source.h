@@ -55,7 +55,7 @@ typedef struct dp_batch {
     dp_attribute texcoords; /* u, v */
     const uint32_t *colors; /* [vertex_count] 0xRRGGBBAA of the vertices, for shading, instead of
                                the group's; 0: none. Or NULL */
-    bool stable;            /* the memory does not change while the source lives */
+    bool stable;            /* the memory does not change while the source lives and has one time */
     double origin[3]; /* world space = origin + position; 0: the same. Drawing counts all from the
                          first batch's, so that one is best near the model, and the same in every
                          reading; others are moved to it, in double precision */
@@ -110,7 +110,8 @@ typedef enum dp_file_format {
     DP_FORMAT_PLY, /* ASCII, binary little or big endian; faces or tristrips; vertices' colours */
     DP_FORMAT_OBJ, /* v with colours, vn, vt, f, g, o, usemtl; relative indices; colours of its
                            mtllib */
-    DP_FORMAT_OFF  /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
+    DP_FORMAT_OFF, /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
+    DP_FORMAT_GLTF /* glTF 2.0, .gltf with the files beside it or .glb; a scene (scene.h) */
 } dp_file_format;
 
 typedef struct dp_file_options {
@@ -138,8 +139,8 @@ typedef struct dp_memory_file {
     size_t size;      /* bytes */
     const char *name; /* "bolt.obj", say: its ending tells the format where the content does not.
                          NULL allowed */
-    /* Finds a file that this one names (an OBJ's `mtllib`). `name`: as written there, but with `/`
-     * between folders. False: there is none (a remark, not a failure). Called only while the source
+    /* Finds a file that this one names (an OBJ's `mtllib`, a glTF's buffers). `name`: as written there,
+     * but with `/` between folders. False: there is none (of buffers a failure, else a remark). Called only while the source
      * is opened, perhaps more than once for a name. NULL: there are no other files, and materials
      * have no colours. The library never looks into the file system instead. */
     bool (*open_beside)(void *user, const char *name, const void **data, size_t *size);

@@ -125,7 +125,7 @@ static bool fill_groups(dp_scene *s) {
     s->batch.groups = groups;
     for (uint32_t i = 0; groups && i < s->desc.instance_count; i++)
         for (size_t p = 0; p < batch_of(s, i)->polygon_count; p++)
-            groups[s->placed[i].polygon + p] = (uint16_t)i;
+            groups[s->placed[i].polygon + p] = (uint16_t)(i < UINT16_MAX ? i : UINT16_MAX);
     return groups;
 }
 

@@ -5,8 +5,6 @@
 #include "base/diag.h"
 #include "mesh/batch.h"
 
-static const uint32_t most_instances = 65536; /* groups have 16 bits */
-
 static dp_result wrong(dp_diag *diag, const char *what, uint32_t number, const char *why) {
     return dp_fail(diag, DP_ERR_ARGUMENT, "a scene's %s %u %s", what, number + 1, why);
 }
@@ -67,9 +65,6 @@ static dp_result check_clip(const dp_scene_desc *d, uint32_t i, dp_diag *diag) {
 /* 32 bits number what is in the batch. */
 static dp_result check_size(const dp_scene_desc *d, dp_diag *diag) {
     uint64_t corners = 0, values = 0;
-    if (d->instance_count > most_instances)
-        return dp_fail(diag, DP_ERR_LIMIT, "a scene of %u instances; %u are the most",
-                       d->instance_count, most_instances);
     for (uint32_t i = 0; i < d->instance_count; i++) {
         const dp_batch *const b = &d->meshes[d->instances[i].mesh - 1].batch;
         size_t most = b->vertex_count;

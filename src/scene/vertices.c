@@ -39,13 +39,14 @@ static void find_turn(const dp_affine *matrix, double turn[3][3]) {
             for (int c = 0; c < 3; c++) turn[r][c] = -turn[r][c];
 }
 
-/* Scales by a power of two, which changes no direction, so that floats hold the products. */
+/* Where a scale is very small or large: by a power of two, which changes no direction, so that floats hold
+ * the products. */
 static void tame(double turn[3][3]) {
     double most = 0;
     int exponent;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) most = dp_max(most, fabs(turn[r][c]));
-    if (!(most > 0) || !isfinite(most)) return;
+    if (!(most > 0) || !isfinite(most) || (most > 1e-9 && most < 1e9)) return;
     frexp(most, &exponent);
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) turn[r][c] = ldexp(turn[r][c], 1 - exponent);

@@ -533,11 +533,11 @@ unclosed_solids_are_told() {
 }
 # What an error tells to do can be done.
 advice() {
-    printf 'glTF\2' >scene
+    printf 'Kaydara FBX' >scene
     cp scene scene.obj
-    for model in scene scene.obj; do bad $model 'this is a binary glTF file: give its path, ending in .glb'; done
-    "$program" - -o out.png <scene 2>err && fail "glTF from a pipe"
-    says err 'standard input: this is a binary glTF file: give its path, ending in .glb'
+    for model in scene scene.obj; do bad $model 'this is an FBX file: give its path, ending in .fbx'; done
+    "$program" - -o out.png <scene 2>err && fail "FBX from a pipe"
+    says err 'standard input: this is an FBX file: give its path, ending in .fbx'
     printf 'hello\n' >x.xyz
     bad x.xyz 'x.xyz: not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is a model, give a file whose name has its format'\''s ending (.stl, .obj, .gltf'
     printf '\377\376v\0 \0' >wide.obj
@@ -582,29 +582,29 @@ left() { grep -sl -e "[${1:0:1}]${1:1}" /proc/[0-9]*/cmdline; }
 broken_readers() {
     [ -e "$broken_assimp" ] || return # not beside sanitizers
     local file
-    for file in crash exit memory hang; do printf 'glTF\2' >$file.glb; done
-    broken 1 crash.glb -o out.png
+    for file in crash exit memory hang; do printf 'Kaydara FBX' >$file.fbx; done
+    broken 1 crash.fbx -o out.png
     one_line
-    says err "crash.glb: Assimp's reader of .glb files crashed on it (Aborted): export it again"
+    says err "crash.fbx: Assimp's reader of .fbx files crashed on it (Aborted): export it again"
     silent out
-    broken 1 info exit.glb
+    broken 1 info exit.fbx
     one_line
-    says err "exit.glb: Assimp's reader of .glb files gave up on it"
-    broken 1 memory.glb -o out.png
+    says err "exit.fbx: Assimp's reader of .fbx files gave up on it"
+    broken 1 memory.fbx -o out.png
     one_line
-    says err "memory.glb: Assimp's reader of .glb files"
-    broken 1 hang.glb --read-time 0.5 -o out.png
+    says err "memory.fbx: Assimp's reader of .fbx files"
+    broken 1 hang.fbx --read-time 0.5 -o out.png
     one_line
-    says err "hang.glb: Assimp's reader of .glb files was not done after 0.5 s: give it more with --read-time"
+    says err "hang.fbx: Assimp's reader of .fbx files was not done after 0.5 s: give it more with --read-time"
     absent out.png
-    [ -z "$(left hang.glb)" ] || fail "a child is left after the time was over"
+    [ -z "$(left hang.fbx)" ] || fail "a child is left after the time was over"
 }
 interrupted_readers() {
     [ -e "$broken_assimp" ] || return
     local signal file code
     for signal in INT TERM KILL; do
-        file=hang-$$-$signal.glb code=0
-        printf 'glTF\2' >$file
+        file=hang-$$-$signal.fbx code=0
+        printf 'Kaydara FBX' >$file
         # to the program alone: a terminal would send it to the child, too
         LD_PRELOAD=$broken_assimp timeout --foreground --preserve-status -s $signal 0.5 \
             "$program" info $file >out 2>err </dev/null || code=$?
