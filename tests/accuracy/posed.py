@@ -28,6 +28,8 @@ CASES = [  # file, animation, seconds
     ("BVH/Boxing_Toes.bvh", 1, (5,)),
     ("ASE/MotionCaptureROM.ase", 1, (5, 15)),
     ("Collada/anims_with_full_rotations_between_keys.DAE", 1, (3,)),
+    ("glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf", 1, (0.3, 0.7)),
+    ("glTF2/simple_skin/simple_skin.gltf", 1, (1.2,)),
 ]
 FIGURES = {"silhouette": (0.998, 0.995), "all": (0.995, 0.995)}
 
