@@ -2,10 +2,14 @@
 #include "apart.h"
 #include "clips.h"
 #include "commands.h"
+#include "deform.h"
+#include "film.h"
 #include "keep.h"
 #include "models.h"
+#include "objects.h"
 #include "progress.h"
 #include "report.h"
+#include "section.h"
 
 #include <drypoint/io.h>
 
@@ -49,7 +53,7 @@ static int open_shape(const char *text, dp_source **out) {
 /* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
-           s->ink != 2;
+           s->ink != 2 && !s->has_deform && !s->morph && !objects_asked(s);
 }
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be
@@ -77,7 +81,7 @@ static int open_named(const tool_settings *s, const char *model, dp_source **out
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
     dp_result result = open_file(s, model, out, &diag);
-    if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
+    if (!result && !dp_source_rewindable(*out) && (film_wanted(s) || !is_drawn_unseen(s)))
         result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();
     if (!result) return 0;
@@ -152,13 +156,28 @@ static int move_model(const tool_settings *s, dp_source **source) {
     return EXIT_FAILED;
 }
 
+/* Deforms and blends the model, all parts of a scene as one. */
+static int reshape_model(const tool_settings *s, clips_tally *tally, dp_source **source) {
+    dp_source *other = NULL;
+    const int code = s->morph ? open_one(s, s->morph, tally, &other) : 0;
+    if (!code) return deform_model(s, source, other);
+    dp_source_destroy(*source);
+    *source = NULL;
+    return code;
+}
+
 int open_model(const tool_settings *s, dp_source **out) {
     clips_tally tally = {0};
     *out = NULL;
     int code =
         s->model_count > 1 ? open_scene(s, &tally, out) : open_one(s, s->models[0], &tally, out);
+    if (!code) code = reshape_model(s, &tally, out);
     if (!code) code = clips_check(s, &tally);
-    if (!code) return move_model(s, out);
+    /* where it is cut does not depend on the time */
+    if (!code) code = open_section(s, out);
+    if (!code) code = move_model(s, out);
+    if (!code && objects_asked(s)) code = objects_arrange(s, out);
+    if (!code) return 0;
     dp_source_destroy(*out);
     *out = NULL;
     return code;

@@ -1,4 +1,4 @@
-/* What is asked of batches of polygons. */
+/* Batches of polygons: what readers of sources ask of them. */
 #ifndef DP_MESH_BATCH_H
 #define DP_MESH_BATCH_H
 

@@ -25,12 +25,15 @@ struct dp_source {
     dp_allocator allocator;
     dp_records records; /* read NULL: only batch by batch */
     bool constant;      /* its batches never change (an application's arrays may) */
+    bool moves;         /* dp_source_set_time has moved it: what is made of it will be made again */
     uint64_t key;       /* fingerprint of a constant source (mesh/normals.c); 0: not computed yet */
     bool holds;         /* dp_source_next is to return this batch, read ahead by dp_source_begin */
     dp_batch held;
     /* Sources that compute what they hand out may use these threads until they are taken back (NULL);
      * one made of others lends them on. NULL: it does not compute. */
     void (*lend)(void *user, dp_threads *threads);
+    /* Of a scene: which of its sources a group is of. NULL: it is no scene. */
+    uint32_t (*part_of_group)(const void *user, uint32_t group);
 };
 
 /* Lends threads to a source for a drawing, or takes them back with NULL. */
