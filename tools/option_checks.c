@@ -130,7 +130,17 @@ static bool check_motion(const tool_settings *s) {
     return true;
 }
 
+static bool check_xray(const tool_settings *s) {
+    if (!(s->xray > 0 && s->xray < 1)) return true;
+    if (s->edges == EDGES_ADJACENCY)
+        return wrong_usage("an x-ray's lines are found in the tiles, without adjacency; leave out "
+                           "--edges adjacency or --xray");
+    if (s->ink && s->ink - 1 == DP_INK_QUADS)
+        return wrong_usage("an x-ray's lines are strokes; leave out --ink quads or --xray");
+    return true;
+}
+
 bool options_check(const tool_settings *s) {
     return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && check_motion(s) && film_check(s) && check_section(s);
+           check_sheet(s) && check_motion(s) && film_check(s) && check_xray(s) && check_section(s);
 }

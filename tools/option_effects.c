@@ -39,6 +39,8 @@ static bool has_outlines_or_creases(const tool_settings *s) {
 static bool has_hidden(const tool_settings *s) {
     return s->hidden ? s->hidden != HIDDEN_NONE : s->sheet.count > 0;
 }
+static bool has_xray(const tool_settings *s) { return s->xray > 0 && s->xray < 1; }
+static bool tells_levels(const tool_settings *s) { return !has_xray(s); }
 static bool has_title(const tool_settings *s) { return s->sheet.count || files_have_paths(s); }
 static bool has_ground(const tool_settings *s) {
     return files_have(s, DP_FORMAT_SVG) || files_have(s, DP_FORMAT_PDF) ||
@@ -131,6 +133,8 @@ static const rule drawing_rules[] = {
     {"valley-angle", has_valleys, "no valleys are drawn; add them to --lines"},
     {"levels|hidden-smooth|hidden-width|hidden-color", has_hidden,
      "hidden lines are not drawn; add --hidden dashed"},
+    {"levels", tells_levels, "an x-ray's lines have as many levels as --xray-layers; leave it out"},
+    {"xray-layers", has_xray, "surfaces are opaque; add --xray 0.5, say"},
 
     {"join|min-length|tolerance|join-classes|keep-coincident|optimize|ground", files_have_paths,
      "no vector file is written; add -o drawing.svg, say"},
@@ -247,9 +251,26 @@ static void check_angles(const tool_settings *s) {
              ridge, valley);
 }
 
+/* With --list only those count that say which model there is, and which objects of it. */
+static void warn_of_list(const tool_settings *s) {
+    static const char counting[] =
+        "list|json|object|only|without|explode|explode-axis|animation|time|"
+        "deform|morph|blend|memory|read-time|quiet";
+    names found = {0};
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (s->given[o - option_table] && !word_index(counting, o->name)) add_name(&found, o->name);
+    if (found.count)
+        warn("%s change%s nothing: --list draws nothing; leave it out to draw", found.text,
+             found.count == 1 ? "s" : "");
+}
+
 void options_warn(const tool_settings *s) {
     bool told[OPTIONS_MOST] = {false};
     if (s->quiet || s->command == COMMAND_INFO) return;
+    if (s->list) {
+        warn_of_list(s);
+        return;
+    }
     const bool making = s->command == COMMAND_MAKE;
     const rule *const rules = making ? making_rules : drawing_rules;
     const size_t count =

@@ -154,6 +154,12 @@ const option option_table[] = {
      OPTION_HIDDEN_COLORS, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Colour of hidden lines, in the same way. Default: the visible line's."},
 
+    {"xray", 0, "ALPHA", OPTION_NUMBER, GROUP_LINES, PICTURE, AT(xray), 0, 0, 1,
+     "X-ray: surfaces are see-through, each of this opacity, and lines behind them shine through, fainter with each "
+     "surface above; 1: opaque. --hidden and its options say how those lines look. Default: off."},
+    {"xray-layers", 0, "N", OPTION_COUNT, GROUP_LINES, PICTURE, AT(xray_layers), 0, 1, DP_LEVELS,
+     "With --xray: how many surfaces are told apart in a pixel's sample; what lies deeper is not drawn. Default: 8."},
+
     {"join", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(join), 0, 0, 10000,
      "Close gaps between paths up to this (or 0.5mm, 1pt, 0.2%); 0 closes none. Default: 2."},
     {"min-length", 0, "PX", OPTION_LENGTH, GROUP_PATHS, DRAW, AT(min_length), 0, 0, 10000,

@@ -166,6 +166,8 @@ typedef struct tool_settings {
     tool_length hidden_width[DP_LEVELS][DP_LINE_COUNT];
     uint32_t levels;
     bool hidden_smooth;
+    double xray; /* 0: off */
+    uint32_t xray_layers;
     int smooth, smooth_what; /* words */
     double ridge_angle, valley_angle;
     double detail; /* 0: exact */

@@ -26,6 +26,8 @@ static const count counts[] = {
     {"open_edges", "open edges met", AT(open_edges)},
     {"added_polygons", "polygons added", AT(added_polygons)},
     {"edges_lost", "edges lost for want of memory", AT(edges_lost)},
+    {"xray_layers", "layers of an x-ray", AT(xray_layers)},
+    {"xray_lost", "  samples with more layers", AT(xray_lost)},
     {"segments", "visible segments", AT(segments)},
     {"bytes", "bytes of scratch memory", AT(bytes)},
     {"adjacency_bytes", "  adjacency", AT(adjacency_bytes)},

@@ -193,6 +193,8 @@ dp_style make_style(const tool_settings *s) {
     if (s->hidden && s->hidden != HIDDEN_NONE) style.hidden.look = (dp_hidden_look)s->hidden;
     style.hidden.levels = s->levels;
     style.hidden.smooth = s->hidden_smooth;
+    style.xray = (float)s->xray;
+    style.xray_layers = s->xray_layers;
     style.detail = s->has_detail ? (float)s->detail : 1;
     if (s->smooth > 1) { /* the first word is off, the second auto */
         style.smooth = s->smooth_what == 2 ? DP_SMOOTH_SILHOUETTES : DP_SMOOTH_SURFACE;

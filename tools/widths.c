@@ -11,6 +11,7 @@
  *
  * Hidden lines are all narrow, so that their dashes are alike; `thin` ones half as wide again, to be
  * told from creases. Where a class has a width of its own, they are half as wide (drypoint/style.h). */
+#include "objects.h"
 #include "page.h"
 #include "report.h"
 
@@ -66,9 +67,20 @@ static double width_of(const tool_settings *s, const page_plan *plan, int line) 
     return fmax(given > 0 ? given : fmin(usual_width(s, plan, line), thickest), thinnest);
 }
 
-double page_widest(const tool_settings *s, const page_plan *plan) {
+/* px */
+static double widest_of(const tool_settings *s, const page_plan *plan) {
     double widest = 0;
     for (int k = 0; k < DP_LINE_COUNT; k++) widest = fmax(widest, width_of(s, plan, k));
+    return widest;
+}
+
+double page_widest(const tool_settings *s, const page_plan *plan) {
+    double widest = widest_of(s, plan);
+    for (uint32_t k = 0; k < s->objects.count; k++) {
+        tool_settings own = *s;
+        (void)object_apply(s->objects.items[k], &own);
+        widest = fmax(widest, widest_of(&own, plan));
+    }
     return widest * plan->mm_per_px;
 }
 

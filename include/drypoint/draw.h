@@ -196,6 +196,8 @@ typedef struct dp_stats {
     uint64_t added_polygons;  /* by the primitive shaders; counted per tile */
     uint64_t edges_lost; /* streamed: edges given up because too many waited for their polygons, and
                             polygons that may cross others, because too many did */
+    uint64_t xray_layers; /* with dp_style.xray: layers of surfaces that were found; 0: opaque */
+    uint64_t xray_lost; /* samples of the picture that have more layers than dp_style.xray_layers */
     uint64_t segments;
     uint64_t bytes; /* memory that the context held when dp_draw or dp_finish returned, whatever it
                        returned: all that the context, from its creation on, has asked of its

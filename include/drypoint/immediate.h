@@ -47,9 +47,11 @@ DP_API void dp_line_color(dp_context *context, uint32_t lines, dp_color color);
 DP_API void dp_ridge_angle(dp_context *context, float degrees);
 DP_API void dp_valley_angle(dp_context *context, float degrees);
 DP_API void dp_surface_color(dp_context *context, dp_color color);
+/* As dp_style.xray: 0 to 1; 0 and 1: opaque. */
+DP_API void dp_surface_opacity(dp_context *context, float opacity);
 
 /* Members that hold for the whole picture: method, between, between_offset, ink, passes, paper,
- * cull_back_faces, edge_table_off. Copied. Other members are ignored: they are state (above).
+ * cull_back_faces, edge_table_off, xray_layers. Copied. Other members are ignored: they are state (above).
  * NULL: all defaults. */
 DP_API void dp_set_style(dp_context *context, const dp_style *style);
 DP_API void dp_set_camera(dp_context *context, const dp_camera *camera);

@@ -146,6 +146,15 @@ typedef struct dp_style {
     dp_color section;     /* of sections' faces (section.h); 0 means that of what was cut */
     bool cull_back_faces; /* do not paint back faces as surface (closed models lose nothing) */
     dp_hidden hidden;     /* strokes: lines that something hides; default: none */
+    /* X-ray (Raskar 2001, 5: partially transparent front-facing polygons; docs/xray.md): the opacity of
+     * each surface, 0 to 1; 0 and 1: opaque, as ever. Lines that are hidden shine through: as `hidden`
+     * says; by default whole, as wide as visible ones, smooth folds too, and by level up to xray_layers.
+     * Each layer above takes its share of them. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. */
+    float xray;
+    uint32_t
+        xray_layers; /* surfaces that are told apart in a pixel's sample, 1 to DP_LEVELS; 0 means
+                             DP_LEVELS; what lies deeper is not drawn (dp_stats.xray_lost). Of the
+                             first style */
     /* Strokes: where something hides a line, its end is solved, not taken midway between two sample
      * points a quarter of a pixel apart; and what is a line on a closed surface is decided as finely
      * (docs/lines.md). Of the picture; not where the source is streamed. */

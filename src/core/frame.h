@@ -40,11 +40,14 @@ typedef struct dp_frame {
     const dp_style *styles; /* [style_count], resolved: the picture's, then those of groups */
     uint32_t style_count;
     dp_target target;
-    uint32_t lines;     /* classes drawn by any group */
-    bool exact_ends;    /* the first style's; not where the source is streamed. What lines there are
+    uint32_t lines;   /* classes drawn by any group */
+    bool exact_ends;  /* the first style's; not where the source is streamed. What lines there are
                            is then decided more finely too, where a clean mesh needs that */
-    bool culls_backs;   /* hidden back faces make no lines */
-    uint32_t hidden;    /* levels of hidden lines; 0: they are not looked for */
+    bool culls_backs; /* hidden back faces make no lines */
+    uint32_t hidden;  /* levels of hidden lines; 0: they are not looked for */
+    dp_hidden_look hidden_look; /* theirs */
+    bool hidden_smooth;         /* smooth folds, too (find/hidden.c) */
+    uint32_t xray; /* layers of surfaces that are seen through, at most; 0: the nearest is all */
     bool painted_later; /* src/shade colours all pixels of tiles with polygons, paper too, … */
     uint8_t *ink_layer; /* … and blends over them what tiles inked: [height][width][4], not
                            premultiplied; or NULL */
@@ -92,6 +95,14 @@ static inline uint32_t dp_style_number(const dp_frame *frame, uint32_t group) {
 static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t polygon) {
     const uint32_t group = frame->polygons.groups ? frame->polygons.groups[polygon] : 0;
     return &frame->styles[dp_style_number(frame, group)];
+}
+
+/* The opacity of a polygon's surface. A mirror shows its own picture. */
+static inline float dp_opacity_of(const dp_frame *frame, uint32_t polygon) {
+    const bool mirror =
+        frame->polygons.groups && frame->polygons.groups[polygon] == DP_MIRROR_GROUP;
+    const float xray = dp_polygon_style(frame, polygon)->xray;
+    return xray > 0 && !mirror ? xray : 1;
 }
 
 /* Classes with an outside: outlines. */

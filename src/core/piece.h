@@ -19,7 +19,8 @@ typedef struct dp_piece {
     uint8_t line;       /* dp_line */
     uint8_t seen;       /* bit 0: polygon a is seen beside the line, bit 1: b is */
     uint8_t level;      /* 0: visible; as in dp_segment */
-    bool open;          /* touches the tile's border: it may continue in a neighbour */
+    float through; /* of an x-ray's: share of it that the surfaces before it let through, 0 to 1 */
+    bool open;     /* touches the tile's border: it may continue in a neighbour */
 } dp_piece;
 
 #define DP_CROSSING UINT32_MAX

@@ -110,6 +110,7 @@ void dp_context_destroy(dp_context *c) {
     dp_pool_free(&c->once_scratch, &memory);
     dp_detail_store_free(&c->detail, &memory);
     dp_shade_store_free(&c->shade, &memory);
+    dp_xray_free(&c->xray, &memory);
     dp_mirror_store_free(&c->mirror, &memory);
     dp_recording_free(c->recording, &memory);
     dp_free(&memory, c);
@@ -132,6 +133,7 @@ uint64_t dp_context_bytes(const dp_context *c) {
            dp_smooth_store_bytes(&c->smooth) + dp_adjacency_bytes(&c->adjacency) +
            dp_lines_bytes(&c->drawing) + dp_lines_bytes(&c->once) + c->once_scratch.bytes +
            dp_detail_store_bytes(&c->detail) + dp_shade_store_bytes(&c->shade) +
-           dp_mirror_store_bytes(&c->mirror) + dp_recording_bytes(c->recording) +
-           dp_stream_bytes(c->stream) + c->styles_cap * sizeof *c->styles;
+           dp_xray_bytes(&c->xray) + dp_mirror_store_bytes(&c->mirror) +
+           dp_recording_bytes(c->recording) + dp_stream_bytes(c->stream) +
+           c->styles_cap * sizeof *c->styles;
 }

@@ -12,6 +12,7 @@
 #include "sink/raster.h"
 #include "base/pool.h"
 #include "stream/stream.h"
+#include "raster/xray.h"
 #include "strokes/detail.h"
 
 #include <stdatomic.h>
@@ -51,6 +52,9 @@ struct dp_context {
     dp_smooth_store smooth;  /* curved triangles, where those are drawn */
     dp_shade_store shade;    /* G-buffer and what is made of it */
     int shade_pass;          /* the one that runs */
+    dp_xray xray;            /* layers of surfaces that are seen through */
+    uint32_t xray_layer;     /* the one that is drawn */
+    dp_target xray_target;   /* the picture's, while layers are shaded */
     dp_mirror_store mirror;
     dp_bin_worker *bin_workers; /* [workers] */
     dp_finder *finders;         /* [workers] */
@@ -100,6 +104,24 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
 /* Tells how far the picture is, 0 to 1, or below 0 where that is not known; DP_ERR_CANCELLED when
  * it is to stop. What is told must not fall (dp_context_desc). */
 dp_result dp_tell_progress(dp_context *context, double fraction, dp_diag *diag);
+
+/* Runs a task for every tile; progress goes from `from` to `to` (draw.c). */
+dp_result dp_for_tiles(dp_context *context, dp_task *task, void *arg, double from, double to,
+                       dp_diag *diag);
+
+/* The passes of shading over all tiles, and of the edge map, if there are any (draw.c). */
+dp_result dp_shade_picture(dp_context *context, double from, double to, dp_diag *diag);
+
+/* Which lines are looked for behind surfaces: those asked for, or all that an x-ray shows
+ * (draw/xray.c). */
+void dp_begin_hidden(dp_frame *frame);
+
+/* What is shaded next is that layer of an x-ray, if there is one, up to dp_draw_layers' end; edges of its
+ * edge map are kept apart: they are ink on it (draw/xray.c). */
+void dp_shade_layer(dp_context *context, uint32_t layer);
+
+/* Draws the layers of an x-ray behind the first one, if there is one (draw/xray.c). */
+dp_result dp_draw_layers(dp_context *context, double from, double to, dp_diag *diag);
 
 /* Normals of the gathered polygons, smooth but for creases as the first style says; false: no memory. */
 bool dp_compute_normals(dp_context *context, dp_source *source, dp_attribute *out);

@@ -91,7 +91,7 @@ dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag
 static void begin_view(dp_frame *f) {
     const float size = (float)(1 / f->view.focal);
     f->lanes = dp_lanes_best();
-    f->hidden = f->styles[0].hidden.look ? f->styles[0].hidden.levels : 0;
+    dp_begin_hidden(f);
     f->culls_backs =
         f->styles[0].ink == DP_INK_STROKES || f->styles[0].edges == DP_EDGES_ADJACENCY || !f->lines;
     f->nearly_edge_on = dp_nearly_edge_on(&f->view);
@@ -137,9 +137,14 @@ static void find_tile(void *arg, uint32_t index, uint32_t worker) {
     dp_context *const c = arg;
     c->frame.tile_pieces[index].worker = worker;
     dp_draw_tile(&c->finders[worker], &c->printers[worker], index);
-    if (!c->shade.active) return;
-    dp_gbuffer_fill(&c->shade.gbuffer, &c->finders[worker].tile, c->frame.styles[0].shade.normals);
-    dp_shade_at_once(&c->shade, index); /* while it is in the cache */
+    const bool xray = c->frame.xray && c->frame.target.rgba && !c->frame.tile_pieces[index].empty;
+    dp_tile *const tile = &c->finders[worker].tile;
+    if (xray) dp_xray_take(&c->xray, tile, worker, 0);
+    if (c->shade.active) {
+        dp_gbuffer_fill(&c->shade.gbuffer, tile, c->frame.styles[0].shade.normals);
+        dp_shade_at_once(&c->shade, index); /* while it is in the cache */
+    }
+    if (xray && c->xray.plain) dp_xray_peel_all(&c->xray, tile, worker);
 }
 
 static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
@@ -150,7 +155,7 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
 
 /* Progress when a stage is over; what is read in parts ends at DP_STREAMED instead. */
 static const double GATHERED = 0.05, TRANSFORMED = 0.06, PAIRED = 0.08, BINNED = 0.1, FOUND = 0.8,
-                    SHADED = 0.85;
+                    SHADED = 0.85, XRAYED = 0.93;
 
 /* A part of a long loop, so that progress can be told between the parts. */
 typedef struct part {
@@ -175,8 +180,8 @@ dp_result dp_tell_progress(dp_context *c, double fraction, dp_diag *diag) {
 }
 
 /* Progress runs from `from` to `to`. */
-static dp_result for_tiles(dp_context *c, dp_task *task, void *arg, double from, double to,
-                           dp_diag *diag) {
+dp_result dp_for_tiles(dp_context *c, dp_task *task, void *arg, double from, double to,
+                       dp_diag *diag) {
     const uint32_t tiles = c->frame.tiles_x * c->frame.tiles_y;
     const uint32_t step = c->progress && tiles > 64 ? (tiles + 15) / 16 : tiles;
     for (uint32_t first = 0; first < tiles; first += step) {
@@ -233,7 +238,7 @@ static bool is_polar(const dp_frame *f) {
 static bool begin_paint(dp_context *c) {
     dp_frame *const f = &c->frame;
     const bool inks_early = f->lines && (f->styles[0].ink == DP_INK_QUADS || dp_draws_fins(f));
-    f->painted_later = c->shade.colored;
+    f->painted_later = c->shade.colored || (f->xray && f->target.rgba);
     if (!f->painted_later || !inks_early) return true;
     if (!dp_reserve(&c->memory, &c->shade.inked, &c->shade.inked_cap,
                     dp_times(4, (size_t)f->target.width * f->target.height), 1))
@@ -386,7 +391,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
     if ((result = check_dropped(&c->stats, diag))) return result;
     if ((result = dp_tell_progress(c, BINNED, diag))) return result;
     if (!begin_paint(c)) return out_of_memory(diag);
-    if ((result = for_tiles(c, find_tile, c, BINNED, FOUND, diag))) return result;
+    if ((result = dp_for_tiles(c, find_tile, c, BINNED, FOUND, diag))) return result;
     for (uint32_t i = 0; i < c->workers; i++) {
         if (c->finders[i].tile.failed) return out_of_memory(diag);
         add_counts(&c->stats, &c->finders[i].tile.stats);
@@ -396,14 +401,14 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
 }
 
 /* Shading and edge map: passes over the picture, each over before the next begins. */
-static dp_result shade(dp_context *c, dp_diag *diag) {
+dp_result dp_shade_picture(dp_context *c, double first, double last, dp_diag *diag) {
     if (!c->shade.active) return DP_OK;
     dp_shade_prepare(&c->shade);
     for (int pass = 0; pass < DP_SHADE_PASSES; pass++) {
-        const double share = (SHADED - FOUND) / DP_SHADE_PASSES, from = FOUND + pass * share;
+        const double share = (last - first) / DP_SHADE_PASSES, from = first + pass * share;
         if (!dp_shade_pass_runs(&c->shade, pass)) continue;
         c->shade_pass = pass;
-        const dp_result result = for_tiles(c, shade_tile, c, from, from + share, diag);
+        const dp_result result = dp_for_tiles(c, shade_tile, c, from, from + share, diag);
         if (result) return result;
         dp_shade_pass_ends(&c->shade, pass);
     }
@@ -418,7 +423,7 @@ typedef struct last_loop {
 
 static dp_result for_last_tiles(void *user, dp_task *task, void *arg, dp_diag *diag) {
     const last_loop *const l = user;
-    return for_tiles(l->context, task, arg, l->from, l->to, diag);
+    return dp_for_tiles(l->context, task, arg, l->from, l->to, diag);
 }
 
 /* From the tiles' pieces to what is inked: stylized strokes and dashes of hidden lines too. */
@@ -437,15 +442,22 @@ static bool make_lines(dp_context *c) {
 
 static dp_result ink(dp_context *c, double from, dp_diag *diag) {
     last_loop loop = {c, from, 1};
-    dp_inking inking = {&c->frame, &c->drawing, &c->raster, for_last_tiles, &loop, false};
+    dp_inking inking = {&c->frame,
+                        &c->drawing,
+                        &c->raster,
+                        for_last_tiles,
+                        &loop,
+                        false,
+                        c->frame.xray && c->frame.target.rgba ? &c->xray : NULL};
     const dp_sink sink = dp_raster_sink(&inking);
     const bool once = c->drawing.stylizes && c->inks_once;
-    if (c->drawing.stylizes && dp_is_hidden_inked(&c->drawing)) { /* below stylized strokes */
+    if (c->drawing.stylizes &&
+        (inking.xray || dp_is_hidden_inked(&c->drawing))) { /* below stylized strokes */
         inking.plain = true;
         loop.to = from + (1 - from) / 2;
         const dp_result result = dp_hand_over(&c->frame, &c->drawing, &sink, diag);
         if (result) return result;
-        inking.plain = false;
+        inking.plain = false, inking.xray = NULL;
         loop = (last_loop){c, loop.to, 1};
     }
     if (once) inking.drawing = &c->once;
@@ -456,15 +468,22 @@ static dp_result ink(dp_context *c, double from, dp_diag *diag) {
 static dp_result draw_stages(dp_context *c, dp_source *source, double start, dp_diag *diag) {
     double since = start;
     c->shade.source = source;
-    if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
+    if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame) ||
+        (c->frame.xray && c->frame.target.rgba &&
+         !dp_xray_begin(&c->xray, &c->frame, c->workers, c->shade.colored)))
+        return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
     if (result) return result;
     if (!make_lines(c)) return out_of_memory(diag);
     c->stats.segments = c->drawing.count;
     lap(&c->stats, DP_STAGE_SEGMENTS, &since);
-    if ((result = shade(c, diag))) return result;
+    dp_shade_layer(c, 0);
+    if ((result = dp_shade_picture(c, FOUND, SHADED, diag)) ||
+        (result = dp_draw_layers(c, SHADED, XRAYED, diag)))
+        return result;
     lap(&c->stats, DP_STAGE_SHADE, &since);
-    if ((result = ink(c, c->stream ? DP_STREAMED : SHADED, diag))) return result;
+    if ((result = ink(c, c->stream ? DP_STREAMED : c->frame.xray ? XRAYED : SHADED, diag)))
+        return result;
     lap(&c->stats, DP_STAGE_INK, &since);
     c->stats.frame_ms = now_ms() - start;
     return DP_OK;

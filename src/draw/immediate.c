@@ -21,6 +21,7 @@ typedef struct state {
     dp_line_style line[DP_LINE_COUNT];
     float ridge_angle, valley_angle;
     dp_color surface;
+    float opacity;
 } state;
 
 enum { MAX_GROUPS = 65536 /* dp_batch.groups has 16 bits */ };
@@ -109,6 +110,7 @@ static dp_style style_of(const dp_style *picture, const state *s) {
     style.ridge_angle = s->ridge_angle;
     style.valley_angle = s->valley_angle;
     style.surface = s->surface;
+    style.xray = s->opacity;
     return style;
 }
 
@@ -173,6 +175,14 @@ void dp_valley_angle(dp_context *context, float degrees) {
     if (!r) return;
     state s = r->now;
     s.valley_angle = degrees;
+    set_state(r, &s);
+}
+
+void dp_surface_opacity(dp_context *context, float opacity) {
+    dp_recording *const r = recording_of(context);
+    if (!r) return;
+    state s = r->now;
+    s.opacity = opacity;
     set_state(r, &s);
 }
 

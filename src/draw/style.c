@@ -217,6 +217,27 @@ static dp_result check_hidden(const dp_style *style, dp_diag *diag) {
     return DP_OK;
 }
 
+/* Transparent surfaces: lines show through them as hidden ones do. */
+static dp_result resolve_xray(dp_style *style, dp_diag *diag) {
+    if (!(style->xray >= 0 && style->xray <= 1))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "xray is %s; it must be 0 to 1, the opacity of surfaces",
+                       NUMBER(style->xray));
+    if (!style->xray_layers) style->xray_layers = DP_LEVELS;
+    if (style->xray_layers > DP_LEVELS)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u layers of an x-ray; there are 1 to %d",
+                       style->xray_layers, DP_LEVELS);
+    if (!(style->xray > 0 && style->xray < 1)) return DP_OK;
+    if (style->edges == DP_EDGES_ADJACENCY)
+        return dp_fail(
+            diag, DP_ERR_ARGUMENT,
+            "an x-ray's lines emerge from the tiles; with lines by adjacency there is none");
+    if (style->ink == DP_INK_QUADS)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "an x-ray's lines are drawn as strokes; with quads as ink there is none");
+    return DP_OK;
+}
+
 /* Lines that something hides: narrower than the visible ones, in their colour. */
 static dp_result resolve_hidden(dp_style *style, dp_diag *diag) {
     dp_hidden *const h = &style->hidden;
@@ -261,7 +282,7 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
         (unsigned)full.ink > DP_INK_QUADS || (unsigned)full.edges > DP_EDGES_ADJACENCY)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "edges, method, between or ink is not one of its values");
-    if ((result = check_hidden(&full, diag))) return result;
+    if ((result = check_hidden(&full, diag)) || (result = resolve_xray(&full, diag))) return result;
     if (full.detail != 0 && !(full.detail >= 0.01f && full.detail <= 100))
         return dp_fail(diag, DP_ERR_ARGUMENT, "detail is %s; it must be 0, or 0.01 to 100",
                        NUMBER(full.detail));

@@ -11,7 +11,6 @@
 #include "find/hidden.h"
 #include "find/intersections.h"
 #include "find/visibility.h"
-#include "raster/tile.h"
 
 typedef struct dp_finder {
     dp_tile tile;

@@ -5,6 +5,7 @@
  *    edges that one polygon has, by what passes through them                      emerge.c
  *    crossings of all polygons                                                    intersect.c
  *    count the front faces that lie before each sample point, up to a limit       hide.inc
+ *        of an x-ray, stack up the surfaces instead, whose opacity counts too
  *    runs of points of one level become pieces, but for what a visible piece of the same edge or
  *        crossing holds
  *
@@ -18,6 +19,7 @@
  * may run below it. */
 #include "base/sort.h"
 #include "find/fan.h"
+#include "raster/xray.h"
 
 #include <string.h>
 
@@ -27,7 +29,7 @@
 static const double SMOOTH = 40;
 
 bool dp_is_smooth(const dp_frame *frame, const dp_fold *fold) {
-    return !frame->styles[0].hidden.smooth && fabs(dp_fold_dihedral(fold) - 180) < SMOOTH - 1e-3;
+    return !frame->hidden_smooth && fabs(dp_fold_dihedral(fold) - 180) < SMOOTH - 1e-3;
 }
 
 /* A visible piece, and the key of its spine's ends or polygons. */
@@ -86,6 +88,10 @@ static uint8_t *level_at(const dp_finder *w, const dp_candidate *c, uint32_t k) 
     return &w->lines.level[c->probe + (k - c->k0)];
 }
 
+static float *through_at(const dp_finder *w, const dp_candidate *c, uint32_t k) {
+    return &w->lines.through[c->probe + (k - c->k0)];
+}
+
 /* What a piece of the same spine shows is not hidden. */
 static void leave_out(const dp_finder *w, const dp_candidate *c, const dp_piece *p, bool turned,
                       void *unused) {
@@ -115,8 +121,40 @@ static void visit_all_shown(const dp_finder *w, const dp_candidate *c, size_t fi
     }
 }
 
+/* The surfaces that an x-ray's line lies behind, as its layers are peeled (raster/xray.c), and what
+ * they let through. */
+static uint32_t unstack(const dp_frame *frame, const dp_stack *s, float *through) {
+    float bound = INFINITY;
+    uint32_t level = 0;
+    *through = 1;
+    if (s->back > DP_DEPTH_EMPTY && !(s->count && dp_layer_bound(frame, s->back) < s->depth[0])) {
+        *through = 1 - dp_opacity_of(frame, s->back_polygon);
+        bound = dp_layer_bound(frame, s->back), level = 1;
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (!(s->depth[i] < bound)) continue;
+        *through *= 1 - dp_opacity_of(frame, s->polygon[i]);
+        bound = dp_layer_bound(frame, s->depth[i]), level++;
+    }
+    return level;
+}
+
+/* The same as find_levels, by stacks. */
+static bool find_layers(const dp_finder *w, const dp_candidate *c) {
+    const dp_frame *const frame = w->tile.frame;
+    bool any = false;
+    for (uint32_t k = c->k0; k < c->k1; k++) {
+        const uint32_t at = c->probe + (k - c->k0);
+        const uint32_t level = unstack(frame, &w->lines.stacks[at], &w->lines.through[at]);
+        w->lines.level[at] = (uint8_t)(level < frame->hidden ? level : frame->hidden);
+        any |= level;
+    }
+    return any;
+}
+
 /* From what was counted to levels: 0 is visible; what anything hides has 1 at least. */
 static bool find_levels(const dp_finder *w, const dp_candidate *c) {
+    if (w->tile.frame->xray) return find_layers(w, c);
     const uint32_t most = w->tile.frame->hidden;
     bool any = false;
     for (uint32_t k = c->k0; k < c->k1; k++) {
@@ -159,18 +197,22 @@ static void add_piece(dp_finder *w, const dp_candidate *c, uint32_t k0, uint32_t
                       .line = c->line,
                       .seen = c->seen,
                       .level = level,
+                      .through = w->tile.frame->xray ? *through_at(w, c, k0) : 1,
                       .open = (k0 == c->k0 && k0 > 0) || (k1 == c->k1 && k1 < c->n)};
     if (w->tile.frame->styles[0].exact_ends) visit_all_shown(w, c, first, meet, out);
 }
 
 static void collect(dp_finder *w, const dp_candidate *c, size_t first) {
+    const bool xray = w->tile.frame->xray;
     uint32_t start = c->k0;
     uint8_t level = 0;
+    float through = 1;
     for (uint32_t k = c->k0; k <= c->k1; k++) {
         const uint8_t here = k < c->k1 ? *level_at(w, c, k) : 0;
-        if (here == level) continue;
-        if (level) add_piece(w, c, start, k, level, first);
-        start = k, level = here;
+        const float passes = xray && here ? *through_at(w, c, k) : 1;
+        if (here == level && passes == through) continue;
+        if (level && through > 0) add_piece(w, c, start, k, level, first);
+        start = k, level = here, through = passes;
     }
 }
 
@@ -193,9 +235,24 @@ static void find_candidates(dp_finder *w) {
     dp_find_marked(w);
 }
 
+static bool stack_hiders(dp_finder *w) {
+    const uint32_t count = w->lines.probe_count;
+    if (!DP_TILE_RESERVE(&w->tile, w, lines.stacks, lines.stacks_cap, count) ||
+        !DP_TILE_RESERVE(&w->tile, w, lines.level, lines.level_cap, count) ||
+        !DP_TILE_RESERVE(&w->tile, w, lines.through, lines.through_cap, count))
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        w->lines.stacks[i].count = 0, w->lines.stacks[i].back = DP_DEPTH_EMPTY;
+    w->lines.stacking = true;
+    dp_hide_points(w);
+    w->lines.stacking = false;
+    return !w->tile.failed;
+}
+
 /* Where one level is all, the first polygon that hides a point is enough. */
 static bool count_levels(dp_finder *w) {
     const uint32_t levels = w->tile.frame->hidden;
+    if (w->tile.frame->xray) return stack_hiders(w);
     if (!DP_TILE_RESERVE(&w->tile, w, lines.level, lines.level_cap, w->lines.probe_count))
         return false;
     if (w->lines.probe_count) memset(w->lines.level, 0, w->lines.probe_count);

@@ -375,6 +375,8 @@ static const dp_array arrays[] = {DP_ARRAY(dp_line_store, candidates, candidates
                                   DP_ARRAY(dp_line_store, probes.y, probe_y_cap),
                                   DP_ARRAY(dp_line_store, probes.limit, probe_limit_cap),
                                   DP_ARRAY(dp_line_store, level, level_cap),
+                                  DP_ARRAY(dp_line_store, stacks, stacks_cap),
+                                  DP_ARRAY(dp_line_store, through, through_cap),
                                   DP_ARRAY(dp_line_store, groups.group, groups.group_cap),
                                   DP_ARRAY(dp_line_store, groups.box, groups.box_cap),
                                   DP_ARRAY(dp_line_store, groups.limit, groups.limit_cap)};

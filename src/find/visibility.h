@@ -28,6 +28,15 @@ typedef struct dp_probes {
  * does. */
 enum { DP_LEVEL_COUNT = 127, DP_LEVEL_HIDDEN = 128 };
 
+/* For an x-ray, what lies before a sample point: the nearest front faces, nearest first, and the
+ * nearest back face, which is surface where it is the nearest of all. */
+enum { DP_STACK = 16 };
+typedef struct dp_stack {
+    float depth[DP_STACK], back; /* d; of the back face: DP_DEPTH_EMPTY, there is none */
+    uint32_t polygon[DP_STACK], back_polygon;
+    uint32_t count;
+} dp_stack;
+
 enum { DP_PROBES_ROOM = 16 };
 
 /* Consecutive sample points of one candidate. */
@@ -73,9 +82,13 @@ typedef struct dp_line_store {
     uint8_t *level;              /* for hidden lines, by sample point: DP_LEVEL_… */
     uint32_t levels; /* not 0: points are hidden by this many front faces, not by the first polygon;
                         others are counted in `level` (hide.inc) */
-    bool streamed;   /* the tile does not hold the polygons that have hidden the sample points */
+    dp_stack *stacks; /* for an x-ray, by sample point */
+    float *through;   /* and as in dp_piece */
+    bool stacking;    /* hiders go there, and hide nothing */
+    bool streamed;    /* the tile does not hold the polygons that have hidden the sample points */
     dp_probe_groups groups;
-    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, level_cap;
+    size_t candidates_cap, probe_x_cap, probe_y_cap, probe_limit_cap, level_cap, stacks_cap,
+        through_cap;
     uint32_t candidate_count, probe_count;
 } dp_line_store;
 

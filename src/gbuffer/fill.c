@@ -359,21 +359,34 @@ static void fill_rows(const dp_fill *f, uint32_t width, uint32_t height) {
     }
 }
 
+void dp_gbuffer_clear(dp_gbuffer *g, uint32_t tile) {
+    const uint32_t tile_x = tile % g->tiles_x * DP_TILE, tile_y = tile / g->tiles_x * DP_TILE;
+    const uint32_t width = g->width - tile_x < DP_TILE ? g->width - tile_x : DP_TILE;
+    const size_t first = (size_t)tile * DP_TILE;
+    memset(g->mask + first, 0, DP_TILE * sizeof *g->mask);
+    memset(g->shared + first, 0, DP_TILE * sizeof *g->shared);
+    if (g->clean[tile]) return; /* background is written already */
+    for (uint32_t y = tile_y; y < tile_y + DP_TILE && y < g->height; y++)
+        fill_background(g, (size_t)y * g->stride + tile_x, width);
+    g->clean[tile] = 1; /* the margin beside it is not written yet */
+}
+
 void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *w, dp_normals normals) {
     uint64_t *const mask = g->mask + (size_t)w->index * DP_TILE;
     const uint32_t width = g->width - w->tile_x < DP_TILE ? g->width - w->tile_x : DP_TILE;
     const uint32_t height = g->height - w->tile_y < DP_TILE ? g->height - w->tile_y : DP_TILE;
-    const bool empty = w->frame->tile_pieces[w->index].empty,
-               facets = normals == DP_NORMALS_FACET || !g->normals;
+    const bool facets = normals == DP_NORMALS_FACET || !g->normals;
     const dp_fill f = {.g = g,
                        .w = w,
                        .facets = facets,
                        .weighted = !facets || g->textured || g->colored,
                        .step = (float)(1 / w->frame->view.focal)};
+    if (w->frame->tile_pieces[w->index].empty) {
+        dp_gbuffer_clear(g, w->index);
+        return;
+    }
     memset(mask, 0, DP_TILE * sizeof *mask);
     memset(g->shared + (size_t)w->index * DP_TILE, 0, DP_TILE * sizeof *mask);
-    if (empty && g->clean[w->index]) return; /* background is written already */
-    if (!empty) fill_rows(&f, width, height);
-    for (uint32_t y = 0; empty && y < height; y++) fill_background(g, row_place(&f, y), width);
-    g->clean[w->index] = empty; /* 1: the margin beside it is not written yet */
+    fill_rows(&f, width, height);
+    g->clean[w->index] = 0;
 }

@@ -74,6 +74,9 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured, bool 
 /* First pass: fills a tile from its samples (fill.c). */
 void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *worker, dp_normals normals);
 
+/* The same for a tile without any surface. */
+void dp_gbuffer_clear(dp_gbuffer *g, uint32_t tile);
+
 /* After all tiles: repeats the picture's border in the margin. */
 void dp_gbuffer_pad(dp_gbuffer *g);
 

@@ -15,6 +15,10 @@ static inline bool dp_batch_shift(const dp_batch *batch, const double origin[3],
  * tight. */
 dp_result dp_check_alignment(const dp_batch *batch, dp_diag *diag);
 
+/* To the source's start, if it can be rewound, where dp_source_begin (source.h) has not just been
+ * called. */
+dp_result dp_source_begun(dp_source *source, dp_diag *diag);
+
 /* Can a batch, whose position_stride is set, be walked safely? DP_ERR_ARGUMENT, DP_ERR_LIMIT. */
 dp_result dp_check_batch(const dp_batch *batch, dp_diag *diag);
 

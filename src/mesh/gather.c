@@ -8,7 +8,7 @@
 
 #include "base/diag.h"
 #include "base/hostile.h"
-#include "mesh/source.h"
+#include "mesh/batch.h"
 
 #include <math.h>
 #include <string.h>

@@ -42,8 +42,6 @@ void dp_source_lend(dp_source *source, dp_threads *threads);
 /* To the source's start, if it can be rewound, and the origin of the batch that comes next: 0 0 0
  * at the end. */
 dp_result dp_source_begin(dp_source *source, double origin[3], dp_diag *diag);
-/* To the source's start, if it can be rewound, where dp_source_begin has not just been called. */
-dp_result dp_source_begun(dp_source *source, dp_diag *diag);
 
 /* Makes min and max of exact_min and exact_max; a box of nothing (from INFINITY on) becomes 0. */
 void dp_extent_round(dp_extent *extent);

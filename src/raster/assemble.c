@@ -172,28 +172,38 @@ static bool cull_backs(dp_tile *w, uint32_t *back_count) {
     return true;
 }
 
-void dp_tile_assemble(dp_tile *w) {
-    const dp_raster_kernels *const kernels = dp_raster_kernels_for(w->frame->lanes);
-    uint32_t count, back_count;
+/* Makes and draws front faces, and of polygons with any number of corners all; returns whether back
+ * faces are left, `*back_count` of them. */
+static bool assemble_fronts(dp_tile *w, uint32_t *back_count) {
+    uint32_t count;
     w->polygon_count = w->point_count = w->culled_count = 0;
     for (uint32_t i = 0; i < DP_STRIP_SIDES * DP_STRIP; i++)
         w->strip[i / DP_STRIP][i % DP_STRIP] = DP_DEPTH_EMPTY;
-    if (!collect_ids(w, &count, &back_count)) return;
+    if (!collect_ids(w, &count, back_count)) return false;
     if (w->frame->polygons.firsts) {
         for (uint32_t i = 0; i < count && !w->failed; i++) add_polygon(w, w->ids[i]);
-        w->undrawn = w->polygon_count;
-        w->won = 0;
-        dp_tile_find_farthest(w);
-        return;
+        return false;
     }
-    w->keys_stride = count + back_count + DP_SEEN_ROOM;
-    if (!DP_TILE_RESERVE(w, w, keys, keys_cap, 3 * (size_t)w->keys_stride)) return;
-    kernels->assemble(w, w->ids, count, false);
+    w->keys_stride = count + *back_count + DP_SEEN_ROOM;
+    if (!DP_TILE_RESERVE(w, w, keys, keys_cap, 3 * (size_t)w->keys_stride)) return false;
+    dp_raster_kernels_for(w->frame->lanes)->assemble(w, w->ids, count, false);
+    return true;
+}
+
+void dp_tile_assemble_fronts(dp_tile *w) {
+    uint32_t back_count;
+    (void)assemble_fronts(w, &back_count);
+}
+
+void dp_tile_assemble(dp_tile *w) {
+    uint32_t back_count;
+    const bool backs = assemble_fronts(w, &back_count);
     w->undrawn = w->polygon_count;
     w->won = 0;
     dp_tile_find_farthest(w);
-    if (w->frame->culls_backs && !cull_backs(w, &back_count)) return;
-    kernels->assemble(w, w->backs, back_count, draws_backs(w->frame));
+    if (!backs || (w->frame->culls_backs && !cull_backs(w, &back_count))) return;
+    dp_raster_kernels_for(w->frame->lanes)
+        ->assemble(w, w->backs, back_count, draws_backs(w->frame));
 }
 
 /* What was culled lies behind all samples around it: drawn again it wins none. */

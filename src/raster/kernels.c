@@ -4,6 +4,7 @@
 
 #include "base/lanes.h"
 #include "raster/tile.h"
+#include "raster/xray.h"
 
 #include "core/keys.inc"
 #include "core/ld3.inc"
@@ -18,6 +19,7 @@
 #include "raster/normals.inc"
 #include "raster/polygon_words.inc"
 #include "raster/cross.inc"
+#include "raster/layer.inc"
 
 const dp_raster_kernels DP_KERNEL_TABLE(dp_raster_kernels) = {
     .transform = transform,
@@ -29,4 +31,5 @@ const dp_raster_kernels DP_KERNEL_TABLE(dp_raster_kernels) = {
     .raster = raster,
     .normals = normals,
     .cross = cross,
+    .layer = layer,
 };

@@ -43,6 +43,10 @@ typedef struct dp_raster_kernels {
     /* Keeps the close samples at which both polygons' planes cross, at least one is a front face or
      * back faces are seen, and, if they are triangles, they share no corner (cross.inc). */
     void (*cross)(struct dp_tile *worker);
+    /* Of a layer that the samples hold, unless NULL: counts each pixel's into covered[DP_TILE * DP_TILE],
+     * and writes to bound[sample] what the next one lies behind; returns the nearest of these
+     * (layer.inc). */
+    float (*layer)(const struct dp_tile *worker, uint8_t *covered, float *bound);
 } dp_raster_kernels;
 
 DP_KERNEL_TABLES(dp_raster_kernels);

@@ -9,6 +9,7 @@ bool dp_tile_begin(dp_tile *tile, const dp_frame *frame) {
     tile->failed = false;
     tile->stats = (dp_stats){0};
     tile->away = NULL;
+    tile->bound = NULL;
     tile->tests_near_depth =
         frame->lines & DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES;
     tile->finds_edges = frame->lines & ~DP_INTERSECTION && frame->styles[0].ink == DP_INK_STROKES &&

@@ -106,6 +106,8 @@ typedef struct dp_tile {
     const uint64_t *away;  /* a bit per sample that holds something which is no polygon of this
                               tile: does that face away? NULL: there are no such samples (only
                               src/stream has them) */
+    const float *bound;    /* by sample: only what lies behind is drawn (xray.c); NULL: all is */
+    float nearest_bound;   /* the nearest of these */
     dp_block block;        /* where the samples of a block lie */
 
     uint32_t index;          /* of the tile in the frame */
@@ -133,6 +135,7 @@ typedef struct dp_tile {
     size_t winner_cap, ids_cap, backs_cap, culled_cap, polygons_cap, normals_cap, unsure_cap,
         points_cap, keys_cap, seen_cap, seen_words_cap;
     uint32_t won;     /* not 0: a sample was won since it was last set to 0 */
+    uint32_t deeper;  /* with `bound`, not 0: more lies behind that than was won */
     bool sees_backs;  /* some back face is seen, in the tile or in the strip around it */
     uint32_t undrawn; /* back faces among this many first polygons are not drawn yet */
     uint32_t keys_stride, seen_stride;
@@ -166,6 +169,7 @@ void dp_tile_open(dp_tile *tile, uint32_t index);
 
 /* The stages, each in its own file. */
 void dp_tile_assemble(dp_tile *tile);          /* assemble.c: draws faces except … */
+void dp_tile_assemble_fronts(dp_tile *tile);   /* assemble.c: the same, of front faces alone */
 void dp_tile_find_farthest(dp_tile *tile);     /* cull.c */
 void dp_tile_faces(dp_tile *tile);             /* cull.c: … some back faces, which this draws */
 bool dp_tile_see(dp_tile *tile, bool culling); /* cull.c: lists what is not hidden, or all */

@@ -34,7 +34,7 @@ static void edges_row(dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t x1) {
     uint8_t *const out = s->frame->target.edge_map;
     if (out) dp_edge_map_store(&run, x1 - x0, out + 4 * ((size_t)y * g->width + x0));
     if (!s->colored || map->hidden) return;
-    uint8_t *const colors = s->shown + 4 * ((size_t)y * g->width + x0);
+    uint8_t *const colors = (s->edges ? s->edges : s->shown) + 4 * ((size_t)y * g->width + x0);
     for (uint64_t bits = run.strong; bits; bits &= bits - 1) {
         const uint32_t i = (uint32_t)__builtin_ctzll(bits);
         blend(colors + 4 * (size_t)i, map->inner, run.inner[i]);
@@ -125,7 +125,8 @@ static void ink_row(const dp_shade_store *s, uint32_t tile_x, uint32_t width, ui
 void dp_resolve_tile(dp_shade_store *s, uint32_t tile) {
     const dp_gbuffer *const g = &s->gbuffer;
     const dp_target *const target = &s->frame->target;
-    const dp_color paper = s->frame->styles[0].paper;
+    const dp_color paper = s->frame->xray ? DP_COLOR_NONE /* it lies below all layers */
+                                          : s->frame->styles[0].paper;
     const uint8_t background[4] = {(uint8_t)(paper >> 24), (uint8_t)(paper >> 16),
                                    (uint8_t)(paper >> 8), (uint8_t)paper};
     const uint32_t first = tile / g->tiles_x * DP_TILE, tile_x = tile % g->tiles_x * DP_TILE;

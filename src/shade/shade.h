@@ -122,7 +122,10 @@ typedef struct dp_shade_store {
     uint8_t *color;  /* [height][width][4], not premultiplied; set where there is a surface */
     uint8_t *smooth; /* the same, of the cartoon map */
     uint8_t *shown;  /* smooth with a cartoon map, else color */
-    uint8_t *inked;  /* [height][width][4] ink of the tiles that ink before shading */
+    uint8_t *
+        edges; /* [height][width][4] takes the edge map's edges, as ink; borrowed; NULL: they go over
+                        `shown` */
+    uint8_t *inked; /* [height][width][4] ink of the tiles that ink before shading */
     size_t color_cap, smooth_cap, inked_cap;
     uint8_t *hatching, *halftone; /* built-in textures, made when first used */
     size_t hatching_cap, halftone_cap;

@@ -15,6 +15,7 @@
 #include "sink/raster.h"
 
 #include "sink/kernels.h"
+#include "sink/xray.h"
 #include "core/blend.h"
 #include "raster/samples.h"
 
@@ -67,6 +68,8 @@ typedef struct tile_ink {
     dp_ink_worker *worker;
     const float *depth; /* the tile's samples; NULL: there is no surface */
     bool hides;         /* strokes are cut where the surface hides them */
+    dp_xray_tile *xray; /* what is inked instead of the target; or NULL */
+    bool classes;       /* the target's line_class is filled in */
     uint32_t x0, y0;    /* px of the tile's corner */
     uint32_t x1, y1;    /* of its end, within the picture */
 } tile_ink;
@@ -164,11 +167,13 @@ static void flush(const tile_ink *ink, dp_line line, dp_color color) {
         const float *const coverage = &ink->worker->coverage[py * DP_TILE];
         const size_t y = ink->y0 + py;
         if (!pixels) continue;
-        if (target->rgba)
+        if (ink->xray)
+            dp_xray_blend(ink->xray, py, coverage, pixels, color);
+        else if (target->rgba)
             dp_sink_kernels_for(ink->frame->lanes)
                 ->blend(target->rgba + y * target->rgba_stride + 4 * (size_t)ink->x0,
                         ink->x1 - ink->x0, coverage, pixels, color);
-        for (uint64_t bits = target->line_class ? pixels : 0; bits; bits &= bits - 1) {
+        for (uint64_t bits = ink->classes ? pixels : 0; bits; bits &= bits - 1) {
             const uint32_t px = (uint32_t)__builtin_ctzll(bits);
             if (coverage[px] >= 0.5f)
                 target->line_class[y * target->width + ink->x0 + px] = (uint8_t)(1 + line);
@@ -237,6 +242,16 @@ static void ink_layer(const tile_ink *ink, const uint32_t *strokes, size_t count
     if (count) flush(ink, line, color);
 }
 
+/* Begins an x-ray's tile; false: out of memory. */
+static bool begin_xray(tile_ink *ink, const dp_xray *xray, uint32_t tile) {
+    dp_ink_worker *const w = ink->worker;
+    if (!dp_reserve(ink->frame->memory, &w->xray, &w->xray_cap, 1, sizeof *w->xray))
+        return !(w->failed = true);
+    ink->xray = w->xray;
+    dp_xray_paper(xray, ink->frame, tile, ink->xray);
+    return true;
+}
+
 void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
     const dp_frame *const frame = k->frame;
     size_t count, first[LAYERS + 1];
@@ -244,7 +259,7 @@ void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
         worker->failed = true;
         return;
     }
-    if (!count) return;
+    if (!count && !(k->xray && k->xray->layers[0].tiles[tile])) return;
     const uint32_t x0 = tile % frame->tiles_x * DP_TILE, y0 = tile / frame->tiles_x * DP_TILE;
     const dp_target *const target = &frame->target;
     const bool empty = frame->tile_pieces[tile].empty;
@@ -257,12 +272,16 @@ void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
                     .x1 = x0 + DP_TILE < target->width ? x0 + DP_TILE : target->width,
                     .y1 = y0 + DP_TILE < target->height ? y0 + DP_TILE : target->height};
     memset(worker->row, 0, sizeof worker->row);
+    if (k->xray && !begin_xray(&ink, k->xray, tile)) return;
     for (uint32_t level = k->drawing->inks_hidden ? DP_LEVELS + 1 : 1; level-- > 0;) {
         ink.hides = !level && !empty && frame->lines & DP_SILHOUETTE;
+        ink.classes = target->line_class && (!level || !frame->xray);
+        if (k->xray) dp_xray_lay(k->xray, frame, tile, level, ink.xray);
         for (int i = 0; i < DP_LINE_COUNT; i++) {
             const dp_line line = dp_layers[i];
             const size_t *const from = first + layer_of(level, line);
             ink_layer(&ink, worker->sorted + from[0], from[1] - from[0], line);
         }
     }
+    if (k->xray) dp_xray_put(frame, tile, ink.xray);
 }

@@ -5,6 +5,7 @@
 #include "sink/raster.h"
 
 #include "base/diag.h"
+#include "sink/xray.h"
 
 /* From the bottom up: where lines cross, outlines lie over creases, and all over hatching. */
 const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_HATCHING, DP_LINE_VALLEY, DP_LINE_INTERSECTION,
@@ -14,7 +15,8 @@ const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_HATCHING, DP_LINE_VALLEY, DP_L
 /* ------- memory ------- */
 
 static const dp_array arrays[] = {DP_ARRAY(dp_ink_worker, strokes, strokes_cap),
-                                  DP_ARRAY(dp_ink_worker, sorted, sorted_cap)};
+                                  DP_ARRAY(dp_ink_worker, sorted, sorted_cap),
+                                  DP_ARRAY(dp_ink_worker, xray, xray_cap)};
 
 bool dp_raster_init(dp_raster *raster, uint32_t workers, const dp_allocator *memory) {
     raster->workers = dp_alloc_zeroed(memory, dp_times(workers, sizeof *raster->workers));

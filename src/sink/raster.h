@@ -14,7 +14,8 @@ typedef struct dp_ink_worker {
     float nearest[64 * 64]; /* brush.c: px from the spine; colour */
     dp_color color[64 * 64];
     uint32_t *strokes, *sorted; /* of the tile: as they come; ink.c: by level and class */
-    size_t strokes_cap, sorted_cap;
+    struct dp_xray_tile *xray;  /* one, where there is an x-ray */
+    size_t strokes_cap, sorted_cap, xray_cap;
     bool failed;
 } dp_ink_worker;
 
@@ -38,6 +39,8 @@ typedef struct dp_inking {
     dp_result (*for_tiles)(void *user, dp_task *task, void *arg, dp_diag *diag);
     void *user;
     bool plain; /* the strokes that plain ink takes, though there are stylized ones */
+    const struct dp_xray *xray; /* whose surfaces plain ink lays, with the strokes between them;
+                                   NULL: the target holds the surface */
 } dp_inking;
 
 /* A sink that inks `inking`, which it borrows. */

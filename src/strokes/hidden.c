@@ -60,20 +60,27 @@ typedef struct run {
     float length;
 } run;
 
-static uint8_t level_of(const hidden_part *h, uint32_t link) {
-    return h->lines->pieces[h->own->segment[h->own->chains.links[link].segment]].level;
+static dp_piece *piece_of(const hidden_part *h, uint32_t link) {
+    return &h->lines->pieces[h->own->segment[h->own->chains.links[link].segment]];
+}
+
+static bool same_level(const hidden_part *h, uint32_t link, uint32_t other) {
+    const dp_piece *const p = piece_of(h, link), *const q = piece_of(h, other);
+    return p->level == q->level && p->through == q->through;
 }
 
 static run run_from(const hidden_part *h, uint32_t first, uint32_t end) {
     run r = {first, first, 0};
-    while (r.end < end && level_of(h, r.end) == level_of(h, first))
+    while (r.end < end && same_level(h, r.end, first))
         r.length += length_of(&h->own->strokes[h->own->chains.links[r.end++].segment]);
     return r;
 }
 
-static void set_level(const hidden_part *h, const run *r, uint8_t level) {
+/* Gives a run the level of a link. */
+static void set_level(const hidden_part *h, const run *r, uint32_t link) {
+    const dp_piece *const from = piece_of(h, link);
     for (uint32_t i = r->first; i < r->end; i++)
-        h->lines->pieces[h->own->segment[h->own->chains.links[i].segment]].level = level;
+        piece_of(h, i)->level = from->level, piece_of(h, i)->through = from->through;
 }
 
 /* Gives short runs the level of the longer one beside them. Returns whether any changed. */
@@ -87,7 +94,7 @@ static bool smooth_chain(const hidden_part *h, const dp_chain *chain) {
         const run after = last ? (run){end, end, -1} : run_from(h, here.end, end);
         if (here.length < CRUMB && (before.length >= 0 || !last)) {
             const bool back = before.length >= after.length;
-            set_level(h, &here, level_of(h, back ? here.first - 1 : here.end));
+            set_level(h, &here, back ? here.first - 1 : here.end);
             any = true;
             if (back) { /* it is part of the run before it */
                 before.end = here.end, before.length += here.length;
@@ -329,7 +336,7 @@ bool dp_ink_hidden(const dp_frame *frame, const dp_lines *chained, dp_lines *lin
         .frame = frame, .chained = chained, .lines = lines, .points = own->points, .arc = own->arc};
     for (uint32_t i = 0; i < store->chain_count; i++)
         if (is_hidden(chained, &store->chains[i]) &&
-            !ink_chain(&p, &store->chains[i], frame->styles[0].hidden.look))
+            !ink_chain(&p, &store->chains[i], frame->hidden_look))
             return false;
     return lines->inked_count < UINT32_MAX;
 }

@@ -98,7 +98,7 @@ bool dp_strokes_have_gaps(const dp_frame *frame) {
     const dp_style *const style = &frame->styles[0];
     float dash[2];
     return (style->stroke.texture && style->stroke.texture->has_gaps && !dp_lies_outside(frame)) ||
-           (frame->hidden && dp_hidden_dash(style->hidden.look, 1, dash));
+           (frame->hidden && dp_hidden_dash(frame->hidden_look, 1, dash));
 }
 
 bool dp_chain_lines(const dp_frame *frame, dp_lines *d) {

@@ -62,7 +62,7 @@ static int by_edge(const void *left, const void *right) { return dp_piece_order(
 
 bool dp_piece_goes_on(const dp_piece *p, const dp_piece *q) {
     return p->a == q->a && p->b == q->b && p->edge == q->edge && p->line == q->line &&
-           p->level == q->level && p->k1 == q->k0;
+           p->level == q->level && p->through == q->through && p->k1 == q->k0;
 }
 
 /* All pieces to the front of the store: closed ones in order, then the joined open ones. */
@@ -219,15 +219,29 @@ static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, u
     }
 }
 
+/* Of an x-ray, what surfaces of the style's colour and opacity leave of a line's colour: as ink on
+ * paper, where pixels are blended layer by layer (sink/xray.c). */
+static dp_color faded(const dp_style *style, float through, dp_color color) {
+    const dp_color over = style->surface & 0xff ? style->surface : style->paper;
+    dp_color out = color & 0xff;
+    for (int shift = 8; shift < 32; shift += 8) {
+        const float c = (float)(color >> shift & 0xff), o = (float)(over >> shift & 0xff);
+        out |= (dp_color)(o + (c - o) * through + 0.5f) << shift;
+    }
+    return out;
+}
+
 void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segment,
                   dp_stroke *stroke) {
     const dp_style *const style = dp_polygon_style(frame, piece->a);
-    const dp_line_style *const line = piece->level
-                                          ? &style->hidden.line[piece->level - 1][piece->line]
-                                          : &style->line[piece->line];
+    const bool own = piece->level && style->hidden.look; /* else an x-ray's look as visible ones */
+    const dp_line_style *const line =
+        own ? &style->hidden.line[piece->level - 1][piece->line] : &style->line[piece->line];
     segment->level = stroke->level = piece->level;
     segment->width = line->width;
-    segment->color = stroke->color = line->color;
+    stroke->color = line->color;
+    segment->color =
+        frame->xray && piece->level ? faded(style, piece->through, line->color) : line->color;
     stroke->half_width = line->width / 2;
 }
 
@@ -307,7 +321,7 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *st
     store->lies_outside = dp_lies_outside(frame);
     store->silhouette_width = frame->styles[0].line[DP_LINE_SILHOUETTE].width;
     store->paper = frame->styles[0].paper;
-    store->hidden_look = frame->styles[0].hidden.look;
+    store->hidden_look = frame->hidden_look;
     store->surface = frame->styles[0].surface;
     job j = {frame, found, store};
     dp_parallel(frame->threads, (uint32_t)(count / BLOCK + (count % BLOCK != 0)), make_block, &j);

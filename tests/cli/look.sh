@@ -148,6 +148,7 @@ effects() {
 --hidden-width 4 || --hidden dashed | add --hidden dashed
 --hidden-color red || --hidden dashed | add --hidden dashed
 --hidden-smooth ||| add --hidden dashed
+--xray-layers 1 || --xray 0.5 | add --xray 0.5
 --tolerance 2 ||| add -o drawing.svg
 --join 20 ||| add -o drawing.svg
 --min-length 20 ||| add -o drawing.svg

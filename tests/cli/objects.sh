@@ -6,15 +6,15 @@ objects_tests="listed_objects objects_left_out objects_left_out_of_fits objects_
     later_objects_win exploded_parts exploded_scenes objects_everywhere wrong_objects unknown_objects many_objects
     objects_of_pipes"
 
-# box NAME X: an OBJ of a box of side 1, an object of that name, whose middle is at x = X.
-box() {
+# cuboid NAME X: an OBJ of a cuboid of side 1, an object of that name, whose middle is at x = X.
+cuboid() {
     awk -v name="$1" -v x="$2" 'BEGIN {
         print "o " name
         for (i = 0; i < 8; i++) print "v", x - 0.5 + i % 2, int(i / 2) % 2, int(i / 4)
         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }'
 }
 # Three boxes in a row: left, middle/core and right.
-row() { { box left 0; box middle/core 2; box right 6; } >row.obj; }
+row() { { cuboid left 0; cuboid middle/core 2; cuboid right 6; } >row.obj; }
 # colors FILE.svg: the colours of its lines.
 colors() { grep -oE 'stroke="#[0-9a-f]*' "$1" | cut -c 9- | sort -u | tr '\n' ' '; }
 
@@ -41,6 +41,9 @@ assert objects[2]["color"] == "#ff0000ff" and objects[0]["color"] is None
 assert objects[1]["min"] == [1.5, 0, 0] and objects[1]["polygons"] == 6' <out || fail "the JSON differs"
     run 0 colored.obj --list --only 'm*,right'
     [ "$(wc -l <out)" = 3 ] || fail "--list does not leave out what --only does"
+    run 0 colored.obj --list -o out.png --color red --time 0
+    says err 'warning: --output, --color change nothing: --list draws nothing'
+    absent out.png
     run 0 shape:cube --list
     says out '        12  -        (no name)'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\no a\033[31mb\nf 1 2 3\n' >sly.obj
@@ -52,7 +55,7 @@ assert objects[1]["min"] == [1.5, 0, 0] and objects[1]["polygons"] == 6' <out ||
 }
 objects_left_out() {
     row
-    { box left 0; box right 6; } >two.obj
+    { cuboid left 0; cuboid right 6; } >two.obj
     run 0 two.obj $small -o want.png
     set -f
     for options in '--without middle' '--without core' '--only left,right' '--only left --only right' '--only *t' \
@@ -68,7 +71,7 @@ objects_left_out() {
 # What is left out has no say in the camera.
 objects_left_out_of_fits() {
     row
-    box right 6 >one.obj
+    cuboid right 6 >one.obj
     run 0 one.obj $small -o want.svg --title x
     run 0 row.obj $small --only right -o out.svg --title x
     cmp -s want.svg out.svg || fail "the drawing differs"
@@ -98,7 +101,7 @@ objects_styled() {
     says out.svg 'stroke-width="11.811"' # px of 150 dpi
 }
 objects_by_pattern() {
-    { box bolt1 0; box bolt2 2; box 'nut*' 4; box 'Bolt3' 6; } >many.obj
+    { cuboid bolt1 0; cuboid bolt2 2; cuboid 'nut*' 4; cuboid 'Bolt3' 6; } >many.obj
     only() { # PATTERN LINES: how many objects it leaves
         run 0 many.obj --list --only "$1"
         [ "$(wc -l <out)" = $(($2 + 1)) ] || fail "--only $1 leaves $(cat out)"
@@ -115,13 +118,13 @@ objects_by_pattern() {
     says err 'did you mean bolt1'
 }
 odd_names_of_objects() {
-    { box 'a:b, c' 0; box 'shape:bolt' 2; box 'x:color=red' 4; } >odd.obj
+    { cuboid 'a:b, c' 0; cuboid 'shape:bolt' 2; cuboid 'x:color=red' 4; } >odd.obj
     run 0 odd.obj $small -o out.svg --object 'a:b\, c:color=red' --object shape:bolt:color=blue --object 'x\:color=red:color=lime'
     [ "$(colors out.svg)" = '#00f #0f0 #f00 ' ] || fail "the colours are $(colors out.svg)"
     run 0 odd.obj --list --only 'a:b\, c'
     [ "$(wc -l <out)" = 2 ] || fail "a comma in a name: $(cat out)"
     # one part of a name, or more that follow each other
-    { box a/b/c 0; box a/bc 2; } >deep.obj
+    { cuboid a/b/c 0; cuboid a/bc 2; } >deep.obj
     for name in a/b/c a/b b/c b c; do
         run 0 deep.obj --list --only $name
         [ "$(wc -l <out)" = 2 ] || fail "--only $name leaves $(cat out)"
@@ -139,7 +142,7 @@ later_objects_win() {
 exploded_parts() {
     row
     # centres at 0, 2 and 6, and the model's at 3
-    { box left -3; box middle/core 1; box right 9; } >apart.obj
+    { cuboid left -3; cuboid middle/core 1; cuboid right 9; } >apart.obj
     run 0 apart.obj $small -o want.png
     for options in '--explode 1' '--explode 1 --explode-axis x'; do
         run 0 row.obj $small $options -o out.png
@@ -162,8 +165,8 @@ exploded_parts() {
 }
 # Parts of a scene are its models; a binary STL's triangles are moved, too.
 exploded_scenes() {
-    { box a/one 0; box b/two 2; } >first.obj
-    box c 8 >second.obj
+    { cuboid a/one 0; cuboid b/two 2; } >first.obj
+    cuboid c 8 >second.obj
     run 0 first.obj second.obj --list --json --explode 1
     says out '"min": [-3.5, 0, 0]'
     says out '"min": [-1.5, 0, 0]'
