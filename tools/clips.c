@@ -3,6 +3,7 @@
 #include "clips.h"
 
 #include "commands.h"
+#include "film.h"
 #include "models.h"
 #include "report.h"
 
@@ -39,10 +40,13 @@ static void note_nearest(const dp_scene_desc *scene, const char *wanted, clips_t
     }
 }
 
+/* Does a first animation play, where none is named? */
+static bool is_played(const tool_settings *s) { return s->has_time || film_wanted(s); }
+
 int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally) {
     const dp_scene_desc *const scene = dp_scene_of(source);
     dp_diag diag = {0};
-    if (!scene || (!s->animation && !s->has_time)) return 0;
+    if (!scene || (!s->animation && !is_played(s))) return 0;
     tally->clips += scene->clip_count;
     if (s->animation && is_rest(s->animation)) return 0;
     const uint32_t clip = s->animation ? find_clip(scene, s->animation) : scene->clip_count > 0;
@@ -52,10 +56,9 @@ int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally) {
     return dp_scene_play(source, clip, &diag) ? report_model(s, &diag) : 0;
 }
 
-/* Does a shape, a film or whatever else move by --time? */
+/* Does something else than an animation take --time? */
 static bool is_moved_otherwise(const tool_settings *s) {
-    (void)s;
-    return false;
+    return s->has_deform || s->morph || film_wanted(s);
 }
 
 static int tell_missing(const tool_settings *s, const clips_tally *tally) {

@@ -14,7 +14,7 @@ typedef struct clips_tally {
     unsigned distance;
 } clips_tally;
 
-/* Plays, on a model just opened, the animation of --animation, or with --time alone its first one. A
+/* Plays, on a model just opened, the animation of --animation, or for --time and films its first one. A
  * model that has no such animation stays at rest. 0, or the exit code after a message. */
 int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally);
 /* When all are opened: an error where no model has the animation, a warning where --time changes

@@ -171,8 +171,8 @@ int open_model(const tool_settings *s, dp_source **out) {
     *out = NULL;
     int code =
         s->model_count > 1 ? open_scene(s, &tally, out) : open_one(s, s->models[0], &tally, out);
-    if (!code) code = clips_check(s, &tally);
     if (!code) code = reshape_model(s, &tally, out);
+    if (!code) code = clips_check(s, &tally);
     /* where it is cut does not depend on the time */
     if (!code) code = open_section(s, out);
     if (!code) code = move_model(s, out);

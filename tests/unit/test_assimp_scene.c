@@ -149,9 +149,121 @@ static void models_pose_as_another_evaluator_says(void **state) {
     for (size_t k = 0; k < MODEL_COUNT; k++) check_model(&models[k]);
 }
 
+/* The nodes that the pivots of FBX become change nothing at rest: models that stand still come without. */
+static void pivots_change_nothing_at_rest(void **state) {
+    static const char *const still[] = {"FBX/cubes_with_mirroring_and_pivot.fbx", "FBX/spider.fbx",
+                                        "FBX/close_to_identity_transforms.fbx",
+                                        "FBX/global_settings.fbx"};
+    (void)state;
+    for (size_t k = 0; k < sizeof still / sizeof *still; k++) {
+        char path[300];
+        size_t count;
+        dp_source *const source = open_model(still[k]);
+        assert_null(dp_scene_of(source));
+        snprintf(path, sizeof path, MODELS "%s", still[k]);
+        const struct aiScene *const scene = pose_import(path);
+        double(*const vertices)[3] = pose_vertices(scene, -1, 0, &count);
+        const double error = compare(source, vertices, count);
+        if (!(error <= 1e-5)) fail_msg("%s: %g of its size apart", still[k], error);
+        free(vertices);
+        aiReleaseImport(scene);
+        dp_source_destroy(source);
+    }
+}
+
+/* ---- small files ---- */
+
+static dp_source *open_text(const char *ending, const char *text) {
+    const char *const path = write_file(ending, text, strlen(text));
+    dp_source *source = NULL;
+    dp_diag diag = {0};
+    if (dp_io_open(path, NULL, &source, &diag)) fail_msg("%s", diag.message);
+    unlink(path);
+    return source;
+}
+
+/* At a time of a clip (0: at rest), a vertex lies there. */
+static void assert_vertex(dp_source *source, uint32_t clip, double time, uint32_t vertex, double x,
+                          double y, double z) {
+    const double wanted[3] = {x, y, z};
+    dp_batch batch;
+    assert_int_equal(dp_scene_play(source, clip, NULL), DP_OK);
+    assert_int_equal(dp_source_set_time(source, time, NULL), DP_OK);
+    assert_int_equal(dp_source_next(source, &batch, NULL), DP_OK);
+    assert_true(vertex < batch.vertex_count);
+    const float *const p = batch.positions + 3 * (size_t)vertex;
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(p[k] - wanted[k]) <= 1e-5))
+            fail_msg("at %g s it lies at %g %g %g", time, (double)p[0], (double)p[1], (double)p[2]);
+}
+
+/* FBX: a triangle that turns by 180 degrees about z in two seconds, about a pivot at x = 10. */
+static const char turning[] =
+    "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\n"
+    "Objects: {\nGeometry: 1, \"Geometry::g\", \"Mesh\" {\n"
+    "Vertices: *9 {\na: 0,0,0,1,0,0,0,1,0\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\n}\n"
+    "Model: 2, \"Model::door\", \"Mesh\" {\nVersion: 232\nProperties70: {\n"
+    "P: \"RotationPivot\", \"Vector3D\", \"Vector\", \"\",10,0,0\n"
+    "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,0,7\n}\n}\n"
+    "AnimationStack: 3, \"AnimStack::open\", \"\" {\nProperties70: {\n"
+    "P: \"LocalStop\", \"KTime\", \"Time\", \"\",92372316000\n}\n}\n"
+    "AnimationLayer: 4, \"AnimLayer::base\", \"\" {\n}\n"
+    "AnimationCurveNode: 5, \"AnimCurveNode::R\", \"\" {\n}\n"
+    "AnimationCurve: 6, \"AnimCurve::\", \"\" {\nKeyVer: 4008\n"
+    "KeyTime: *3 {\na: 0,46186158000,92372316000\n}\n"
+    "KeyValueFloat: *3 {\na: 0,90,180\n}\n}\n}\n"
+    "Connections: {\nC: \"OO\",2,0\nC: \"OO\",1,2\nC: \"OO\",4,3\nC: \"OO\",5,4\n"
+    "C: \"OP\",5,2, \"Lcl Rotation\"\nC: \"OP\",6,5, \"d|Z\"\n}\n";
+
+static void pivots_of_fbx_are_turned_about(void **state) {
+    (void)state;
+    dp_source *const source = open_text(".fbx", turning);
+    assert_vertex(source, 0, 0, 1, 1, 0, 7);
+    assert_vertex(source, 1, 0, 1, 1, 0, 7);
+    assert_vertex(source, 1, 1, 1, 10, -9, 7);
+    assert_vertex(source, 1, 2, 1, 19, 0, 7);
+    assert_true(fabs(dp_source_duration(source) - 2) < 1e-6);
+    dp_source_destroy(source);
+}
+
+/* FBX: a triangle whose target lifts it by 4, from 0 to half of that in one second. */
+static const char lifted[] =
+    "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\n"
+    "Objects: {\nGeometry: 1, \"Geometry::g\", \"Mesh\" {\n"
+    "Vertices: *9 {\na: 0,0,0,1,0,0,0,1,0\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\n}\n"
+    "Geometry: 12, \"Geometry::up\", \"Shape\" {\nVersion: 100\nIndexes: *2 {\na: 1,2\n}\n"
+    "Vertices: *6 {\na: 0,0,4,0,0,4\n}\nNormals: *6 {\na: 0,0,0,0,0,0\n}\n}\n"
+    "Model: 2, \"Model::door\", \"Mesh\" {\nVersion: 232\n}\n"
+    "Deformer: 10, \"Deformer::shapes\", \"BlendShape\" {\nVersion: 100\n}\n"
+    "Deformer: 11, \"SubDeformer::up\", \"BlendShapeChannel\" {\nVersion: 100\nDeformPercent: 0\n"
+    "FullWeights: *1 {\na: 100\n}\n}\n"
+    "AnimationStack: 3, \"AnimStack::lift\", \"\" {\nProperties70: {\n"
+    "P: \"LocalStop\", \"KTime\", \"Time\", \"\",46186158000\n}\n}\n"
+    "AnimationLayer: 4, \"AnimLayer::base\", \"\" {\n}\n"
+    "AnimationCurveNode: 5, \"AnimCurveNode::DeformPercent\", \"\" {\n}\n"
+    "AnimationCurve: 6, \"AnimCurve::\", \"\" {\nKeyVer: 4008\n"
+    "KeyTime: *2 {\na: 0,46186158000\n}\nKeyValueFloat: *2 {\na: 0,50\n}\n}\n}\n"
+    "Connections: {\nC: \"OO\",2,0\nC: \"OO\",1,2\nC: \"OO\",10,1\nC: \"OO\",11,10\n"
+    "C: \"OO\",12,11\nC: \"OO\",4,3\nC: \"OO\",5,4\nC: \"OP\",5,11, \"DeformPercent\"\n"
+    "C: \"OP\",6,5, \"d|DeformPercent\"\n}\n";
+
+static void targets_of_fbx_are_weighted(void **state) {
+    (void)state;
+    dp_source *const source = open_text(".fbx", lifted);
+    assert_int_equal(dp_scene_of(source)->meshes[0].morph_count, 1);
+    assert_vertex(source, 0, 0, 1, 1, 0, 0);
+    assert_vertex(source, 1, 0.5, 0, 0, 0, 0);
+    assert_vertex(source, 1, 0.5, 1, 1, 0, 1);
+    assert_vertex(source, 1, 1, 2, 0, 1, 2);
+    dp_source_destroy(source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(models_pose_as_another_evaluator_says),
+        cmocka_unit_test(pivots_change_nothing_at_rest),
+        cmocka_unit_test(pivots_of_fbx_are_turned_about),
+        cmocka_unit_test(targets_of_fbx_are_weighted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

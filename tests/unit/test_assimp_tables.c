@@ -217,6 +217,28 @@ static void morph_targets_are_positions(void **state) {
     free(h);
 }
 
+/* COLLADA's relative targets are what is added; where others say so, they still are positions. */
+static void targets_of_collada_may_be_relative(void **state) {
+    (void)state;
+    static struct aiString key, collada;
+    struct aiMetadataEntry entry = {AI_AISTRING, &collada};
+    struct aiMetadata data = {1, &key, &entry};
+    hand *const h = make_hand();
+    name(&key, "SourceAsset_Format");
+    name(&collada, "Collada Importer");
+    add_targets(h);
+    h->mesh.mMethod = aiMorphingMethod_MORPH_RELATIVE;
+    h->morphs[0].mWeight = 0.5f;
+    assert_at(h, -1, "(100 0 0.5)(101 0 0.5)(100 1 0.5)");
+    h->scene.mMetaData = &data;
+    assert_at(h, -1, "(100 0 0.5)(101.5 0 0.5)(100 1.5 0.5)");
+    h->mesh.mMethod = aiMorphingMethod_MORPH_NORMALIZED;
+    assert_at(h, -1, "(100 0 0.5)(101 0 0.5)(100 1 0.5)");
+    name(&collada, "Autodesk FBX Importer"); /* whose weights at rest say nothing */
+    assert_at(h, -1, "(100 0 0)(101 0 0)(100 1 0)");
+    free(h);
+}
+
 static void channels_may_go_on(void **state) {
     (void)state;
     hand *const h = make_hand();
@@ -461,6 +483,7 @@ int main(void) {
         cmocka_unit_test(weights_need_not_sum_to_one),
         cmocka_unit_test(vertices_without_bones_stay_at_their_node),
         cmocka_unit_test(morph_targets_are_positions),
+        cmocka_unit_test(targets_of_collada_may_be_relative),
         cmocka_unit_test(channels_may_go_on),
         cmocka_unit_test(bones_may_be_wrong),
         cmocka_unit_test(influences_have_an_end),
