@@ -172,8 +172,13 @@ static bool is_opaque(const tool_settings *s) {
 }
 
 static void warn_formats(const film *f) {
-    if (!f->s->quiet && !is_opaque(f->s) && files_have(f->s, FORMAT_MP4))
+    const tool_settings *const s = f->s;
+    if (s->quiet) return;
+    if (!is_opaque(s) && files_have(s, FORMAT_MP4))
         warn("MP4 has no transparency: its paper is white; .webm, .gif and .apng have some");
+    if (f->plan.fps > 50 && files_have(s, FORMAT_GIF))
+        warn("players show GIFs of more than 50 frames a second slowly; give --fps 50, or write a "
+             ".webm");
 }
 
 static int ready(void *user) {

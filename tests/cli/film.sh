@@ -2,7 +2,7 @@
 # move, what is left on disk when something ends too soon. ffmpeg itself is used where it is installed.
 # shellcheck shell=bash disable=SC2034,SC2086,SC2154
 
-film_tests="frames_as_pictures frames_alone_and_in_any_order turning_cameras turns_fit film_paths wrong_paths films_of_each
+film_tests="frames_as_pictures frames_alone_and_in_any_order turning_cameras turns_fit films_of_motion film_paths wrong_paths films_of_each
     film_sheets_and_pages raw_films resumed_films wrong_films film_statistics ffmpeg_missing ffmpeg_fails ffmpeg_is_slow
     interrupted_films films_by_ffmpeg films_from_a_pipe films_that_fail film_progress"
 
@@ -33,8 +33,13 @@ frames_as_pictures() {
     [ "$(png_size out-0005.png)" = 64x48 ] || fail "size $(png_size out-0005.png)"
     cmp -s out-0000.png out-0001.png && fail "nothing moves"
     # %% is a percent sign, and a cube has turned once in a quarter of the frames
-    run 0 $cube --turn 360 --frames 4 -o '%%%d%%.png' --up z -q
+    run 0 $cube --turn 360 --frames 4 -o '%%%d%%.png' -q
     [ -e '%3%.png' ] || fail "no %3%.png: $(ls)"
+    mkdir '100%'
+    run 0 $cube --turn 360 --frames 2 -o '100%%/%d.png' -o 'normals=100%%/n%d.png' -q
+    [ -e '100%/n1.png' ] || fail "no 100%/n1.png"
+    run 0 $cube --turn 360 --frames 4 --frame 2 -o - -q
+    same out '%2%.png'
     # a film of what does not move is its picture
     run 0 $cube -o still.png
     run 0 $cube --frames 2 -o still-%d.png
@@ -86,6 +91,32 @@ turning_cameras() {
     same up-1.png up.png
     run 0 shape:cube $small --turn 360 -o all-%d.png -q
     [ "$(count 'all-*.png')" = 120 ] || fail "$(count 'all-*.png') frames of a turn"
+}
+# What moves is drawn at each frame's time; the camera shows all of it and stands still.
+films_of_motion() {
+    "$program" --help deform >/dev/null 2>&1 || return # nothing moves here
+    local wave="shape:torus --deform wave" k
+    run 0 $wave $small --eye 4,3,5 --target 0,0,0 --time 0:1 --frames 8 -o w-%d.png -o w-%d.svg -q --jobs 3
+    for k in 0 1 5; do
+        run 0 $wave $small --eye 4,3,5 --target 0,0,0 --time "$(awk "BEGIN { print $k / 8 }")" -o still.png -o still.svg -q
+        same still.png w-$k.png
+        same still.svg w-$k.svg
+    done
+    cmp -s w-0.png w-4.png && fail "nothing moves"
+    run 0 $wave --size 32x24 --time 0:1 --fps 10 -o count-%d.png -q
+    [ "$(count 'count-*.png')" = 10 ] || fail "$(count 'count-*.png') frames of 1 s"
+    run 0 $wave $small --time 1:0 --frames 8 --eye 4,3,5 --target 0,0,0 -o back-%d.png -o back-%d.svg -q
+    same back-3.png w-5.png
+    # a chest rises: its lowest point, which does not move, stands still in the picture
+    printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 -1 1\nv -1 -1 1\nv 0 1 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n' >tent.obj
+    run 0 tent.obj --deform wave:axis=y,across=x --size 64x48 --view front --time 0:1 --frames 8 -q --format rgba -o film.bin
+    for k in $(seq 0 7); do
+        dd if=film.bin of=frame bs=12288 skip=$k count=1 2>/dev/null
+        read -r left top right bottom < <(box frame)
+        { [ "$left" -ge 1 ] && [ "$right" -le 62 ]; } || fail "frame $k is cut off: $left $top $right $bottom"
+        echo "$bottom"
+    done | sort -u >bottoms
+    [ "$(wc -l <bottoms)" = 1 ] || fail "the camera jumps: $(tr '\n' ' ' <bottoms)"
 }
 # box FILE: the inked rows and columns of a raw picture of 64x48, as LEFT TOP RIGHT BOTTOM.
 box() {
@@ -274,7 +305,7 @@ ffmpeg_missing() {
     says err '-o out.mp4: such films are made by ffmpeg, and there is none on PATH; install it'
     says err '-o out-%04d.png'
     [ "$(cat out.mp4)" = old ] || fail "the old file is gone"
-    PATH= run 1 $cube --turn 360 --format webm -o -
+    PATH='' run 1 $cube --turn 360 --format webm -o -
     says err 'there is none on PATH'
     PATH=$PWD/empty run 0 $cube --turn 360 --frames 2 -o out.rgba -q
 }
