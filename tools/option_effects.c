@@ -120,6 +120,8 @@ static const rule drawing_rules[] = {
     {"levels|hidden-smooth|hidden-width|hidden-color", has_hidden,
      "hidden lines are not drawn; add --hidden dashed"},
 
+    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
+
     {"join|min-length|tolerance|join-classes|keep-coincident|optimize|ground", files_have_paths,
      "no vector file is written; add -o drawing.svg, say"},
     {"ground", has_ground, "only SVG, PDF and EPS files have one; add -o drawing.svg, say"},
@@ -159,8 +161,6 @@ static const rule drawing_rules[] = {
     {"c1-passes", is_c1, "it is of the C1 operator; add --edge-map c1"},
     {"edge-sides|inner-angle|inner-softness|profile-softness", is_scaled,
      "--edge-measure paper has no thresholds and both sides; leave it out"},
-
-    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},
