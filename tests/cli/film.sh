@@ -132,11 +132,20 @@ turns_fit() {
     for k in $(seq 0 11); do
         dd if=film.bin of=frame bs=12288 skip=$k count=1 2>/dev/null
         read -r left top right bottom < <(ink_box frame)
-        [ "$left" -ge 1 ] && [ "$top" -ge 1 ] && [ "$right" -le 62 ] && [ "$bottom" -le 46 ] ||
+        { [ "$left" -ge 1 ] && [ "$top" -ge 1 ] && [ "$right" -le 62 ] && [ "$bottom" -le 46 ]; } ||
             fail "frame $k is cut off: $left $top $right $bottom"
         [ $((right - left)) -gt $widest ] && widest=$((right - left))
     done
     [ $widest -ge 55 ] || fail "the widest frame is $widest px wide"
+    # a mirror turns with the model, and its corners come nearest in a frame that is not the first
+    run 0 shape:cube --size 64x48 --view front --elevation 30 --mirror 0,1,0 --paper '#FFFFFF' --surface '#000000' \
+        --mirror-tint '#000000' --mirror-tint-share 1 --turn 360 --frames 8 -q --format rgba -o film.bin
+    for k in 0 1 2 3; do
+        dd if=film.bin of=frame bs=12288 skip=$k count=1 2>/dev/null
+        read -r left top right bottom < <(ink_box frame)
+        { [ "$left" -ge 1 ] && [ "$top" -ge 1 ] && [ "$right" -le 62 ] && [ "$bottom" -le 46 ]; } ||
+            fail "the mirror is cut off in frame $k: $left $top $right $bottom"
+    done
 }
 film_paths() {
     cat >path.json <<'PATH'
