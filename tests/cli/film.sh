@@ -382,7 +382,7 @@ films_that_fail() {
     one_line
     says err 'f-3.png'
     "$program" $film_cube --turn 360 --frames 1000000 -o film.rgba --jobs 1 >out 2>err &
-    local main=$! job= tries=0
+    local main=$! job='' tries=0
     while [ -z "$job" ] && [ $tries -lt 100 ]; do
         sleep 0.05
         tries=$((tries + 1))
