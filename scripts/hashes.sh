@@ -75,10 +75,11 @@ export -f run
 cases | tr '\n' '\0' | xargs -0 -P "$(nproc)" -I {} bash -c 'run "$1"' _ {} | sort -k 2
 
 # and the gallery, by its own commands
-mkdir "$work/gallery"
-cp scripts/place.awk "$work/gallery"
+mkdir -p "$work/build/gallery"
+ln -s "$PWD/tests" "$work/tests" # which they name from build/gallery
+cp scripts/place.awk "$work/build/gallery"
 drypoint() { "$program" "$@" --quiet; }
 commands=$(sed -n '/^```sh$/,/^```$/{/^```/d;p}' docs/gallery/README.md)
-cd "$work/gallery"
+cd "$work/build/gallery"
 . /dev/stdin <<<"$commands" >/dev/null
 sha256sum ./*.png | cut -c 1-16,65- | sed 's/ *\.\// gallery /'

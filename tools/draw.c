@@ -6,6 +6,8 @@
 #include "draw.h"
 #include "film.h"
 #include "files.h"
+#include "look.h"
+#include "objects.h"
 #include "output.h"
 #include "page_ink.h"
 #include "planes.h"
@@ -52,6 +54,7 @@ int drawing_prepare(const tool_settings *s, drawing *d, dp_source *seen, measure
     code = make_stroke(s, &d->plan, &d->style, &d->texture);
     if (code) return code;
     code = look_make(s, d->source, &d->look, &d->style);
+    if (!code) code = objects_style(s, d->source, &d->plan, &d->style, &d->objects);
     if (code) return code;
     if (d->style.shade.model_colors) warn_source(s, dp_source_color_remark(d->source));
     if (!s->number) warn_options(s, d);
@@ -73,10 +76,11 @@ int drawing_open(const tool_settings *s, drawing *d, uint32_t threads) {
 /* ---- drawing ---- */
 
 static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
-                     const dp_target *target) {
+                     const object_styles *objects, const dp_target *target) {
     dp_diag diag = {0};
     progress_begin("drawing", s->quiet);
-    const dp_result result = dp_draw(d->context, d->source, &v->camera, style, target, &diag);
+    const dp_result result = dp_draw_grouped(d->context, d->source, &v->camera, style,
+                                             objects->styles, objects->count, target, &diag);
     progress_end();
     if (!result) return 0;
     return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
@@ -98,7 +102,11 @@ static int draw_ground(const tool_settings *s, drawing *d, int k) {
                               .height = v->height,
                               .samples = d->target.samples,
                               .rgba = d->views[k].ground};
-    return draw_into(s, d, v, &style, &target);
+    object_styles bare;
+    if (!objects_without_lines(&d->objects, &bare)) return EXIT_FAILED;
+    const int code = draw_into(s, d, v, &style, &bare, &target);
+    objects_free(&bare);
+    return code;
 }
 
 static int draw_lines(const tool_settings *s, drawing *d, int k) {
@@ -109,7 +117,7 @@ static int draw_lines(const tool_settings *s, drawing *d, int k) {
     target.width = v->width, target.height = v->height;
     if (target.rgba) target.rgba += v->y * stride + (size_t)4 * v->x, target.rgba_stride = stride;
     if (v->bare) style.hidden.look = DP_HIDDEN_NONE;
-    int code = draw_into(s, d, v, &style, &target);
+    int code = draw_into(s, d, v, &style, &d->objects, &target);
     if (!code) dp_stats_of(d->context, &d->stats[k]);
     if (!code && d->paths) code = paths_make(s, &d->plan, d->context, &d->views[k].lines);
     return code;
@@ -240,6 +248,7 @@ void drawing_free(drawing *d) {
     if (!d->lent) free(d->target.rgba);
     planes_free(&d->target);
     look_free(&d->look);
+    objects_free(&d->objects);
 }
 
 int draw_scene(const tool_settings *s) {

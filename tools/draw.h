@@ -3,6 +3,7 @@
 #define TOOL_DRAW_H
 
 #include "look.h"
+#include "objects.h"
 #include "page.h"
 #include "paths.h"
 
@@ -11,7 +12,8 @@ typedef struct drawing {
     dp_context *context;
     dp_texture *texture;
     dp_style style;
-    dp_target target; /* planes of the only view; rgba is the whole page */
+    object_styles objects; /* of those that have their own */
+    dp_target target;      /* planes of the only view; rgba is the whole page */
     look_data look;
     page_plan plan;
     bool pixels, paths; /* what is wanted */

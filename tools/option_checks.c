@@ -9,6 +9,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+static bool check_section(const tool_settings *s) {
+    if (s->section.count && s->smooth > 1)
+        return wrong_usage(
+            "--clip cuts polygons, and --smooth would draw another surface than was cut; "
+            "leave one out");
+    if (s->section.count && s->ink == INK_QUADS && s->edges != EDGES_ADJACENCY)
+        return wrong_usage("--ink quads has no lines of sections; leave it out, or --clip");
+    return true;
+}
+
 static bool check_camera(const tool_settings *s) {
     if (s->has_fov && s->has_ortho)
         return wrong_usage("--fov and --ortho exclude each other; leave one out");
@@ -53,7 +63,7 @@ static bool check_present(const tool_settings *s) {
                            text->arguments);
     if (s->command == COMMAND_MAKE && !s->output)
         return wrong_usage("no output given; add -o OUT.ply");
-    if (s->command == COMMAND_DRAW && !files_count(s)) return no_output(s);
+    if (s->command == COMMAND_DRAW && !files_count(s) && !s->list) return no_output(s);
     if (files_standard(s) > 1)
         return wrong_usage("only one output can go to standard output; give the others files");
     return true;
@@ -111,7 +121,16 @@ static bool check_sheet(const tool_settings *s) {
     return true;
 }
 
+static bool check_motion(const tool_settings *s) {
+    if (s->morph && s->model_count > 1)
+        return wrong_usage(
+            "--morph blends one model with another, but %u are given; leave the others "
+            "out",
+            s->model_count);
+    return true;
+}
+
 bool options_check(const tool_settings *s) {
     return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && film_check(s);
+           check_sheet(s) && check_motion(s) && film_check(s) && check_section(s);
 }

@@ -74,6 +74,11 @@ static bool has_highlight(const tool_settings *s) {
     return s->shading >= SHADING_LAMBERT && s->shading <= SHADING_TOON;
 }
 
+static bool is_exploded(const tool_settings *s) { return s->explode > 0; }
+static bool is_listing(const tool_settings *s) { return s->list; }
+static bool has_section(const tool_settings *s) { return s->section.count; }
+static bool has_hatching(const tool_settings *s) { return s->section.look <= 2; }
+static bool has_faces(const tool_settings *s) { return s->section.look != 4; }
 static bool has_mirror(const tool_settings *s) { return s->has_mirror; }
 static bool has_tint(const tool_settings *s) {
     return s->mirror_tint_share > 0 || !s->has_mirror_tint_share;
@@ -87,6 +92,13 @@ static bool is_c1(const tool_settings *s) { return s->edge_map == EDGE_MAP_C1; }
 static bool is_scaled(const tool_settings *s) { return s->edge_measure != MEASURE_PAPER; }
 static bool has_normals(const tool_settings *s) {
     return is_shaded(s) || makes_map(s) || s->outputs[PLANE_NORMALS] || has_smooth(s);
+}
+
+static bool has_morph(const tool_settings *s) { return s->morph != NULL; }
+/* Only breathing begins at rest. */
+static bool is_deformed(const tool_settings *s) {
+    return s->command == COMMAND_BENCH || s->deform.kind != DP_DEFORM_BREATHE ||
+           (s->has_time && (s->time[0] != 0 || s->time[1] != 0));
 }
 
 static bool is_terrain(const tool_settings *s) { return !strcmp(s->model, "terrain"); }
@@ -120,8 +132,6 @@ static const rule drawing_rules[] = {
     {"levels|hidden-smooth|hidden-width|hidden-color", has_hidden,
      "hidden lines are not drawn; add --hidden dashed"},
 
-    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
-
     {"join|min-length|tolerance|join-classes|keep-coincident|optimize|ground", files_have_paths,
      "no vector file is written; add -o drawing.svg, say"},
     {"ground", has_ground, "only SVG, PDF and EPS files have one; add -o drawing.svg, say"},
@@ -150,6 +160,11 @@ static const rule drawing_rules[] = {
     {"pencil-s|pencil-o|pencil-tones|pencil-turns", is_pencil,
      "it is of pencil shading; add --style pencil"},
     {"pencil-s|pencil-o", has_powers, "--pencil-tones stands for it; leave one out"},
+    {"section|section-angle|section-spacing|section-color", has_section,
+     "nothing is cut open; add --clip 0,0,1, say"},
+    {"section-angle|section-spacing", has_hatching,
+     "faces have no lines; leave out --section plain or open"},
+    {"section-color", has_faces, "there are no faces; leave out --section open"},
     {"mirror-size|mirror-fade|mirror-tint|mirror-tint-share", has_mirror,
      "there is no mirror; add --mirror 0,1,0, say"},
     {"mirror-tint", has_tint, "--mirror-tint-share is 0; leave it out, or give more"},
@@ -161,6 +176,13 @@ static const rule drawing_rules[] = {
     {"c1-passes", is_c1, "it is of the C1 operator; add --edge-map c1"},
     {"edge-sides|inner-angle|inner-softness|profile-softness", is_scaled,
      "--edge-measure paper has no thresholds and both sides; leave it out"},
+
+    {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
+    {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
+    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
+    {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
+    {"json", is_listing,
+     "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

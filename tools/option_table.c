@@ -14,18 +14,17 @@
 const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
                                                 "id",       "trace",   "segments"};
 
-const char *const group_names[GROUP_COUNT] = {"Picture", "Pages",    "Camera",
-                                              "Lines",   "Paths",    "Strokes",
-                                              "Surface", "Edge map", "How lines are found",
-                                              "Motion",  "Model",    "Program",
-                                              NULL};
+const char *const group_names[GROUP_COUNT] = {
+    "Picture", "Pages",   "Camera",  "Lines",    "Paths",
+    "Strokes", "Surface", "Objects", "Edge map", "How lines are found",
+    "Motion",  "Model",   "Program", NULL};
 
-const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",   "lines",  "paths",
-                                               "strokes", "surface", "edge-map", "method", "motion",
-                                               NULL,      "program", NULL};
+const char *const group_topics[GROUP_COUNT] = {
+    "picture", "page",     "camera", "lines",  "paths", "strokes", "surface",
+    "objects", "edge-map", "method", "motion", NULL,    "program", NULL};
 
 const char *const models_text[] = {
-    "MODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more through Assimp), - for "
+    "MODEL is a file (STL, PLY, OBJ, OFF, glTF; FBX, 3MF, COLLADA and more through Assimp), - for "
     "standard input, or a generated model: shape:gear, or shape:terrain:1000000 with a number of "
     "triangles.",
     "A quoted pattern like 'parts/*.stl' stands for the files that it fits.",
@@ -112,7 +111,7 @@ const option option_table[] = {
      "2 shows everything twice as large. Default: 1."},
 
     {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
-     "Classes to draw: silhouette, ridge, valley, intersection, border. Default: all."},
+     "Classes to draw: silhouette, ridge, valley, intersection, border, section, hatching. Default: all."},
     {"width", 0, "W or CLASS=W,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(width_of), 0, 0.5, 64,
      "Whole width of the lines, of all classes or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
      "pixels), or 0.2%, a share of the picture's smaller side. Default: outlines and borders 0.25%, the others half of "
@@ -202,7 +201,7 @@ const option option_table[] = {
      "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
      "above. Default: -40,42."},
     {"model-colors", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(model_colors), 0, 0, 0,
-     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, and formats read through Assimp), faces (PLY, OFF) or "
+     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, glTF, and formats read through Assimp), faces (PLY, OFF) or "
      "materials (an OBJ's .mtl files, and those formats); textures are not drawn. "
      "Default: on where there is light (lambert, gooch, toon, hatch, halftone) and no --surface."},
     {"normals", 0, "model|smooth|facet", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(normals), 0, 0, 0,
@@ -241,6 +240,20 @@ const option option_table[] = {
      "Where lines come from: found in each tile as they emerge, with nothing known about neighbours; by adjacency "
      "that is built once per model (Hermosilla and Vazquez 2010); the edge map (Nienhaus and Doellner 2003); emergent "
      "lines and the map; nowhere. Default: emergent; both with --edge-map."},
+    {"clip", 0, "NX,NY,NZ[,D]", OPTION_CLIP, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
+     "Cut the model open, up to eight times: takes away what lies on the side that N points to, of the plane through "
+     "all points whose product with N is D; without D, through the model's middle. N points to the eye, then: 0,0,1,2 "
+     "takes away what lies above z = 2. What was cut through is filled and hatched."},
+    {"section", 0, "hatched|crossed|plain|open", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(section.look), 0, 0, 0,
+     "With --clip: cut faces show parallel lines, crossed ones, only their colour; or are left open, so that one looks "
+     "into the model. Default: hatched."},
+    {"section-angle", 0, "DEG", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(section.angle), AT(section.has_angle), -360, 360,
+     "With --clip: the lines' angle to the horizontal. Parts beside each other have them at another angle or distance. "
+     "Default: 45."},
+    {"section-spacing", 0, "D|N%", OPTION_SPACING, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
+     "With --clip: distance of the lines in the model's units, or as a share of its size. Default: 1.7%."},
+    {"section-color", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(style.section), 0, 0, 0,
+     "With --clip: colour of cut faces. Default: that of the model's faces."},
     {"mirror", 0, "NX,NY,NZ[,D]", OPTION_PLANE, GROUP_SURFACE, PICTURE, AT(mirror), 0, 0, 0,
      "A square mirror in the plane through all points whose product with N is D; without D, where the model touches "
      "it. 0,1,0 is a floor."},
@@ -252,6 +265,25 @@ const option option_table[] = {
      "Colour of the mirror. Default: white."},
     {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), AT(has_mirror_tint_share), 0, 1,
      "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
+
+    {"object", 0, "NAME,...:SETTING,...", OPTION_OBJECT, GROUP_OBJECTS, PICTURE, AT(objects), 0, 0, 0,
+     "Give objects of the model (its groups, nodes, or models of a scene) a look of their own, as in "
+     "'bolt*:color=#c03020,width=2,ridge=1'. Settings are color, width, lines, surface, hidden-color, hidden-width, "
+     "ridge-angle and valley-angle, with the values of these options, and hide. May be given several times: a later one "
+     "changes what an earlier one said. In names * stands for any letters, ? for one; \\ takes its meaning from the "
+     "next letter, as in \\, or \\*. A name is a whole one or a part between slashes: car/wheel, car or wheel of "
+     "car/wheel/tyre."},
+    {"only", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(only), 0, 0, 0,
+     "Draw these objects alone. May be given several times."},
+    {"without", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(without), 0, 0, 0,
+     "Leave these objects out. May be given several times."},
+    {"explode", 0, "F", OPTION_NUMBER, GROUP_OBJECTS, PICTURE | INFO, AT(explode), AT(has_explode), 0, 1e6,
+     "Pull the model apart: each part is moved away from the model's centre by F times its distance from there. Parts are "
+     "the models of a scene, or objects whose names begin alike, up to a slash."},
+    {"explode-axis", 0, "x|y|z", OPTION_WORD, GROUP_OBJECTS, PICTURE | INFO, AT(explode_axis), 0, 0, 0,
+     "With --explode: move parts along this axis alone."},
+    {"list", 0, NULL, OPTION_FLAG, GROUP_OBJECTS, DRAW, AT(list), 0, 0, 0,
+     "Draw nothing, but print the model's objects: polygons, colour and name of each; with --json as JSON."},
 
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
      "How steps in the G-buffer are found: four diagonal samples, or the C1-discontinuity operator in three "
@@ -282,7 +314,7 @@ const option option_table[] = {
     {"profile-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
      "Colour of profile edges. Default: black."},
     {"enhance", 0, "NAME,...", OPTION_TEXT, GROUP_EDGE_MAP, PICTURE, AT(enhance), 0, 0, 0,
-     "Only these objects, groups or materials have edges from the map. Default: all."},
+     "Only these objects, groups or materials have edges from the map; names as those of --only. Default: all."},
 
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
      "With --ink quads: build added polygons on the screen, exact in pixels, or by the formulas of "
@@ -305,9 +337,29 @@ const option option_table[] = {
     {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
      "Do not paint back faces: faster for closed models, holes in open ones."},
 
+    {"animation", 0, "NAME|N|none", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(animation), 0, 0, 0,
+     "The animation that plays, by its name or number (\"drypoint info\" lists them); before its start and past its end "
+     "it stands still. Of several models each plays its own. Default: none, and with --time the first."},
     {"time", 0, "T or T0:T1", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
      "Seconds at which a model that moves is drawn; of a film, from and to: of N frames, frame 0 is at T0, and frame k at "
      "T0 + (T1 - T0) k / N, so that a film of one round loops. Default: 0; of a film, from 0 on as long as it lasts."},
+    {"deform", 0, "KIND[:NAME=VALUE,...]", OPTION_DEFORM, GROUP_MOTION, PICTURE | INFO, AT(deform),
+     AT(has_deform), 0, 0,
+     "Move the model's vertices: \"wave\", like a flag in the wind; \"breathe\": it swells and sinks, like "
+     "a chest; \"twist\": it is turned around its axis, further and further. amplitude=0.08: how far, as a "
+     "share of the model's length along its axis (wave), or of its girth (breathe); twist has angle=90, in "
+     "degrees. length=0.6: from crest to crest, or how far breathing reaches, as such a share. speed=1: "
+     "waves, breaths or swings in a second; twists stand still without. axis=x, y, z, -x ...: along which it "
+     "goes; default: the longest side. across=z: which way waves move. slant=0.5: how "
+     "much their crests lean. at=0.5: where breathing is deepest, "
+     "from 0 to 1 along the axis. Of several models all parts are one. --time says when; at 0 a chest is at "
+     "rest."},
+    {"morph", 0, "MODEL", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(morph), 0, 0, 0,
+     "Blend the model with another of the same polygons (with --blend), or let it become that within a "
+     "second (with --time)."},
+    {"blend", 0, "F", OPTION_NUMBER, GROUP_MOTION, PICTURE | INFO, AT(blend), AT(has_blend), -1000, 1000,
+     "With --morph: 0 is the model, 1 the other; below and beyond, what tells them apart is exaggerated. "
+     "Default: 0.5, or the seconds of --time."},
     {"frames", 0, "N", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frames), 0, 1, 1000000,
      "Draw a film of that many frames: to out-%04d.png (or .svg, trace=...: any output, where %04d is the frame's number, from 0 "
      "on), or to out.mp4, .webm, .gif or .apng, by ffmpeg, or as plain pixels to .rgba. Default: as many as --time, --path "
@@ -349,8 +401,8 @@ const option option_table[] = {
     {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
      "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
      "(on stderr with -o -)."},
-    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO, AT(json), 0, 0, 0,
-     "Print JSON instead of a table."},
+    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO | DRAW, AT(json), 0, 0, 0,
+     "With --list, or of info: print JSON instead of a table."},
     {"quiet", 'q', NULL, OPTION_FLAG, GROUP_PROGRAM, EVERY, AT(quiet), 0, 0, 0,
      "No progress bar and no warnings."},
     {"help", 'h', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_HELP, 0, 0, 0,

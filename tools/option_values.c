@@ -2,6 +2,7 @@
 #include "colors.h"
 #include "options.h"
 #include "report.h"
+#include "section.h"
 
 #include <errno.h>
 #include <math.h>
@@ -286,7 +287,7 @@ static bool store_word(const option *o, const char *value, int *to) {
                        best);
 }
 
-static const char class_words[] = "silhouette|ridge|valley|intersection|border";
+static const char class_words[] = "silhouette|ridge|valley|intersection|border|section|hatching";
 
 /* The class named in [text, end), or DP_LINE_COUNT after a message. */
 static dp_line read_class(const option *o, const char *text, const char *end) {
@@ -466,8 +467,14 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_angles(o, value, to);
     case OPTION_TIME:
         return store_time(o, value, to);
+    case OPTION_DEFORM:
+        return store_deform(o, value, to);
     case OPTION_PLANE:
         return store_plane(o, value, settings);
+    case OPTION_CLIP:
+        return store_clip(o, value, settings);
+    case OPTION_SPACING:
+        return store_spacing(o, value, to);
     case OPTION_OUTPUT:
         return store_output(value, settings);
     case OPTION_WORD:
@@ -494,6 +501,9 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_detail(o, value, to);
     case OPTION_SHEET:
         return store_sheet(o, value, to);
+    case OPTION_NAMES:
+    case OPTION_OBJECT:
+        return store_list(o, value, to);
     case OPTION_COLOR:
         return store_color(o, value, to);
     case OPTION_STATS:

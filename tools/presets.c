@@ -10,22 +10,26 @@ static const preset table[] = {
     {"technical", "--style paper --color black --hidden dashed --hidden-width 0.09% --width "
                   "silhouette=0.3%,border=0.3%,ridge=0.15%,valley=0.15%,intersection=0.15%"},
     /* Gooch et al. 1998: outlines black, creases white, surfaces from cool to warm. */
-    {"illustration", "--style gooch --edges both --lines silhouette,border,ridge,valley --width "
+    {"illustration", "--style gooch --edges both --lines "
+                     "silhouette,border,ridge,valley,section,hatching --width "
                      "silhouette=0.5%,border=0.4%,ridge=0.2%,valley=0.2% "
                      "--color ridge=white,valley=white --inner-color white --surface #B8B8B8 "
                      "--highlight 0.6"},
-    {"cartoon", "--style toon --lines silhouette,border,valley,intersection --width "
-                "silhouette=0.6%,border=0.6%,valley=0.3%,intersection=0.3% "
-                "--surface #F2B04A"},
-    {"engraving", "--style hatch --hatch-space object --lines silhouette,border,intersection "
-                  "--width silhouette=0.4%,border=0.4%,intersection=0.3% "
-                  "--surface #FBF6E9 --paper #FBF6E9 --hatch-color #2A2018 --color #2A2018"},
+    {"cartoon",
+     "--style toon --lines silhouette,border,valley,intersection,section,hatching --width "
+     "silhouette=0.6%,border=0.6%,valley=0.3%,intersection=0.3% "
+     "--surface #F2B04A"},
+    {"engraving",
+     "--style hatch --hatch-space object --lines silhouette,border,intersection,section,hatching "
+     "--width silhouette=0.4%,border=0.4%,intersection=0.3% "
+     "--surface #FBF6E9 --paper #FBF6E9 --hatch-color #2A2018 --color #2A2018"},
     {"blueprint", "--style paper --paper #1F3F7A --color #E8EEF8 --width "
                   "silhouette=0.35%,border=0.35%,ridge=0.175%,valley=0.175%,intersection=0.175%"},
     {"sketch", "--style halftone --hatch-scale 0.6 --hatch-color #9A9A9A --edges map --edge-radius "
                "1 --inner-color #606060 --profile-color #202020"},
     {"pencil",
-     "--style pencil --lines silhouette,border,valley,intersection --stroke pencil --width "
+     "--style pencil --lines silhouette,border,valley,intersection,section,hatching "
+     "--stroke pencil --width "
      "silhouette=3.5,border=3.5,valley=2.5,intersection=2.5 "
      "--repeats 2 --jitter 1 --overshoot 9 --taper 16 --color #303034 --hatch-color #303034"},
     {"patent", "--style paper --width "
@@ -50,7 +54,7 @@ static const preset table[] = {
     {"laser",
      "--scale 1:1 --dpi 600 --samples 1 --style paper --width 0.025mm --hidden none --color "
      "silhouette=#FF0000,border=#FF00FF,ridge=#0000FF,valley=#00C000,"
-     "intersection=#00C0C0"},
+     "intersection=#00C0C0,section=#FF8000,hatching=#808000"},
 };
 
 const preset *preset_find(const char *name) {

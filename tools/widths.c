@@ -1,8 +1,8 @@
 /* Lengths in pixels, and the widths of lines: what the settings say, or what suits the picture.
  *
  * Two weights, as technical illustrators have them: a line is wide where the surface ends on one side
- * of it (silhouettes, borders), and narrow where surfaces are seen on both (ridges, valleys,
- * intersections).
+ * of it (silhouettes, borders, sections), and narrow where surfaces are seen on both (ridges, valleys,
+ * intersections); hatching is narrow everywhere.
  *
  *     a picture        shares of its smaller side, so that a thumbnail and a poster look alike
  *     a page           0.5 and 0.25 mm: line group 0.5 of ISO 128-2
@@ -27,7 +27,9 @@ typedef struct weights {
 } weights;
 static const weights usual = {1 / 400.0, 1 / 800.0, 1.1, 0.65, 0.5, 0.25, 0.5};
 
-static bool is_wide(int line) { return line == DP_LINE_SILHOUETTE || line == DP_LINE_BORDER; }
+static bool is_wide(int line) {
+    return line == DP_LINE_SILHOUETTE || line == DP_LINE_BORDER || line == DP_LINE_SECTION;
+}
 
 /* px */
 static double smaller_side(const page_plan *plan) { return fmin(plan->width, plan->height); }
@@ -44,7 +46,8 @@ float page_length(const page_plan *plan, const tool_length *length) {
 static double usual_width(const tool_settings *s, const page_plan *plan, int line) {
     const weights *const w = &usual;
     const bool wide = is_wide(line);
-    if (s->sheet.count) return w->sheet / plan->mm_per_px;
+    if (s->sheet.count)
+        return (line == DP_LINE_HATCHING ? w->page_narrow : w->sheet) / plan->mm_per_px;
     if (plan->paged) return (wide ? w->page_wide : w->page_narrow) / plan->mm_per_px;
     const double side = smaller_side(plan);
     return wide ? fmax(w->wide * side, w->least_wide) : fmax(w->narrow * side, w->least_narrow);

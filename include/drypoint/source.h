@@ -34,21 +34,35 @@ typedef struct dp_attribute {
     const uint32_t *indices; /* [corner_count] value numbers, or NULL */
 } dp_attribute;
 
+/* What an edge is. Others than these mean DP_EDGE_NORMAL. An edge that is a line by itself is drawn
+ * wherever nothing hides it, whatever its polygon is like: one without area, with corners a, b, b say,
+ * is the line from a to b and nothing else. They need strokes as ink (dp_ink), and models that are
+ * neither smoothed nor larger than memory. */
+typedef enum dp_edge_kind {
+    DP_EDGE_NEVER = 0, /* never draws */
+    DP_EDGE_NORMAL,    /* a line where it is seen to be one */
+    DP_EDGE_DIAGONAL,  /* splits a polygon: no crease, but may be an outline */
+    DP_EDGE_SECTION,   /* a line of class DP_LINE_SECTION */
+    DP_EDGE_HATCHING,  /* of DP_LINE_HATCHING */
+    DP_EDGE_FACE       /* never draws; its polygon is part of a section's face (dp_style.section) */
+} dp_edge_kind;
+
 /* A run of polygons. Everything is borrowed: valid until the next call on the source, or, when
  * `stable` is set, until the source is destroyed. Pointers to floats and to uint32_t, and strides,
  * must be multiples of 4, pointers to groups of 2; copy data that is packed otherwise. Calls refuse
  * any other batch with DP_ERR_ARGUMENT, and one of too many vertices with DP_ERR_LIMIT. */
 typedef struct dp_batch {
-    const float *positions;    /* x, y, z of vertex v at (const char *)positions + v * stride */
-    size_t position_stride;    /* bytes from one vertex to the next, a multiple of 4, not below 12;
+    const float *positions;  /* x, y, z of vertex v at (const char *)positions + v * stride */
+    size_t position_stride;  /* bytes from one vertex to the next, a multiple of 4, not below 12;
                                   0 means 12 */
-    size_t vertex_count;       /* at most UINT32_MAX */
-    const uint32_t *indices;   /* [corner_count] vertex numbers; NULL: corner c is vertex c */
-    size_t corner_count;       /* triangles without `firsts`: 3 * polygon_count */
-    const uint32_t *firsts;    /* [polygon_count + 1] ascending corner numbers; NULL: triangles */
-    size_t polygon_count;      /* 0: end of the source */
-    const uint8_t *edge_flags; /* [corner_count]: 0: the edge to the next corner never draws; or
-                                  NULL */
+    size_t vertex_count;     /* at most UINT32_MAX */
+    const uint32_t *indices; /* [corner_count] vertex numbers; NULL: corner c is vertex c */
+    size_t corner_count;     /* triangles without `firsts`: 3 * polygon_count */
+    const uint32_t *firsts;  /* [polygon_count + 1] ascending corner numbers; NULL: triangles */
+    size_t polygon_count;    /* 0: end of the source */
+    const uint8_t
+        *edge_flags;        /* [corner_count] dp_edge_kind of the edge to the next corner; or NULL:
+                                  every edge may draw */
     const uint16_t *groups; /* [polygon_count]: group (object, material, …); NULL: all group 0 */
     dp_attribute normals;   /* x, y, z, any length; length 0: none. For shading only: facing and
                                   lines follow from the positions */
@@ -110,7 +124,8 @@ typedef enum dp_file_format {
     DP_FORMAT_PLY, /* ASCII, binary little or big endian; faces or tristrips; vertices' colours */
     DP_FORMAT_OBJ, /* v with colours, vn, vt, f, g, o, usemtl; relative indices; colours of its
                            mtllib */
-    DP_FORMAT_OFF  /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
+    DP_FORMAT_OFF, /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
+    DP_FORMAT_GLTF /* glTF 2.0, .gltf with the files beside it or .glb; a scene (scene.h) */
 } dp_file_format;
 
 typedef struct dp_file_options {

@@ -7,6 +7,8 @@
  *     valley        edge between two front-facing polygons, dihedral angle >  valley_angle (phi)
  *     border        edge with one polygon
  *     intersection  where the interiors of two polygons cross
+ *     section       outline of a section, where a clip plane cuts the model (section.h)
+ *     hatching      parallel lines on the faces of a section
  *
  * The dihedral angle is that of Raskar 2001, 2.2: 180 degrees minus the angle between the normals
  * on a convex edge, plus it on a concave one; flat = 180. */
@@ -26,6 +28,8 @@ typedef enum dp_line {
     DP_LINE_VALLEY,
     DP_LINE_INTERSECTION,
     DP_LINE_BORDER,
+    DP_LINE_SECTION,
+    DP_LINE_HATCHING,
     DP_LINE_COUNT
 } dp_line;
 
@@ -35,8 +39,10 @@ typedef enum dp_line {
 #define DP_VALLEY           (1u << DP_LINE_VALLEY)
 #define DP_INTERSECTION     (1u << DP_LINE_INTERSECTION)
 #define DP_BORDER           (1u << DP_LINE_BORDER)
+#define DP_SECTION          (1u << DP_LINE_SECTION)
+#define DP_HATCHING         (1u << DP_LINE_HATCHING)
 #define DP_SIL_RIDGE_VALLEY (DP_SILHOUETTE | DP_RIDGE | DP_VALLEY) /* Raskar 2001, Figure 3 */
-#define DP_ALL_LINES        (DP_SIL_RIDGE_VALLEY | DP_INTERSECTION | DP_BORDER)
+#define DP_ALL_LINES        (DP_SIL_RIDGE_VALLEY | DP_INTERSECTION | DP_BORDER | DP_SECTION | DP_HATCHING)
 #define DP_NO_LINES         (1u << 31)
 
 #define DP_COLOR_NONE 0xFFFFFF00u
@@ -91,8 +97,8 @@ enum { DP_LEVELS = 8 /* the most that are told apart */ };
 
 /* Hidden lines, drawn below visible ones, which they do not change. A line's level says how many
  * front-facing surfaces lie between it and the eye, and is 1 at least where anything hides it;
- * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Of
- * groups (immediate.h) the first one's look, levels and smooth are those of all. */
+ * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Look,
+ * levels and smooth hold for all groups (dp_draw_grouped, immediate.h). */
 typedef struct dp_hidden {
     dp_hidden_look look;
     uint32_t levels; /* 1 to DP_LEVELS; 0 means 1: hidden by anything */
@@ -137,23 +143,24 @@ typedef struct dp_style {
     float between_offset; /* interval, stencil: z2 - z1, in pixel sizes at the surface; 0 means 1 */
     dp_color paper;       /* 0 means white */
     dp_color surface;     /* 0 means white; DP_COLOR_NONE: hides, but shows the paper */
+    dp_color section;     /* of sections' faces (section.h); 0 means that of what was cut */
     bool cull_back_faces; /* do not paint back faces as surface (closed models lose nothing) */
     dp_hidden hidden;     /* strokes: lines that something hides; default: none */
     /* Strokes: where something hides a line, its end is solved, not taken midway between two sample
      * points a quarter of a pixel apart; and what is a line on a closed surface is decided as finely
-     * (docs/lines.md). Of the first style; not where the source is streamed. */
+     * (docs/lines.md). Of the picture; not where the source is streamed. */
     bool exact_ends;
     /* Strokes: how much is drawn of a scan, or of a coarse model (docs/clean-lines.md). 0: all lines, as
      * exact as the polygons are. 1: what a person would draw at this size; 2: twice as fine; 0.5: half
-     * as fine; 0.01 to 100. Lines are left out, cut and thinned, never moved; borders and intersections
-     * are all drawn. Of the first style. */
+     * as fine; 0.01 to 100. Lines are left out, cut and thinned, never moved; borders,
+     * intersections, sections and hatching are all drawn. Of the picture. */
     float detail;
     bool edge_table_off;  /* strokes: do not resolve edges in the tile's table; all lines emerge */
     dp_shade shade;       /* shading of surfaces */
     dp_edge_map edge_map; /* default: off */
     dp_mirror mirror;     /* default: none */
 
-    /* Drawn from memory, whatever the model's size. Of the first style. DP_ERR_LIMIT where that makes
+    /* Drawn from memory, whatever the model's size. Of the picture. DP_ERR_LIMIT where that makes
      * more than 2^30 polygons or vertices. */
     dp_smoothing smooth;
     uint32_t
@@ -164,7 +171,7 @@ typedef struct dp_style {
 /* Fills in every default. With DP_ERR_ARGUMENT, *diag names the member that is out of range. */
 DP_API dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *diag);
 
-/* "silhouette", "ridge", "valley", "intersection", "border". */
+/* "silhouette", "ridge", "valley", "intersection", "border", "section", "hatching". */
 DP_API const char *dp_line_name(dp_line line);
 
 #ifdef __cplusplus

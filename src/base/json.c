@@ -243,7 +243,8 @@ static bool push(parser *p, const dp_json *value) {
 /* Makes items of what lies on the stack from `base` on. */
 static bool pop(parser *p, size_t base, dp_json *to) {
     to->count = (uint32_t)(p->depth - base);
-    to->as.items = dp_arena_copy(p->arena, p->stack + base, to->count, sizeof *p->stack);
+    to->as.items =
+        dp_arena_copy(p->arena, to->count ? p->stack + base : NULL, to->count, sizeof *p->stack);
     p->depth = base;
     return to->as.items || out_of_memory(p);
 }

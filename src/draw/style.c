@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-static const char *const line_names[DP_LINE_COUNT] = {"silhouette", "ridge", "valley",
-                                                      "intersection", "border"};
+static const char *const line_names[DP_LINE_COUNT] = {
+    "silhouette", "ridge", "valley", "intersection", "border", "section", "hatching"};
 
 const char *dp_line_name(dp_line line) {
     return (unsigned)line < DP_LINE_COUNT ? line_names[line] : "unknown";

@@ -12,6 +12,7 @@ static void find_pieces(dp_finder *f) {
         dp_find_edges(f);
     dp_find_emergent(f);
     dp_find_intersections(f);
+    dp_find_marked(f);
     dp_find_visible(f);
     if (f->tile.frame->hidden) dp_find_hidden(f, first);
 }
@@ -43,7 +44,8 @@ void dp_draw_tile(dp_finder *f, dp_printer *printer, uint32_t index) {
     dp_tile_pieces *const out = &frame->tile_pieces[index];
     out->first = first;
     out->count = 0;
-    out->empty = dp_bins_tile_count(&frame->polygon_bins, index) == 0;
+    out->empty = dp_bins_tile_count(&frame->polygon_bins, index) == 0 &&
+                 (!frame->polygons.mark_count || dp_bins_tile_count(&frame->mark_bins, index) == 0);
     if (out->empty) {
         dp_tile_empty_surface(&f->tile);
         return;

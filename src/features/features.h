@@ -50,7 +50,7 @@ typedef struct dp_primitive {
     const dp_vec3 *world;        /* [n] corners */
     const dp_clip_point *clip;   /* [n] the same in clip space */
     const uint8_t *edge_flags;   /* [n]; NULL: every edge may draw */
-    bool has_diagonals;          /* a flag may be DP_EDGE_DIAGONAL */
+    bool has_diagonals;          /* a flag may be above DP_EDGE_NORMAL */
     const dp_screen_edge *edges; /* [n]; NULL: made when needed */
     dp_vec3 normal;              /* unit, as wound */
     bool front;                  /* edge-on polygons count as back-facing */
@@ -170,8 +170,7 @@ uint32_t dp_screen_joint(const dp_primitive *p, uint32_t edge, const dp_pen *pen
 
 /* May the edge be a crease? One that only splits a polygon is none. */
 static inline bool dp_may_crease(const dp_primitive *p, uint32_t edge) {
-    return !p->edge_flags ||
-           (p->edge_flags[edge] && !(p->has_diagonals && p->edge_flags[edge] == DP_EDGE_DIAGONAL));
+    return !p->edge_flags || p->edge_flags[edge] == DP_EDGE_NORMAL;
 }
 
 #endif

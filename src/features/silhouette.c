@@ -10,7 +10,9 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     const dp_vec3 n = p->normal, e = dp_edge_direction(p, edge);
     uint32_t count = dp_paper_quad(p, edge, dp_cross(e, n), n, pen->reach, &out[0]);
     const uint32_t next = edge + 1 == p->n ? 0 : edge + 1;
-    if ((p->edge_flags && !p->edge_flags[next]) || dp_outcode(p->view, p->clip[next])) return count;
+    if ((p->edge_flags && !dp_flag_may_be_line(p->edge_flags[next])) ||
+        dp_outcode(p->view, p->clip[next]))
+        return count;
     const dp_vec3 corner = p->world[next], f = dp_edge_direction(p, next);
     const dp_vec3 bevel[3] = {corner,
                               dp_paper_offset(p->view, corner, e, dp_cross(e, n), n, pen->reach),
@@ -32,6 +34,6 @@ static uint32_t exact(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
 
 uint32_t dp_shade_silhouette(const dp_primitive *p, uint32_t edge, const dp_pen *pen,
                              dp_added out[DP_ADDED_MOST]) {
-    if (p->front || (p->edge_flags && !p->edge_flags[edge])) return 0;
+    if (p->front || (p->edge_flags && !dp_flag_may_be_line(p->edge_flags[edge]))) return 0;
     return pen->method == DP_METHOD_PAPER ? paper(p, edge, pen, out) : exact(p, edge, pen, out);
 }

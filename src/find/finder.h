@@ -36,6 +36,7 @@ void dp_finder_open(dp_finder *finder, uint32_t index);
 void dp_find_edges(dp_finder *finder);          /* edges.c */
 void dp_find_adjacent_edges(dp_finder *finder); /* adjacent.c: instead, by adjacency */
 void dp_find_emergent(dp_finder *finder);       /* emerge.c */
+void dp_find_marked(dp_finder *finder);         /* marked.c */
 void dp_find_intersections(dp_finder *finder);  /* intersect.c */
 void dp_find_crossings(dp_finder *finder);      /* intersect.c: of all polygons, in sight or not */
 void dp_find_visible(dp_finder *finder);        /* visibility.c: the next two in turn */
@@ -57,6 +58,9 @@ static inline bool dp_is_own(const dp_finder *finder, uint32_t candidate, uint32
     return owners ? owners[candidate][0] == id || owners[candidate][1] == id
                   : c->a == id || c->b == id;
 }
+
+/* Sorts the frame's marked edges into tiles (marked.c). False: out of memory. */
+bool dp_bin_marks(dp_frame *frame);
 
 /* Hidden lines, when all that is visible in the tile has been found: the worker's pieces from number
  * `first` on (hidden.c). */

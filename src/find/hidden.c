@@ -190,6 +190,7 @@ static void find_candidates(dp_finder *w) {
     dp_find_edges(w);
     dp_find_emergent(w);
     dp_find_crossings(w);
+    dp_find_marked(w);
 }
 
 /* Where one level is all, the first polygon that hides a point is enough. */

@@ -194,7 +194,14 @@ static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
 static void put_color(const dp_fill *f, const weights *at, size_t pixel) {
     const dp_polygons *const p = &f->w->frame->polygons;
     float sum = 0, rgba[4] = {0, 0, 0, 0};
+    const dp_style *const style = &f->w->frame->styles[0];
     f->g->color[pixel] = 0;
+    if (style->section && p->edge_flags && p->edge_flags[at->corner[0]] == DP_EDGE_FACE) {
+        f->g->color[pixel] = style->section;
+        return;
+    }
+    if (!p->colors || !style->shade.model_colors || style->shade.shading == DP_SHADING_PAPER)
+        return;
     for (int k = 0; k < 3; k++) {
         const uint32_t color = p->colors[dp_corner_vertex(p, at->corner[k])];
         if (!color) return;

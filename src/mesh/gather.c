@@ -2,8 +2,8 @@
  *
  * One stable batch of sound polygons is used in place: nothing is copied. Everything else is
  * appended to a store that the context keeps from frame to frame, positions about the first batch's
- * origin. Diagonals of split polygons have
- * edge flag 0, so that they never draw. */
+ * origin. Diagonals of split polygons are
+ * flagged as such. Invariant: a flag is one of dp_edge_kind's. */
 #include "mesh/polygons.h"
 
 #include "base/diag.h"
@@ -51,7 +51,8 @@ static const dp_array arrays[] = {DP_ARRAY(dp_polygon_store, positions, position
                                   DP_ARRAY(dp_polygon_store, source_polygon, source_cap),
                                   DP_ARRAY(dp_polygon_store, colors, colors_cap),
                                   DP_ARRAY(dp_polygon_store, edge_flags, flags_cap),
-                                  DP_ARRAY(dp_polygon_store, groups, groups_cap)};
+                                  DP_ARRAY(dp_polygon_store, groups, groups_cap),
+                                  DP_ARRAY(dp_polygon_store, marks, marks_cap)};
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator) {
     dp_arrays_free(allocator, store, DP_ARRAYS(arrays));
@@ -91,9 +92,18 @@ static bool locate(const dp_batch *batch, size_t first, size_t n, const float **
     return true;
 }
 
+/* The largest of a batch's flags. */
+static uint8_t largest_flag(const dp_batch *batch) {
+    uint8_t most = 0;
+    for (size_t i = 0; batch->edge_flags && i < batch->corner_count; i++)
+        most = batch->edge_flags[i] > most ? batch->edge_flags[i] : most;
+    return most;
+}
+
 /* Can the polygons of a batch be used as they are? */
 static bool is_sound(gatherer *g, const dp_batch *batch, dp_result *result) {
     *result = DP_OK;
+    if (largest_flag(batch) > DP_EDGE_FACE) return false;
     if (batch->polygon_count > UINT32_MAX / 4 || !batch->firsts)
         return batch->polygon_count <= UINT32_MAX / 4;
     if (batch->corner_count > UINT32_MAX) return false;
@@ -119,6 +129,7 @@ static void use_as_is(const dp_batch *batch, dp_polygons *out, dp_stats *stats) 
                          .corners = batch->indices,
                          .firsts = batch->firsts,
                          .edge_flags = batch->edge_flags,
+                         .has_diagonals = largest_flag(batch) > DP_EDGE_NORMAL,
                          .groups = batch->groups,
                          .normals = batch->normals,
                          .texcoords = batch->texcoords,
@@ -167,7 +178,8 @@ static void add_corner(gatherer *g, uint32_t base, const dp_batch *batch, size_t
 }
 
 static uint8_t flag_of(const dp_batch *batch, size_t corner) {
-    return !batch->edge_flags || batch->edge_flags[corner];
+    const uint8_t flag = batch->edge_flags ? batch->edge_flags[corner] : DP_EDGE_NORMAL;
+    return flag <= DP_EDGE_FACE ? flag : DP_EDGE_NORMAL;
 }
 
 static dp_result append_whole(gatherer *g, const dp_batch *batch, size_t i, size_t first, size_t n,
@@ -322,6 +334,47 @@ static dp_result gather(gatherer *g, dp_source *source, dp_polygons *out) {
     return DP_OK;
 }
 
+/* ------- marked edges ------- */
+
+/* Most models have no marked edges, and of those that do most polygons: flags are looked at block by
+ * block. */
+enum { BLOCK = DP_TUNED(1024, 3) /* polygons */ };
+
+static bool is_mark(uint8_t flag) { return flag == DP_EDGE_SECTION || flag == DP_EDGE_HATCHING; }
+
+static bool any_mark(const uint8_t *flags, uint32_t count) {
+    uint32_t marks = 0;
+    for (uint32_t i = 0; i < count; i++)
+        marks |= (uint32_t)(flags[i] == DP_EDGE_SECTION) | (flags[i] == DP_EDGE_HATCHING);
+    return marks;
+}
+
+static bool list_polygon(dp_polygon_store *store, const dp_allocator *memory, dp_polygons *p,
+                         uint32_t polygon) {
+    const uint32_t first = dp_first_corner(p, polygon), n = dp_corner_count(p, polygon);
+    for (uint32_t i = 0; i < n; i++) {
+        if (!is_mark(p->edge_flags[first + i])) continue;
+        if (!dp_reserve(memory, &store->marks, &store->marks_cap, p->mark_count + (size_t)1,
+                        sizeof *store->marks))
+            return false;
+        store->marks[p->mark_count++] = (dp_marked_edge){polygon, i};
+    }
+    return true;
+}
+
+static bool list_marks(dp_polygon_store *store, const dp_allocator *memory, dp_polygons *p) {
+    p->mark_count = 0;
+    for (uint32_t from = 0; p->has_diagonals && from < p->count; from += BLOCK) {
+        const uint32_t to = p->count - from < BLOCK ? p->count : from + BLOCK,
+                       first = dp_first_corner(p, from), end = dp_first_corner(p, to);
+        if (!any_mark(p->edge_flags + first, end - first)) continue;
+        for (uint32_t i = from; i < to; i++)
+            if (!list_polygon(store, memory, p, i)) return false;
+    }
+    p->marks = store->marks;
+    return true;
+}
+
 dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocator *allocator,
                     dp_polygons *out, dp_stats *stats, dp_diag *diag) {
     const dp_result begun = dp_source_begun(source, diag);
@@ -331,5 +384,7 @@ dp_result dp_gather(dp_source *source, dp_polygon_store *store, const dp_allocat
     store->normals.count = store->texcoords.count = 0;
     store->normals.used = store->texcoords.used = false;
     gatherer g = {.store = store, .memory = allocator, .stats = stats, .diag = diag};
-    return gather(&g, source, out);
+    const dp_result result = gather(&g, source, out);
+    if (result || list_marks(store, allocator, out)) return result;
+    return out_of_memory(&g);
 }

@@ -7,6 +7,11 @@
 #include <drypoint/draw.h>
 #include <drypoint/source.h>
 
+/* An edge that is a line by itself: DP_EDGE_SECTION or DP_EDGE_HATCHING. */
+typedef struct dp_marked_edge {
+    uint32_t polygon, edge; /* number of the corner that it starts from */
+} dp_marked_edge;
+
 /* Convex, planar polygons over shared vertices. Borrowed from the source if that has one stable
  * batch that needs no splitting, else from the store below. Indices may still be out of range,
  * coordinates not finite and areas zero: binning drops such polygons. */
@@ -18,7 +23,7 @@ typedef struct dp_polygons {
     const uint32_t *corners;        /* [corners] vertex; NULL: corner c is vertex c */
     const uint32_t *firsts;         /* [count + 1] corner; NULL: triangles */
     const uint8_t *edge_flags;      /* [corners] as in dp_batch; or NULL */
-    bool has_diagonals;             /* an edge flag may be DP_EDGE_DIAGONAL */
+    bool has_diagonals;             /* an edge flag may be above DP_EDGE_NORMAL */
     const uint32_t *source_polygon; /* [count] its number in the source; NULL: the same */
     const uint16_t *source_edges;   /* [corners] the edge of the polygon that smoothing found, or
                                        DP_EDGE_INSIDE; NULL: the same */
@@ -26,13 +31,11 @@ typedef struct dp_polygons {
                                        is none; NULL: across none */
     const uint16_t *groups;      /* [count]; NULL: all group 0 */
     dp_attribute normals, texcoords;
-    const uint32_t *colors; /* [vertex_count] as in dp_batch; or NULL */
+    const uint32_t *colors;      /* [vertex_count] as in dp_batch; or NULL */
+    const dp_marked_edge *marks; /* [mark_count] edges that are lines by themselves */
+    uint32_t mark_count;
     uint32_t count;
 } dp_polygons;
-
-/* Flag of an edge that splits a polygon. Where that is not plane it may be an outline; it is no
- * crease. */
-enum { DP_EDGE_DIAGONAL = 2 };
 
 /* An edge that lies within a polygon's patch. */
 enum { DP_EDGE_INSIDE = UINT16_MAX };
@@ -72,6 +75,8 @@ typedef struct dp_polygon_store {
     dp_result (*tell)(void *arg, double done, dp_diag *diag);
     void *tell_arg;
     dp_attribute_store normals, texcoords;
+    dp_marked_edge *marks;
+    size_t marks_cap;
 } dp_polygon_store;
 
 void dp_polygon_store_free(dp_polygon_store *store, const dp_allocator *allocator);
@@ -99,10 +104,21 @@ static inline uint32_t dp_corner_vertex(const dp_polygons *polygons, uint32_t co
     return polygons->corners ? polygons->corners[corner] : corner;
 }
 
+/* Is it a flag of an edge that may turn out to be a line? */
+static inline bool dp_flag_may_be_line(uint8_t flag) {
+    return flag == DP_EDGE_NORMAL || flag == DP_EDGE_DIAGONAL;
+}
+
 /* May the edge that starts at this corner be a line? Does it bound the polygon? If not, it may
  * still be an outline. */
 static inline bool dp_edge_may_be_line(const dp_polygons *polygons, uint32_t corner) {
-    return !polygons->edge_flags || polygons->edge_flags[corner];
+    return !polygons->edge_flags || dp_flag_may_be_line(polygons->edge_flags[corner]);
+}
+
+/* Is the polygon part of a section's face? */
+static inline bool dp_is_section_face(const dp_polygons *polygons, uint32_t polygon) {
+    return polygons->edge_flags &&
+           polygons->edge_flags[dp_first_corner(polygons, polygon)] == DP_EDGE_FACE;
 }
 static inline bool dp_edge_is_flagged(const dp_polygons *polygons, uint32_t corner) {
     return dp_edge_may_be_line(polygons, corner) &&

@@ -11,7 +11,6 @@
 
 #include "base/diag.h"
 #include "base/elementary.h"
-#include "mesh/source.h"
 
 #include <math.h>
 #include <string.h>

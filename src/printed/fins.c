@@ -153,7 +153,7 @@ static void add_fins(dp_printer *w, uint32_t polygon) {
     const uint32_t first = dp_first_corner(polygons, polygon),
                    n = dp_corner_count(polygons, polygon);
     for (uint32_t c = first; c < first + n; c++) {
-        if (polygons->edge_flags && !polygons->edge_flags[c]) continue;
+        if (!dp_edge_may_be_line(polygons, c)) continue;
         const int line = dp_outline_of_edge(w->tile->frame, polygon, c);
         if (line >= 0) add_fin(w, polygon, c, (dp_line)line);
     }

@@ -61,10 +61,22 @@ static bool are_of_one(const dp_polygons *polygons, uint32_t a, uint32_t b) {
     return polygons->source_polygon && polygons->source_polygon[a] == polygons->source_polygon[b];
 }
 
+/* Does the polygon only hold lines (dp_edge_kind)? */
+static bool holds_lines(const dp_polygons *polygons, uint32_t polygon) {
+    const uint32_t first = dp_first_corner(polygons, polygon),
+                   n = dp_corner_count(polygons, polygon);
+    for (uint32_t i = 0; polygons->mark_count && i < n; i++)
+        if (polygons->edge_flags[first + i] == DP_EDGE_SECTION ||
+            polygons->edge_flags[first + i] == DP_EDGE_HATCHING)
+            return true;
+    return false;
+}
+
 /* Is a polygon without area one that the source's user counts? Of a polygon that was split only the
  * last piece is, and only if no other piece has an area. */
 static bool counts_as_dropped(const dp_frame *frame, uint32_t polygon) {
     const dp_polygons *const polygons = &frame->polygons;
+    if (holds_lines(polygons, polygon)) return false;
     if (polygon + 1 < polygons->count && are_of_one(polygons, polygon, polygon + 1)) return false;
     for (uint32_t i = polygon; i-- > 0 && are_of_one(polygons, i, polygon);)
         if (!dp_polygon_has_no_area(frame, i)) return false;

@@ -6,9 +6,10 @@
 
 #include "base/diag.h"
 
-/* From the bottom up: where lines cross, outlines lie over creases. */
-const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
-                                          DP_LINE_BORDER, DP_LINE_SILHOUETTE};
+/* From the bottom up: where lines cross, outlines lie over creases, and all over hatching. */
+const dp_line dp_layers[DP_LINE_COUNT] = {DP_LINE_HATCHING, DP_LINE_VALLEY, DP_LINE_INTERSECTION,
+                                          DP_LINE_RIDGE,    DP_LINE_BORDER, DP_LINE_SILHOUETTE,
+                                          DP_LINE_SECTION};
 
 /* ------- memory ------- */
 

@@ -20,6 +20,10 @@ static const dp_array arrays[] = {DP_ARRAY(dp_input, corners, corners_cap),
                                   DP_ARRAY(dp_input, flags, flags_cap),
                                   DP_ARRAY(dp_input, polygons, polygons_cap)};
 
+uint64_t dp_input_known(const dp_source *source) {
+    return source->records.read ? source->records.count : 0;
+}
+
 dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
                         const dp_allocator *memory, dp_stats *stats, dp_diag *diag) {
     *input =
@@ -65,7 +69,21 @@ static void put(dp_input *input, const float *a, const float *b, const float *c,
 /* Bit 0 where the edge from corner `from` of n draws: a diagonal may be an outline. */
 static unsigned edge_flag(const dp_batch *batch, size_t first, size_t n, uint32_t from,
                           uint32_t to) {
-    return to != (from + 1) % n || !batch->edge_flags || batch->edge_flags[first + from];
+    if (to != (from + 1) % n || !batch->edge_flags) return true;
+    const uint8_t flag = batch->edge_flags[first + from];
+    return flag > DP_EDGE_FACE || dp_flag_may_be_line(flag);
+}
+
+/* Lines by themselves have no place among the readings' edges. */
+static dp_result check_flags(const dp_batch *batch, dp_diag *diag) {
+    bool any = false;
+    for (size_t i = 0; batch->edge_flags && i < batch->corner_count && !any; i++)
+        any = batch->edge_flags[i] == DP_EDGE_SECTION || batch->edge_flags[i] == DP_EDGE_HATCHING;
+    if (!any) return DP_OK;
+    return dp_fail(
+        diag, DP_ERR_UNSUPPORTED,
+        "what the clip planes leave is larger than the memory that drawing may take, and lines "
+        "of sections cannot be drawn from a stream: allow more memory");
 }
 
 static void put_piece(dp_input *input, size_t polygon, size_t first, size_t n, uint32_t a,
@@ -137,6 +155,7 @@ static dp_result next_of_batches(dp_input *input, dp_diag *diag) {
             input->taken = 0;
             result = dp_source_next(input->source, &input->batch, diag);
             if (result || !input->batch.polygon_count) return result;
+            if ((result = check_flags(&input->batch, diag))) return result;
             if (!input->handed_out)
                 memcpy(input->origin, input->batch.origin, sizeof input->origin);
             input->moved = dp_batch_shift(&input->batch, input->origin, input->shift);

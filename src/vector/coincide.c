@@ -300,7 +300,7 @@ static bool make_grid(grid *g) {
 }
 
 static bool is_crease(const dp_strand *s) {
-    return s->line != DP_LINE_SILHOUETTE && s->line != DP_LINE_BORDER;
+    return s->line != DP_LINE_SILHOUETTE && s->line != DP_LINE_BORDER && s->line != DP_LINE_SECTION;
 }
 
 static int by_rank(const void *left, const void *right) {

@@ -116,7 +116,8 @@ const char *dp_layer_name(char name[DP_LAYER_NAME], const dp_layer *layer, char 
 uint64_t dp_layer_number(const dp_layer *layer) {
     static const uint64_t numbers[] = {0, 0, 6, 7};
     if (layer->kind != DP_LAYER_LINES) return numbers[layer->kind];
-    return UINT64_C(10) * layer->level + (uint64_t)layer->line + 1;
+    const uint64_t line = (uint64_t)layer->line + 1, frame_and_text = 2;
+    return UINT64_C(10) * layer->level + line + (line > 5 ? frame_and_text : 0);
 }
 
 /* ------- styles ------- */

@@ -33,7 +33,8 @@ enum { DP_LAYER_NAME = 64 /* bytes */ };
 const char *dp_layer_name(char name[DP_LAYER_NAME], const dp_layer *layer, char separator,
                           bool upper);
 /* The number that stays with a class and a level, and that plotters know it by: 10 * level, and 1
- * for silhouettes, 2 ridges, 3 valleys, 4 intersections, 5 borders; 0 surface, 6 frame, 7 text. */
+ * for silhouettes, 2 ridges, 3 valleys, 4 intersections, 5 borders; 0 surface, 6 frame, 7 text; 8
+ * sections, 9 hatching. */
 uint64_t dp_layer_number(const dp_layer *layer);
 
 /* ------- styles ------- */

@@ -374,8 +374,9 @@ static void a_ring_begins_at_a_corner(void **state) {
 
 static void layers_lie_from_the_bottom_up(void **state) {
     (void)state;
-    static const dp_line bottom_up[] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
-                                        DP_LINE_BORDER, DP_LINE_SILHOUETTE};
+    static const dp_line bottom_up[] = {DP_LINE_HATCHING, DP_LINE_VALLEY, DP_LINE_INTERSECTION,
+                                        DP_LINE_RIDGE,    DP_LINE_BORDER, DP_LINE_SILHOUETTE,
+                                        DP_LINE_SECTION};
     for (uint32_t level = 0; level < 3; level++)
         for (int k = 0; k < DP_LINE_COUNT; k++) {
             dp_segment *const s = add(10, 10 * (float)(count + 1), 50, 10 * (float)(count + 1));
@@ -383,11 +384,11 @@ static void layers_lie_from_the_bottom_up(void **state) {
         }
     for (int optimize = 0; optimize < 2; optimize++) {
         clean_desc(&(dp_drawing_desc){.optimize = optimize});
-        assert_int_equal(info.paths, 15);
+        assert_int_equal(info.paths, 21);
         assert_int_equal(info.levels, 2);
-        for (size_t i = 0; i < 15; i++) {
-            assert_int_equal(path(i).level, 2 - i / 5);
-            assert_int_equal(path(i).line, bottom_up[i % 5]);
+        for (size_t i = 0; i < 21; i++) {
+            assert_int_equal(path(i).level, 2 - i / 7);
+            assert_int_equal(path(i).line, bottom_up[i % 7]);
         }
     }
 }

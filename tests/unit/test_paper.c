@@ -195,7 +195,17 @@ static void an_edge_at_the_rim_is_a_silhouette(void **state) {
     free(cube);
 }
 
-/* A scene with a line of every class: crossing boxes on steps, beside an open sheet. */
+/* Adds an edge that is a line by itself: a polygon without area. */
+static void add_marked(scene *s, const float from[3], const float to[3], dp_edge_kind kind) {
+    const float corners[3][3] = {
+        {from[0], from[1], from[2]}, {to[0], to[1], to[2]}, {to[0], to[1], to[2]}};
+    scene_polygon(s, 3, corners);
+    const size_t first = s->firsts[s->polygons - 1];
+    s->flags[first] = (uint8_t)kind, s->flags[first + 1] = s->flags[first + 2] = DP_EDGE_NEVER;
+}
+
+/* A scene with a line of every class: crossing boxes on steps, beside an open sheet, and lines on the
+ * front of a box. */
 static scene *every_class(void) {
     const float a[3] = {-70, -40, -20}, b[3] = {-10, 20, 20};
     const float c[3] = {-50, -20, -60}, d[3] = {-30, 0, 60};
@@ -207,15 +217,19 @@ static scene *every_class(void) {
                                  {{10, -10, -20}, {60, -10, -20}, {60, 20, -20}, {10, 20, -20}},
                                  {{10, 20, -20}, {60, 20, -20}, {60, 20, -50}, {10, 20, -50}}};
     for (int k = 0; k < 4; k++) scene_polygon(made, 4, step[k]);
+    add_marked(made, (const float[3]){-65, -30, 20}, (const float[3]){-15, -30, 20},
+               DP_EDGE_SECTION);
+    add_marked(made, (const float[3]){-65, -36, 20}, (const float[3]){-15, -34, 20},
+               DP_EDGE_HATCHING);
     return made;
 }
 
 /* Each class alone, each pair, all: ink of the classes asked for and of no other, in their
  * colours. */
 static void classes_can_be_switched_and_coloured(void **state) {
-    static const dp_color colors[DP_LINE_COUNT] = {DP_RGB(255, 0, 0), DP_RGB(0, 255, 0),
-                                                   DP_RGB(0, 0, 255), DP_RGB(255, 0, 255),
-                                                   DP_RGB(0, 255, 255)};
+    static const dp_color colors[DP_LINE_COUNT] = {
+        DP_RGB(255, 0, 0),   DP_RGB(0, 255, 0),   DP_RGB(0, 0, 255),  DP_RGB(255, 0, 255),
+        DP_RGB(0, 255, 255), DP_RGB(255, 255, 0), DP_RGB(0, 255, 128)};
     const dp_camera camera = scene_camera(60, 70, 150, 0, -5, 0);
     scene *whole = every_class();
     (void)state;

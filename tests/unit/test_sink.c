@@ -79,8 +79,9 @@ static dp_result send_to_log(size_t fail_at, bool silent, dp_diag *diag) {
 
 /* begin surface (layer stroke+)* end, layers from the bottom up, strokes of their layer. */
 static void calls_come_in_order(void **state) {
-    static const dp_line layers[] = {DP_LINE_VALLEY, DP_LINE_INTERSECTION, DP_LINE_RIDGE,
-                                     DP_LINE_BORDER, DP_LINE_SILHOUETTE};
+    static const dp_line layers[] = {DP_LINE_HATCHING, DP_LINE_VALLEY, DP_LINE_INTERSECTION,
+                                     DP_LINE_RIDGE,    DP_LINE_BORDER, DP_LINE_SILHOUETTE,
+                                     DP_LINE_SECTION};
     (void)state;
     draw_boxes(NULL);
     assert_int_equal(send_to_log(0, false, NULL), DP_OK);
