@@ -52,11 +52,8 @@ int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally) {
     return dp_scene_play(source, clip, &diag) ? report_model(s, &diag) : 0;
 }
 
-/* Does a shape, a film or whatever else move by --time? */
-static bool is_moved_otherwise(const tool_settings *s) {
-    (void)s;
-    return false;
-}
+/* Does something else move by --time? */
+static bool is_moved_otherwise(const tool_settings *s) { return s->has_deform || s->morph; }
 
 static int tell_missing(const tool_settings *s, const clips_tally *tally) {
     const char *const model = model_spoken(s->model);
@@ -77,7 +74,7 @@ static int tell_missing(const tool_settings *s, const clips_tally *tally) {
 int clips_check(const tool_settings *s, const clips_tally *tally) {
     if (tally->playing) return 0;
     if (s->animation && !is_rest(s->animation)) return tell_missing(s, tally);
-    if (s->has_time && !s->quiet && !is_moved_otherwise(s))
+    if (option_given(s, "time") && !s->quiet && !is_moved_otherwise(s))
         warn_of_model(s, s->animation ? "--time changes nothing: no animation plays"
                                       : "--time changes nothing: there is no animation in it");
     return 0;

@@ -266,7 +266,7 @@ wrong_films() {
     wrong $film_cube --path p.json --zoom 3 -o out-%d.png -- '--path already says how much is seen'
     wrong shape:cube --sheet front --turn 90 -o out-%d.png -- '--sheet already says where from'
     wrong $film_cube --frames 0 -o out-%d.png -- '--frames'
-    wrong $film_cube --time 0:1e9 -o out-%d.png -- 'is too long'
+    wrong $film_cube --time 0:1e9 -q -o out-%d.png -- 'is too long'
     wrong $film_cube --frames 3 -o out-%d.mp3 -- 'drawings are written as'
     wrong shape:cube shape:gear --frames 3 -o out.rgba -o '%s-%d.png' -- 'put %s into its name'
     run 0 $film_cube -o out.png --jobs 2 --fps 30
