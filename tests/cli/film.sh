@@ -94,8 +94,26 @@ turning_cameras() {
 }
 # What moves is drawn at each frame's time; the camera shows all of it and stands still.
 films_of_motion() {
-    "$program" --help deform >/dev/null 2>&1 || return # nothing moves here
-    local wave="shape:torus --deform wave" k
+    local wave="shape:torus --deform wave" k left top right bottom
+    # an animation plays as long as it lasts, and a moving camera alone does not start it
+    sliding # 2 s of a square (animations.sh)
+    local view='--eye 5,0,30 --target 5,0,0 --size 64x48 -q'
+    run 0 sliding.x $view -o slide-%d.png --fps 5
+    [ "$(files_like 'slide-*.png')" = 10 ] || fail "$(files_like 'slide-*.png') frames of 2 s"
+    run 0 sliding.x $view --time 1 -o later.png
+    same_bytes later.png slide-5.png
+    run 0 sliding.x $view --turn 360 --frames 8 -o turn-%d.png
+    run 0 sliding.x $view -o rest.png
+    same_bytes rest.png turn-0.png
+    run 0 sliding.x $view --animation Return --fps 5 -o back-%d.png
+    [ "$(files_like 'back-*.png')" = 5 ] || fail "$(files_like 'back-*.png') frames of 1 s"
+    # the fitted camera shows all of the way
+    run 0 sliding.x --view front --size 64x48 --frames 5 -q --format rgba -o film.bin --time 0:2
+    for k in 0 4; do
+        dd if=film.bin of=frame bs=12288 skip=$k count=1 2>/dev/null
+        read -r left top right bottom < <(ink_box frame)
+        [ $((right - left)) -lt 12 ] || fail "frame $k is fitted alone: $left $top $right $bottom"
+    done
     run 0 $wave $small --eye 4,3,5 --target 0,0,0 --time 0:1 --frames 8 -o w-%d.png -o w-%d.svg -q --jobs 3
     for k in 0 1 5; do
         run 0 $wave $small --eye 4,3,5 --target 0,0,0 --time "$(awk "BEGIN { print $k / 8 }")" -o still.png -o still.svg -q
