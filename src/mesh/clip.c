@@ -48,7 +48,7 @@ typedef struct clipper {
     double origin[3], shift[3]; /* the first batch's; what moves the batch's positions to it */
     bool begun, ended, any_kept, any_read, moved, has_normals, has_texcoords, has_colors,
         has_groups;
-    double low[3], high[3]; /* box of the vertices that are kept */
+    double low[3], high[3]; /* box of what is kept */
     uint32_t plane;         /* that is filled */
     uint16_t group;
 } clipper;
@@ -99,6 +99,13 @@ static void place(const clipper *c, const float *from, float to[3]) {
     for (int k = 0; k < 3; k++) to[k] = c->moved ? (float)((double)from[k] + c->shift[k]) : from[k];
 }
 
+static void widen_box(clipper *c, const float p[3]) {
+    for (int k = 0; k < 3; k++) {
+        c->low[k] = dp_min(c->low[k], (double)p[k]);
+        c->high[k] = dp_max(c->high[k], (double)p[k]);
+    }
+}
+
 static where find_where(clipper *c, const float p[3]) {
     where at = {0, 0, !(isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]))};
     for (uint32_t k = 0; k < c->cutting.plane_count && !at.bad; k++) {
@@ -106,10 +113,7 @@ static where find_where(clipper *c, const float p[3]) {
         at.beyond |= (uint8_t)((d > 0) << k);
         at.on |= (uint8_t)((d == 0) << k);
     }
-    for (int k = 0; k < 3 && !at.bad && !at.beyond; k++) {
-        c->low[k] = dp_min(c->low[k], (double)p[k]);
-        c->high[k] = dp_max(c->high[k], (double)p[k]);
-    }
+    if (!at.bad && !at.beyond) widen_box(c, p);
     return at;
 }
 
@@ -396,6 +400,8 @@ static dp_result finish(clipper *c, dp_batch *out, dp_diag *diag) {
     c->ended = true;
     *out = (dp_batch){0};
     dp_clip_settle_touching(&c->cutting);
+    for (size_t i = 0; i < 3 * c->cutting.made.triangles; i++)
+        widen_box(c, c->cutting.made.positions + 3 * i);
     if (!rank_groups(c)) return out_of_memory(diag);
     for (uint32_t k = 0; k < c->cutting.plane_count; k++)
         if (!make_section(c, k)) return out_of_memory(diag);

@@ -521,6 +521,19 @@ static void hatching_fills_the_face(void **state) {
     }
 }
 
+/* A slice in which no vertex lies. */
+static void a_slice_has_two_faces(void **state) {
+    (void)state;
+    const dp_clip clip = {.planes = {{{0, 0, 1}, 0.5}, {{0, 0, -1}, -0.25}}, .plane_count = 2};
+    box(new_scene(), -3, -2, -4, 3, 2, 4);
+    read_clipped(source_of(&shown), &clip);
+    near(face_area(ANY_GROUP, dp_v3(0, 0, 1), 0.5), 24, 1e-6);
+    near(face_area(ANY_GROUP, dp_v3(0, 0, -1), -0.25), 24, 1e-6);
+    near(line_length(ANY_GROUP, DP_EDGE_SECTION), 40, 1e-6);
+    const double spacing = sqrt(36 + 16 + 0.0625) / 60;
+    near(line_length(ANY_GROUP, DP_EDGE_HATCHING), 48 / spacing, 0.02);
+}
+
 static void attributes_are_interpolated(void **state) {
     (void)state;
     static const float positions[] = {0, 0, -1, 4, 0, -1, 0, 0, 3},
@@ -758,6 +771,7 @@ int main(void) {
         cmocka_unit_test(wrong_clips_are_refused),
         cmocka_unit_test(needles_are_filled_once),
         cmocka_unit_test(hatching_fills_the_face),
+        cmocka_unit_test(a_slice_has_two_faces),
         cmocka_unit_test(attributes_are_interpolated),
         cmocka_unit_test(origins_are_kept),
         cmocka_unit_test(a_section_is_drawn),
