@@ -1,8 +1,8 @@
 #!/bin/bash
-# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors [MODEL]... or agree, steady, noise or whole
-# [MODEL]...: the tables of figures in README.md and docs/: accuracy by the independent oracle (options:
-# tests/accuracy/oracle.py --help), times of frames, FRAMES=20 of each model, what drawings as vectors hold and cost,
-# the best of RUNS=7 runs, or how well drawings of one shape agree (scripts/agreement.sh).
+# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors or film [MODEL]... or agree, steady, noise or
+# whole [MODEL]...: the tables of figures in README.md and docs/: accuracy by the independent oracle (options:
+# tests/accuracy/oracle.py --help), times of frames, FRAMES=20 of each model, what drawings as vectors hold and cost
+# or how many frames of films are drawn a second, the best of RUNS=7 runs, or how well drawings of one shape agree (scripts/agreement.sh).
 set -eu
 program=$(realpath "$1") what=$2
 shift 2
@@ -41,10 +41,10 @@ accuracy)
     python3 tests/accuracy/oracle.py --drypoint "$program" "$@" | summarise
     exit
     ;;
-times | vectors) ;;
+times | vectors | film) ;;
 agree | steady | noise | whole) exec scripts/agreement.sh "$program" "$what" "$@" ;;
 *)
-    echo "figures: $what is none of accuracy, times, vectors, agree, steady, noise and whole" >&2
+    echo "figures: $what is none of accuracy, times, vectors, film, agree, steady, noise and whole" >&2
     exit 2
     ;;
 esac
@@ -97,6 +97,24 @@ vectors() {
         "$("$program" "$model" -o $out.svg --size 1680x1050 --quiet && stat -c %s $out.svg | awk '{ print $1 / 1000 }')" \
         "$(awk "BEGIN { print $svg / $png }")" "$(awk "BEGIN { print $hidden / $png }")"
 }
+# Frames a second of a turntable of 120 frames, 640x480, as raw pixels, without what is read before: the best of RUNS runs.
+rate() {
+    local run
+    for ((run = 0; run < ${RUNS:-7}; run++)); do
+        "$program" "$@" --turn 360 --frames 120 --size 640x480 --format rgba -o /dev/null --quiet --stats=json
+    done | sed -n 's/.*"frames_per_second": \([0-9.]*\).*/\1/p' | sort -n | tail -n 1 | xargs printf '%.0f'
+}
+film() {
+    printf '| %s | %s | %s | %s |\n' "$(basename "${1%.*}")" "$(rate "$1")" "$(rate "$1" --jobs 1)" \
+        "$(rate "$1" --jobs 1 --threads 1)"
+}
+if [ "$what" = film ]; then
+    [ $# -gt 0 ] || mapfile -t list < <(models gear:34000 terrain:200000)
+    echo '| model | side by side | one after the other, as many threads | one thread |'
+    echo '|---|---|---|---|'
+    for file in "${@:-${list[@]}}"; do film "$file"; done
+    exit
+fi
 if [ "$what" = vectors ]; then
     [ $# -gt 0 ] || mapfile -t list < <(models gear:34000 terrain:200000)
     echo '| model | paths | with --join-classes | and hidden | left out: on others | dropped | less travel | SVG, kB | SVG/PNG | --hidden/PNG |'

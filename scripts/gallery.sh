@@ -16,8 +16,17 @@ else
 fi
 cp scripts/place.awk build/gallery
 cd build/gallery
-rm -f ./*.png
+rm -f ./*.png ./*.gif
 # shellcheck disable=SC1090
 . <(cd ../.. && commands)
+# films, in blocks of bash, are ffmpeg's
+films() { sed -n '/^```bash$/,/^```$/{/^```/d;p}' ../../docs/gallery/README.md; }
+if command -v ffmpeg >/dev/null; then
+    # shellcheck disable=SC1090
+    . <(films)
+    cp ./*.gif ../../docs/gallery
+else
+    echo 'gallery: there is no ffmpeg; films are left as they are' >&2
+fi
 cp ./*.png ../../docs/gallery
-du -b ./*.png
+du -b ./*.png ./*.gif 2>/dev/null

@@ -20,6 +20,7 @@ fuzzer_runtime() {
         clang -fsanitize=fuzzer,address,undefined -x c - -o /dev/null 2>/dev/null
 }
 ezdxf() { /usr/bin/python3 -c 'import ezdxf' 2>/dev/null; }
+numpy() { /usr/bin/python3 -c 'import numpy' 2>/dev/null; }
 # The compiler-rt package carries the version of clang that the distribution calls its own.
 compiler_rt() {
     version=$(apt-cache depends clang 2>/dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p' | head -n 1)
@@ -48,6 +49,8 @@ find_missing() {
     have qpdf || missing="$missing qpdf"
     have gs || missing="$missing ghostscript"
     ezdxf || missing="$missing python3-ezdxf"
+    numpy || missing="$missing python3-numpy"
+    [ -d /usr/share/assimp/models ] || missing="$missing assimp-testmodels" # some of them move
     fuzzer_runtime || missing="$missing $(compiler_rt)"
 }
 

@@ -11,7 +11,8 @@ base
 mesh     base
 texture  base
 write    base
-io       base mesh
+scene    base mesh
+io       base mesh scene
 core     base mesh texture
 features base mesh texture core
 raster   base mesh core

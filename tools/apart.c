@@ -8,6 +8,7 @@
  * earlier pictures are gone. */
 #include "apart.h"
 
+#include "pipe.h"
 #include "progress.h"
 #include "transfer.h"
 
@@ -124,7 +125,7 @@ dp_result open_apart(const char *path, double seconds, dp_source **out, dp_diag 
         return dp_io_open(path, NULL, out, diag);
     }
     interrupt_also(child);
-    const transfer_end end = transfer_receive(ends[0], transfer_clock() + seconds, out, diag);
+    const transfer_end end = transfer_receive(ends[0], pipe_clock() + seconds, out, diag);
     close(ends[0]);
     if (end) kill(child, SIGKILL);
     int status = 0;

@@ -3,12 +3,13 @@
  * A run has one plan (page.h): views, each with its camera and its place on the page. Each view is
  * drawn once, into its rectangle of the picture and into paths; only a ground under paths takes a
  * drawing of its own. */
-#include "commands.h"
+#include "draw.h"
+#include "film.h"
 #include "files.h"
 #include "look.h"
+#include "objects.h"
 #include "output.h"
 #include "page_ink.h"
-#include "paths.h"
 #include "planes.h"
 #include "progress.h"
 #include "report.h"
@@ -19,19 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct drawing {
-    dp_source *source;
-    dp_context *context;
-    dp_texture *texture;
-    dp_style style;
-    dp_target target; /* planes of the only view; rgba is the whole page */
-    look_data look;
-    page_plan plan;
-    bool pixels, paths; /* what is wanted */
-    view_paths views[SHEET_MOST];
-    dp_stats stats[SHEET_MOST];
-} drawing;
-
 /* Warns of what a source is to be remarked on; NULL: nothing. */
 static void warn_source(const tool_settings *s, const char *remark) {
     if (remark && !s->quiet) warn_of_model(s, remark);
@@ -39,18 +27,15 @@ static void warn_source(const tool_settings *s, const char *remark) {
 
 /* ---- preparing ---- */
 
-static int make_page(const tool_settings *s, drawing *d) {
+static int make_page(drawing *d) {
     const page_plan *const plan = &d->plan;
     d->target.width = plan->width, d->target.height = plan->height;
-    if (!d->pixels) return 0;
+    if (!d->pixels || d->lent) return 0;
     d->target.rgba = calloc((size_t)plan->width * plan->height, 4);
-    if (!d->target.rgba) {
-        wrong_usage("out of memory for %u x %u pixels; give a smaller %s", plan->width,
-                    plan->height, plan->paged ? "--dpi" : "--size");
-        return EXIT_FAILED;
-    }
-    if (plan->paged) ink_paper(&d->target, s->style.paper);
-    return 0;
+    if (d->target.rgba) return 0;
+    wrong_usage("out of memory for %u x %u pixels; give a smaller %s", plan->width, plan->height,
+                plan->paged ? "--dpi" : "--size");
+    return EXIT_FAILED;
 }
 
 /* Warns of options, once for all models. */
@@ -58,40 +43,44 @@ static void warn_options(const tool_settings *s, const drawing *d) {
     if (d->paths) paths_warn(s, &d->style);
 }
 
-/* Everything but the drawing itself; fills in what all views share. */
-static int prepare(const tool_settings *s, drawing *d, measured *model) {
-    const dp_context_desc desc = {
-        .threads = s->threads, .progress = progress_report, .memory = (size_t)s->memory};
-    dp_diag diag = {0};
+int drawing_prepare(const tool_settings *s, drawing *d, dp_source *seen, measured *model) {
     d->pixels = files_have_pixels(s), d->paths = files_have_paths(s);
     d->style = make_style(s);
     d->style.exact_ends = d->paths;
     look_mirror(s, model, &d->style);
-    int code = page_make(s, d->source, model, &d->plan);
+    int code = page_make(s, seen, model, &d->plan);
     if (code) return code;
     if (!page_widths(s, &d->plan, &d->style)) return EXIT_USAGE;
-    for (int k = 0; k < d->plan.view_count; k++)
-        look_deepen(&d->style, &model->extent, &d->plan.views[k].camera);
     code = make_stroke(s, &d->plan, &d->style, &d->texture);
     if (code) return code;
     code = look_make(s, d->source, &d->look, &d->style);
-    d->target.samples = make_target(s).samples;
-    d->target.width = d->plan.views[0].width, d->target.height = d->plan.views[0].height;
-    if (!code) code = planes_prepare(s, &d->target);
-    if (!code) code = make_page(s, d);
+    if (!code) code = objects_style(s, d->source, &d->plan, &d->style, &d->objects);
     if (code) return code;
     if (d->style.shade.model_colors) warn_source(s, dp_source_color_remark(d->source));
     if (!s->number) warn_options(s, d);
+    return 0;
+}
+
+int drawing_open(const tool_settings *s, drawing *d, uint32_t threads) {
+    const dp_context_desc desc = {
+        .threads = threads, .progress = progress_report, .memory = (size_t)s->memory};
+    dp_diag diag = {0};
+    d->target.samples = make_target(s).samples;
+    d->target.width = d->plan.views[0].width, d->target.height = d->plan.views[0].height;
+    int code = planes_prepare(s, &d->target);
+    if (!code) code = make_page(d);
+    if (code) return code;
     return dp_context_create(&desc, &d->context, &diag) ? report_failure(NULL, &diag) : 0;
 }
 
 /* ---- drawing ---- */
 
 static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
-                     const dp_target *target) {
+                     const object_styles *objects, const dp_target *target) {
     dp_diag diag = {0};
     progress_begin("drawing", s->quiet);
-    const dp_result result = dp_draw(d->context, d->source, &v->camera, style, target, &diag);
+    const dp_result result = dp_draw_grouped(d->context, d->source, &v->camera, style,
+                                             objects->styles, objects->count, target, &diag);
     progress_end();
     if (!result) return 0;
     return result == DP_ERR_ARGUMENT ? report_failure(NULL, &diag) : report_model(s, &diag);
@@ -113,7 +102,11 @@ static int draw_ground(const tool_settings *s, drawing *d, int k) {
                               .height = v->height,
                               .samples = d->target.samples,
                               .rgba = d->views[k].ground};
-    return draw_into(s, d, v, &style, &target);
+    object_styles bare;
+    if (!objects_without_lines(&d->objects, &bare)) return EXIT_FAILED;
+    const int code = draw_into(s, d, v, &style, &bare, &target);
+    objects_free(&bare);
+    return code;
 }
 
 static int draw_lines(const tool_settings *s, drawing *d, int k) {
@@ -124,19 +117,30 @@ static int draw_lines(const tool_settings *s, drawing *d, int k) {
     target.width = v->width, target.height = v->height;
     if (target.rgba) target.rgba += v->y * stride + (size_t)4 * v->x, target.rgba_stride = stride;
     if (v->bare) style.hidden.look = DP_HIDDEN_NONE;
-    int code = draw_into(s, d, v, &style, &target);
+    int code = draw_into(s, d, v, &style, &d->objects, &target);
     if (!code) dp_stats_of(d->context, &d->stats[k]);
     if (!code && d->paths) code = paths_make(s, &d->plan, d->context, &d->views[k].lines);
     return code;
 }
 
+static void clear_views(drawing *d) {
+    for (int k = 0; k < SHEET_MOST; k++) {
+        dp_drawing_destroy(d->views[k].lines);
+        free(d->views[k].ground);
+        d->views[k] = (view_paths){0};
+    }
+}
+
 /* The ground first: the context's last drawing is that of the lines, which the trace is of. */
-static int draw_views(const tool_settings *s, drawing *d) {
+int drawing_draw(const tool_settings *s, drawing *d) {
     int code = 0;
+    clear_views(d);
+    if (d->plan.paged && d->target.rgba) ink_paper(&d->target, s->style.paper);
     for (int k = 0; k < d->plan.view_count && !code; k++) {
         if (d->paths && s->ground == GROUND_PNG) code = draw_ground(s, d, k);
         if (!code) code = draw_lines(s, d, k);
     }
+    if (!code && d->pixels) ink_page(&d->plan, &d->target);
     return code;
 }
 
@@ -159,7 +163,6 @@ static int write_picture(const tool_settings *s, const drawing *d, const char *p
 
 static int write_pictures(const tool_settings *s, const drawing *d) {
     int code = 0;
-    if (d->pixels) ink_page(&d->plan, &d->target);
     for (uint32_t k = 0; k < s->file_count && !code; k++)
         if (files_format(s, s->files[k]) == FORMAT_PNG) code = write_picture(s, d, s->files[k]);
     return code;
@@ -180,13 +183,26 @@ static int write_planes(const tool_settings *s, const drawing *d) {
     return planes_write(s, &view);
 }
 
-/* Lines were asked for, and the picture has none. (Quads are no segments; an edge map may have edges.) */
-static void tell_empty_picture(const tool_settings *s, const drawing *d) {
+int drawing_write(const tool_settings *s, drawing *d) {
+    int code = write_planes(s, d);
+    if (!code) code = write_trace(s, d);
+    if (!code) code = write_pictures(s, d);
+    if (!code && d->paths) code = paths_write(s, &d->plan, d->views);
+    return code;
+}
+
+/* ---- what is told ---- */
+
+/* (Quads are no segments; an edge map may have edges.) */
+bool drawing_is_empty(const drawing *d) {
     uint64_t segments = 0;
     for (int k = 0; k < d->plan.view_count; k++) segments += d->stats[k].segments;
-    if (segments || s->quiet || !s->file_count) return;
-    if (d->style.lines == DP_NO_LINES || d->style.ink == DP_INK_QUADS || d->style.edge_map.detector)
-        return;
+    return !segments && d->style.lines != DP_NO_LINES && d->style.ink != DP_INK_QUADS &&
+           !d->style.edge_map.detector;
+}
+
+static void tell_empty_picture(const tool_settings *s, const drawing *d) {
+    if (!drawing_is_empty(d) || s->quiet || !s->file_count) return;
     tell_empty(strcmp(s->files[0], "-") ? s->files[0] : "standard output");
 }
 
@@ -213,30 +229,34 @@ static int run(const tool_settings *s, drawing *d) {
     int code = open_model(s, &d->source);
     if (!code) code = measure_model(s, d->source, &model);
     if (!code) warn_coarse(s, &model.extent);
-    if (!code) code = prepare(s, d, &model);
-    if (!code) code = draw_views(s, d);
-    if (!code) code = write_planes(s, d);
-    if (!code) code = write_trace(s, d);
-    if (!code) code = write_pictures(s, d);
-    if (!code && d->paths) code = paths_write(s, &d->plan, d->views);
+    if (!code) code = drawing_prepare(s, d, d->source, &model);
+    if (code) return code;
+    for (int k = 0; k < d->plan.view_count; k++)
+        look_deepen(&d->style, &model.extent, &d->plan.views[k].camera);
+    code = drawing_open(s, d, s->threads);
+    if (!code) code = drawing_draw(s, d);
+    if (!code) code = drawing_write(s, d);
     if (!code) print_stats(s, d);
     return code;
+}
+
+void drawing_free(drawing *d) {
+    dp_context_destroy(d->context);
+    dp_texture_destroy(d->texture);
+    dp_source_destroy(d->source);
+    clear_views(d);
+    if (!d->lent) free(d->target.rgba);
+    planes_free(&d->target);
+    look_free(&d->look);
+    objects_free(&d->objects);
 }
 
 int draw_scene(const tool_settings *s) {
     int code = files_check(s);
     if (code) return code;
+    if (film_wanted(s)) return film_draw(s);
     drawing d = {0};
     code = run(s, &d);
-    dp_context_destroy(d.context);
-    dp_texture_destroy(d.texture);
-    dp_source_destroy(d.source);
-    for (int k = 0; k < SHEET_MOST; k++) {
-        dp_drawing_destroy(d.views[k].lines);
-        free(d.views[k].ground);
-    }
-    free(d.target.rgba);
-    planes_free(&d.target);
-    look_free(&d.look);
+    drawing_free(&d);
     return code;
 }

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "files.h"
 #include "models.h"
+#include "objects.h"
 #include "output.h"
 #include "report.h"
 
@@ -126,6 +127,7 @@ static int check_files(const tool_settings *s) {
 }
 
 int command_draw(const tool_settings *s) {
+    if (s->list) return objects_print(s);
     if (!has_pattern(s)) return draw_scene(s);
     int code = check_patterns(s);
     if (!code) code = check_stems(s);

@@ -8,9 +8,15 @@
 #include <string.h>
 
 /* By word of --format, from 1. */
-static int format_of_word(int word) { return word == 1 ? FORMAT_PNG : word - 2; }
+static int format_of_word(int word) {
+    const int films = 2 + DP_FORMAT_COUNT;
+    return word == 1 ? FORMAT_PNG : word < films ? word - 2 : FORMAT_RGBA + word - films;
+}
 
 static int format_by_ending(const char *path) {
+    static const char *const films[] = {".rgba", ".mp4", ".webm", ".gif", ".apng"};
+    for (int k = 0; k < FORMAT_UNKNOWN - FORMAT_RGBA; k++)
+        if (output_has_ending(path, films[k])) return FORMAT_RGBA + k;
     if (output_has_ending(path, ".png")) return FORMAT_PNG;
     for (int k = 0; k < DP_FORMAT_COUNT; k++) {
         char ending[16];
@@ -48,7 +54,16 @@ bool files_have(const tool_settings *s, int format) {
     return false;
 }
 
-bool files_have_pixels(const tool_settings *s) { return files_have(s, FORMAT_PNG); }
+bool files_is_film(const tool_settings *s, const char *path) {
+    const int format = files_format(s, path);
+    return format >= FORMAT_RGBA && format < FORMAT_UNKNOWN;
+}
+
+bool files_have_pixels(const tool_settings *s) {
+    for (uint32_t k = 0; k < s->file_count; k++)
+        if (files_is_film(s, s->files[k])) return true;
+    return files_have(s, FORMAT_PNG);
+}
 
 bool files_have_paths(const tool_settings *s) {
     for (int format = 0; format < DP_FORMAT_COUNT; format++)

@@ -4,8 +4,16 @@
 
 #include "options.h"
 
-/* How a drawing is written: FORMAT_PNG, or a dp_format. */
-enum { FORMAT_PNG = DP_FORMAT_COUNT, FORMAT_UNKNOWN };
+/* How a drawing is written: a dp_format, FORMAT_PNG, or a film in one file. */
+enum {
+    FORMAT_PNG = DP_FORMAT_COUNT,
+    FORMAT_RGBA, /* the frames' pixels */
+    FORMAT_MP4,
+    FORMAT_WEBM,
+    FORMAT_GIF,
+    FORMAT_APNG,
+    FORMAT_UNKNOWN
+};
 
 /* The format of -o FILE: by its ending; of what has none, by --format. FORMAT_UNKNOWN: another
  * ending. */
@@ -16,6 +24,8 @@ int files_standard(const tool_settings *s);
 /* Are drawings written as pixels, and as paths? */
 bool files_have_pixels(const tool_settings *s);
 bool files_have_paths(const tool_settings *s);
+/* Is that one a film in one file? */
+bool files_is_film(const tool_settings *s, const char *path);
 /* Is one of them written so? */
 bool files_have(const tool_settings *s, int format);
 

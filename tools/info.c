@@ -1,4 +1,5 @@
 /* drypoint info MODEL...: what each model contains, and which of its polygons drawing would drop. */
+#include "clips.h"
 #include "commands.h"
 #include "edges.h"
 #include "models.h"
@@ -63,6 +64,7 @@ static void print_table(const tool_settings *s, const dp_source *source, const d
            e->exact_max[1] - e->exact_min[1], e->exact_max[2] - e->exact_min[2]);
     printf("%-32s %.9g %.9g %.9g%s\n", "up", up[0], up[1], up[2],
            said ? "" : " (as is usual: the file does not say)");
+    clips_print_table(source);
 }
 
 static void print_json(const tool_settings *s, const dp_source *source, const dp_extent *e,
@@ -75,8 +77,10 @@ static void print_json(const tool_settings *s, const dp_source *source, const dp
         printf(", \"%s\": %llu", lines[k].key, (unsigned long long)lines[k].value);
     print_place(", \"min\": [", ", ", "]", e->exact_min, e->spacing);
     print_place(", \"max\": [", ", ", "]", e->exact_max, e->spacing);
-    printf(", \"up\": [%.9g, %.9g, %.9g], \"up_said\": %s}\n", up[0], up[1], up[2],
+    printf(", \"up\": [%.9g, %.9g, %.9g], \"up_said\": %s", up[0], up[1], up[2],
            said ? "true" : "false");
+    clips_print_json(source);
+    puts("}");
 }
 
 static int inspect(const tool_settings *s, dp_source *source) {

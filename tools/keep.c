@@ -144,7 +144,7 @@ static dp_result read_all(kept *k, dp_source *source, double most, dp_diag *diag
     }
 }
 
-dp_result keep_source(dp_source **source, double most, dp_diag *diag) {
+dp_result copy_source(dp_source *source, double most, dp_source **out, dp_diag *diag) {
     kept *const k = calloc(1, sizeof *k);
     if (!k) return refuse(diag, DP_ERR_MEMORY, "out of memory; give a file instead of a pipe");
     dp_source_callbacks callbacks = {.user = k,
@@ -152,16 +152,19 @@ dp_result keep_source(dp_source **source, double most, dp_diag *diag) {
                                      .rewind = kept_rewind,
                                      .destroy = kept_destroy,
                                      .remark = kept_remark};
-    callbacks.up_assumed = !dp_source_up(*source, callbacks.up);
-    dp_source *made = NULL;
-    dp_result result = read_all(k, *source, most, diag);
-    const char *const remark = dp_source_remark(*source);
+    callbacks.up_assumed = !dp_source_up(source, callbacks.up);
+    dp_result result = read_all(k, source, most, diag);
+    const char *const remark = dp_source_remark(source);
     if (remark) snprintf(k->remark, sizeof k->remark, "%s", remark);
-    if (!result) result = dp_source_from_callbacks(&callbacks, NULL, &made, diag);
-    if (result) {
-        kept_destroy(k);
-        return result;
-    }
+    if (!result) result = dp_source_from_callbacks(&callbacks, NULL, out, diag);
+    if (result) kept_destroy(k);
+    return result;
+}
+
+dp_result keep_source(dp_source **source, double most, dp_diag *diag) {
+    dp_source *made = NULL;
+    const dp_result result = copy_source(*source, most, &made, diag);
+    if (result) return result;
     dp_source_destroy(*source);
     *source = made;
     return DP_OK;

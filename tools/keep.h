@@ -8,4 +8,7 @@
  * DP_ERR_MEMORY, DP_ERR_LIMIT, or the source's error; the caller then still destroys *source. */
 dp_result keep_source(dp_source **source, double most, dp_diag *diag);
 
+/* Makes a source of the polygons that are left to read. */
+dp_result copy_source(dp_source *source, double most, dp_source **out, dp_diag *diag);
+
 #endif

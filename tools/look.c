@@ -2,6 +2,7 @@
  * groups. */
 #include "look.h"
 #include "colors.h"
+#include "objects.h"
 #include "report.h"
 
 #include <drypoint/io.h>
@@ -62,21 +63,11 @@ static void from_angles(const double angles[2], float light[3]) {
 
 enum { GROUPS = 65536 };
 
-/* Has the group this name? Parts of "file/object/group/material" count as names too, one or more. */
-static bool is_called(const char *group, const char *name, size_t length) {
-    for (const char *part = group;;) {
-        if (!strncmp(part, name, length) && (part[length] == '/' || !part[length])) return true;
-        const size_t n = strcspn(part, "/");
-        if (!part[n]) return false;
-        part += n + 1;
-    }
-}
-
-static bool mark_groups(dp_source *source, const char *name, size_t length, uint8_t *enhanced) {
+static bool mark_groups(dp_source *source, const char *name, const char *end, uint8_t *enhanced) {
     bool found = false;
     for (uint32_t g = 0; g < GROUPS; g++) {
         const char *const group = dp_source_group_name(source, g);
-        if (!group || !is_called(group, name, length)) continue;
+        if (!group || !object_fits(group, name, end)) continue;
         enhanced[g] = 1;
         found = true;
     }
@@ -100,16 +91,16 @@ static int read_enhanced(const tool_settings *s, dp_source *source, look_data *d
     data->enhanced = calloc(GROUPS, 1);
     if (!data->enhanced) return EXIT_FAILED;
     for (const char *at = s->enhance;;) {
-        const size_t length = strcspn(at, ",");
-        if (!mark_groups(source, at, length, data->enhanced)) {
+        const char *const end = object_name_end(at);
+        if (!mark_groups(source, at, end, data->enhanced)) {
             char names[400];
             known_names(source, names, sizeof names);
             wrong_usage("--enhance: the model has no object called \"%.*s\"; it has %s",
-                        (int)length, at, *names ? names : "no names");
+                        (int)(end - at), at, *names ? names : "no names");
             return EXIT_FAILED;
         }
-        if (!at[length]) break;
-        at += length + 1;
+        if (!*end) break;
+        at = end + 1;
     }
     map->enhanced = data->enhanced;
     map->enhanced_count = GROUPS;

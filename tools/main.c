@@ -35,6 +35,7 @@ int main(int argc, char **argv) {
     else if (sound)
         code = commands[settings.command](&settings);
     models_free(&settings);
+    option_lists_free(&settings);
     if (!fflush(stdout) && !ferror(stdout)) return code;
     wrong_usage("cannot write standard output: %s", strerror(errno));
     return code ? code : EXIT_FAILED;

@@ -1,8 +1,12 @@
 /* Opens models for every command: files, standard input, generated shapes; several as one scene. */
 #include "apart.h"
+#include "clips.h"
 #include "commands.h"
+#include "deform.h"
+#include "film.h"
 #include "keep.h"
 #include "models.h"
+#include "objects.h"
 #include "progress.h"
 #include "report.h"
 #include "section.h"
@@ -49,7 +53,7 @@ static int open_shape(const char *text, dp_source **out) {
 /* Can the model be drawn without knowing its extent, and in one reading? */
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
-           s->ink != 2;
+           s->ink != 2 && !s->has_deform && !s->morph && !objects_asked(s);
 }
 
 /* Own formats are read here, all others in a process of their own. What is no regular file can be
@@ -64,7 +68,7 @@ static dp_result open_file(const tool_settings *s, const char *model, dp_source 
     return result == DP_ERR_UNSUPPORTED ? open_apart(model, s->read_time, out, diag) : result;
 }
 
-static int open_one(const tool_settings *s, const char *model, dp_source **out) {
+static int open_named(const tool_settings *s, const char *model, dp_source **out) {
     struct stat status;
     if (!strncmp(model, scheme, sizeof scheme - 1))
         return open_shape(model + sizeof scheme - 1, out);
@@ -77,12 +81,21 @@ static int open_one(const tool_settings *s, const char *model, dp_source **out) 
     dp_diag diag = {0};
     progress_begin("reading", s->quiet);
     dp_result result = open_file(s, model, out, &diag);
-    if (!result && !dp_source_rewindable(*out) && !is_drawn_unseen(s))
+    if (!result && !dp_source_rewindable(*out) && (film_wanted(s) || !is_drawn_unseen(s)))
         result = keep_source(out, s->memory > 0 ? s->memory : default_memory, &diag);
     progress_end();
     if (!result) return 0;
     report_failure(model_spoken(model), &diag);
     return EXIT_FAILED;
+}
+
+/* Opens a model, and plays its animation. */
+static int open_one(const tool_settings *s, const char *model, clips_tally *tally,
+                    dp_source **out) {
+    int code = open_named(s, model, out);
+    if (!code) code = clips_play(s, *out, tally);
+    if (code) dp_source_destroy(*out), *out = NULL;
+    return code;
 }
 
 /* ---- scenes ---- */
@@ -118,13 +131,13 @@ static int join(const tool_settings *s, dp_source **parts, dp_source **out) {
     return result ? report_failure(NULL, &diag) : 0;
 }
 
-static int open_scene(const tool_settings *s, dp_source **out) {
+static int open_scene(const tool_settings *s, clips_tally *tally, dp_source **out) {
     dp_source **const parts = calloc(s->model_count, sizeof *parts);
     int code = parts ? 0 : EXIT_FAILED;
     if (code) wrong_usage("out of memory for %u models", s->model_count);
     allow_many_files();
     for (uint32_t k = 0; k < s->model_count && !code; k++) {
-        code = open_one(s, s->models[k], &parts[k]);
+        code = open_one(s, s->models[k], tally, &parts[k]);
         if (!code) code = check_not_empty(s->models[k], parts[k]);
     }
     if (!code) code = join(s, parts, out);
@@ -143,12 +156,31 @@ static int move_model(const tool_settings *s, dp_source **source) {
     return EXIT_FAILED;
 }
 
+/* Deforms and blends the model, all parts of a scene as one. */
+static int reshape_model(const tool_settings *s, clips_tally *tally, dp_source **source) {
+    dp_source *other = NULL;
+    const int code = s->morph ? open_one(s, s->morph, tally, &other) : 0;
+    if (!code) return deform_model(s, source, other);
+    dp_source_destroy(*source);
+    *source = NULL;
+    return code;
+}
+
 int open_model(const tool_settings *s, dp_source **out) {
+    clips_tally tally = {0};
     *out = NULL;
-    int code = s->model_count > 1 ? open_scene(s, out) : open_one(s, s->models[0], out);
+    int code =
+        s->model_count > 1 ? open_scene(s, &tally, out) : open_one(s, s->models[0], &tally, out);
+    if (!code) code = clips_check(s, &tally);
+    if (!code) code = reshape_model(s, &tally, out);
     /* where it is cut does not depend on the time */
     if (!code) code = open_section(s, out);
-    return code ? code : move_model(s, out);
+    if (!code) code = move_model(s, out);
+    if (!code && objects_asked(s)) code = objects_arrange(s, out);
+    if (!code) return 0;
+    dp_source_destroy(*out);
+    *out = NULL;
+    return code;
 }
 
 /* A scene's messages name the model already. */

@@ -1,6 +1,7 @@
 /* What the options must say, and what they cannot say together. No option is ignored without a
  * message. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -62,7 +63,7 @@ static bool check_present(const tool_settings *s) {
                            text->arguments);
     if (s->command == COMMAND_MAKE && !s->output)
         return wrong_usage("no output given; add -o OUT.ply");
-    if (s->command == COMMAND_DRAW && !files_count(s)) return no_output(s);
+    if (s->command == COMMAND_DRAW && !files_count(s) && !s->list) return no_output(s);
     if (files_standard(s) > 1)
         return wrong_usage("only one output can go to standard output; give the others files");
     return true;
@@ -120,7 +121,16 @@ static bool check_sheet(const tool_settings *s) {
     return true;
 }
 
+static bool check_motion(const tool_settings *s) {
+    if (s->morph && s->model_count > 1)
+        return wrong_usage(
+            "--morph blends one model with another, but %u are given; leave the others "
+            "out",
+            s->model_count);
+    return true;
+}
+
 bool options_check(const tool_settings *s) {
     return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && check_section(s);
+           check_sheet(s) && check_motion(s) && film_check(s) && check_section(s);
 }

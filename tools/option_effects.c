@@ -4,6 +4,7 @@
  * The rules are data: what must be so for some options to count, and what to say if it is not. An
  * option is told of by the first rule that it breaks. */
 #include "files.h"
+#include "film.h"
 #include "options.h"
 #include "report.h"
 
@@ -73,6 +74,8 @@ static bool has_highlight(const tool_settings *s) {
     return s->shading >= SHADING_LAMBERT && s->shading <= SHADING_TOON;
 }
 
+static bool is_exploded(const tool_settings *s) { return s->explode > 0; }
+static bool is_listing(const tool_settings *s) { return s->list; }
 static bool has_section(const tool_settings *s) { return s->section.count; }
 static bool has_hatching(const tool_settings *s) { return s->section.look <= 2; }
 static bool has_faces(const tool_settings *s) { return s->section.look != 4; }
@@ -89,6 +92,13 @@ static bool is_c1(const tool_settings *s) { return s->edge_map == EDGE_MAP_C1; }
 static bool is_scaled(const tool_settings *s) { return s->edge_measure != MEASURE_PAPER; }
 static bool has_normals(const tool_settings *s) {
     return is_shaded(s) || makes_map(s) || s->outputs[PLANE_NORMALS] || has_smooth(s);
+}
+
+static bool has_morph(const tool_settings *s) { return s->morph != NULL; }
+/* Only breathing begins at rest. */
+static bool is_deformed(const tool_settings *s) {
+    return s->command == COMMAND_BENCH || s->deform.kind != DP_DEFORM_BREATHE ||
+           (s->has_time && (s->time[0] != 0 || s->time[1] != 0));
 }
 
 static bool is_terrain(const tool_settings *s) { return !strcmp(s->model, "terrain"); }
@@ -166,6 +176,13 @@ static const rule drawing_rules[] = {
     {"c1-passes", is_c1, "it is of the C1 operator; add --edge-map c1"},
     {"edge-sides|inner-angle|inner-softness|profile-softness", is_scaled,
      "--edge-measure paper has no thresholds and both sides; leave it out"},
+
+    {"blend", has_morph, "there is nothing to blend with; add --morph MODEL"},
+    {"deform", is_deformed, "at time 0 what breathes is at rest; add --time 1, say"},
+    {"fps|resume|jobs", film_wanted, "a picture has one frame; add --frames 120, --turn 360, say"},
+    {"explode-axis", is_exploded, "nothing is pulled apart; add --explode 1, say"},
+    {"json", is_listing,
+     "it is of --list and of drypoint info; a drawing's statistics are --stats json"},
 
     {"method", has_quads, "it is of added polygons; add --ink quads"},
     {"between", has_quads_alone, "it is of added polygons; add --ink quads"},

@@ -14,18 +14,17 @@
 const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
                                                 "id",       "trace",   "segments"};
 
-const char *const group_names[GROUP_COUNT] = {"Picture", "Pages",    "Camera",
-                                              "Lines",   "Paths",    "Strokes",
-                                              "Surface", "Edge map", "How lines are found",
-                                              "Motion",  "Model",    "Program",
-                                              NULL};
+const char *const group_names[GROUP_COUNT] = {
+    "Picture", "Pages",   "Camera",  "Lines",    "Paths",
+    "Strokes", "Surface", "Objects", "Edge map", "How lines are found",
+    "Motion",  "Model",   "Program", NULL};
 
-const char *const group_topics[GROUP_COUNT] = {"picture", "page",    "camera",   "lines",  "paths",
-                                               "strokes", "surface", "edge-map", "method", "motion",
-                                               NULL,      "program", NULL};
+const char *const group_topics[GROUP_COUNT] = {
+    "picture", "page",     "camera", "lines",  "paths", "strokes", "surface",
+    "objects", "edge-map", "method", "motion", NULL,    "program", NULL};
 
 const char *const models_text[] = {
-    "MODEL is a file (STL, PLY, OBJ, OFF; glTF, FBX, 3MF, COLLADA and more through Assimp), - for "
+    "MODEL is a file (STL, PLY, OBJ, OFF, glTF; FBX, 3MF, COLLADA and more through Assimp), - for "
     "standard input, or a generated model: shape:gear, or shape:terrain:1000000 with a number of "
     "triangles.",
     "A quoted pattern like 'parts/*.stl' stands for the files that it fits.",
@@ -39,14 +38,14 @@ const char *const models_text[] = {
 /* clang-format off */
 const option option_table[] = {
     {"output", 'o', "FILE or NAME=FILE", OPTION_OUTPUT, GROUP_PICTURE, DRAW | MAKE, AT(output), 0, 0, 0,
-     "Where the result goes: a drawing to FILE.png, .svg, .pdf, .eps, .dxf or .json, once for each file; a model to "
+     "Where the result goes: a drawing to FILE.png, .svg, .pdf, .eps, .dxf or .json, once for each file; a film as --frames says; a model to "
      "FILE.ply, .stl or .obj. An old file stays until the new one is whole. - is standard output (a PNG unless "
      "--format says otherwise, or a PLY). NAME=FILE.png, once for each "
      "NAME, writes what shading and edges are made from, beside the drawing or alone: edge-map (inner edges in RGB, "
      "profile edges in A), normals, depth, id. trace=FILE writes the visible lines as text: chains of segments, "
      "with their edges and what ends them. segments=FILE.json writes the paths of the drawing. %s in a name stands for the "
      "model's, for a drawing of each of several models."},
-    {"format", 0, "png|svg|pdf|eps|dxf|json", OPTION_WORD, GROUP_PICTURE, DRAW, AT(format), 0, 0, 0,
+    {"format", 0, "png|svg|pdf|eps|dxf|json|rgba|mp4|webm|gif|apng", OPTION_WORD, GROUP_PICTURE, DRAW, AT(format), 0, 0, 0,
      "How outputs are written whose name does not end so: -, devices and pipes. Default: png."},
     {"preset", 0, "technical|illustration|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
@@ -202,7 +201,7 @@ const option option_table[] = {
      "Where the light comes from, in degrees as the camera sees it: 0,0 from the eye, AZ to the right, EL from "
      "above. Default: -40,42."},
     {"model-colors", 0, "on|off", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(model_colors), 0, 0, 0,
-     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, and formats read through Assimp), faces (PLY, OFF) or "
+     "Surfaces have the model's colours: of its vertices (PLY, OFF, OBJ, glTF, and formats read through Assimp), faces (PLY, OFF) or "
      "materials (an OBJ's .mtl files, and those formats); textures are not drawn. "
      "Default: on where there is light (lambert, gooch, toon, hatch, halftone) and no --surface."},
     {"normals", 0, "model|smooth|facet", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(normals), 0, 0, 0,
@@ -267,6 +266,25 @@ const option option_table[] = {
     {"mirror-tint-share", 0, "F", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(mirror_tint_share), AT(has_mirror_tint_share), 0, 1,
      "How much of it there is, from 0 to 1. Default: 0; with --mirror-tint, 0.25."},
 
+    {"object", 0, "NAME,...:SETTING,...", OPTION_OBJECT, GROUP_OBJECTS, PICTURE, AT(objects), 0, 0, 0,
+     "Give objects of the model (its groups, nodes, or models of a scene) a look of their own, as in "
+     "'bolt*:color=#c03020,width=2,ridge=1'. Settings are color, width, lines, surface, hidden-color, hidden-width, "
+     "ridge-angle and valley-angle, with the values of these options, and hide. May be given several times: a later one "
+     "changes what an earlier one said. In names * stands for any letters, ? for one; \\ takes its meaning from the "
+     "next letter, as in \\, or \\*. A name is a whole one or a part between slashes: car/wheel, car or wheel of "
+     "car/wheel/tyre."},
+    {"only", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(only), 0, 0, 0,
+     "Draw these objects alone. May be given several times."},
+    {"without", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(without), 0, 0, 0,
+     "Leave these objects out. May be given several times."},
+    {"explode", 0, "F", OPTION_NUMBER, GROUP_OBJECTS, PICTURE | INFO, AT(explode), AT(has_explode), 0, 1e6,
+     "Pull the model apart: each part is moved away from the model's centre by F times its distance from there. Parts are "
+     "the models of a scene, or objects whose names begin alike, up to a slash."},
+    {"explode-axis", 0, "x|y|z", OPTION_WORD, GROUP_OBJECTS, PICTURE | INFO, AT(explode_axis), 0, 0, 0,
+     "With --explode: move parts along this axis alone."},
+    {"list", 0, NULL, OPTION_FLAG, GROUP_OBJECTS, DRAW, AT(list), 0, 0, 0,
+     "Draw nothing, but print the model's objects: polygons, colour and name of each; with --json as JSON."},
+
     {"edge-map", 0, "diagonal|c1", OPTION_WORD, GROUP_EDGE_MAP, PICTURE, AT(edge_map), 0, 0, 0,
      "How steps in the G-buffer are found: four diagonal samples, or the C1-discontinuity operator in three "
      "passes. Default: diagonal."},
@@ -296,7 +314,7 @@ const option option_table[] = {
     {"profile-color", 0, "COLOR", OPTION_COLOR, GROUP_EDGE_MAP, PICTURE, AT(profile_color), 0, 0, 0,
      "Colour of profile edges. Default: black."},
     {"enhance", 0, "NAME,...", OPTION_TEXT, GROUP_EDGE_MAP, PICTURE, AT(enhance), 0, 0, 0,
-     "Only these objects, groups or materials have edges from the map. Default: all."},
+     "Only these objects, groups or materials have edges from the map; names as those of --only. Default: all."},
 
     {"method", 0, "exact|paper", OPTION_WORD, GROUP_METHOD, PICTURE, AT(method), 0, 0, 0,
      "With --ink quads: build added polygons on the screen, exact in pixels, or by the formulas of "
@@ -319,8 +337,49 @@ const option option_table[] = {
     {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
      "Do not paint back faces: faster for closed models, holes in open ones."},
 
-    {"time", 0, "T", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
-     "Seconds at which a model that moves is drawn. Default: 0."},
+    {"animation", 0, "NAME|N|none", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(animation), 0, 0, 0,
+     "The animation that plays, by its name or number (\"drypoint info\" lists them); before its start and past its end "
+     "it stands still. Of several models each plays its own. Default: none, and with --time the first."},
+    {"time", 0, "T or T0:T1", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
+     "Seconds at which a model that moves is drawn; of a film, from and to: of N frames, frame 0 is at T0, and frame k at "
+     "T0 + (T1 - T0) k / N, so that a film of one round loops. Default: 0; of a film, from 0 on as long as it lasts."},
+    {"deform", 0, "KIND[:NAME=VALUE,...]", OPTION_DEFORM, GROUP_MOTION, PICTURE | INFO, AT(deform),
+     AT(has_deform), 0, 0,
+     "Move the model's vertices: \"wave\", like a flag in the wind; \"breathe\": it swells and sinks, like "
+     "a chest; \"twist\": it is turned around its axis, further and further. amplitude=0.08: how far, as a "
+     "share of the model's length along its axis (wave), or of its girth (breathe); twist has angle=90, in "
+     "degrees. length=0.6: from crest to crest, or how far breathing reaches, as such a share. speed=1: "
+     "waves, breaths or swings in a second; twists stand still without. axis=x, y, z, -x ...: along which it "
+     "goes; default: the longest side. across=z: which way waves move. slant=0.5: how "
+     "much their crests lean. at=0.5: where breathing is deepest, "
+     "from 0 to 1 along the axis. Of several models all parts are one. --time says when; at 0 a chest is at "
+     "rest."},
+    {"morph", 0, "MODEL", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(morph), 0, 0, 0,
+     "Blend the model with another of the same polygons (with --blend), or let it become that within a "
+     "second (with --time)."},
+    {"blend", 0, "F", OPTION_NUMBER, GROUP_MOTION, PICTURE | INFO, AT(blend), AT(has_blend), -1000, 1000,
+     "With --morph: 0 is the model, 1 the other; below and beyond, what tells them apart is exaggerated. "
+     "Default: 0.5, or the seconds of --time."},
+    {"frames", 0, "N", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frames), 0, 1, 1000000,
+     "Draw a film of that many frames: to out-%04d.png (or .svg, trace=...: any output, where %04d is the frame's number, from 0 "
+     "on), or to out.mp4, .webm, .gif or .apng, by ffmpeg, or as plain pixels to .rgba. Default: as many as --time, --path "
+     "or the model's own motion last, or 120 with --turn."},
+    {"fps", 0, "F", OPTION_INSIDE, GROUP_MOTION, DRAW, AT(fps), 0, 0, 1001,
+     "Frames a second. Default: 25."},
+    {"turn", 0, "DEG", OPTION_NUMBER, GROUP_MOTION, DRAW, AT(turn), AT(has_turn), -36000, 36000,
+     "A film in which the camera walks round the model, or round --target, from where it stands, in the sense of --azimuth. Whole "
+     "rounds (360) loop; any other turn ends with its last frame."},
+    {"path", 0, "FILE", OPTION_TEXT, GROUP_MOTION, DRAW, AT(path), 0, 0, 0,
+     "A film in which the camera goes smoothly through the views of a JSON file: {\"views\": [{\"time\": 0, \"eye\": [3, 2, 4], "
+     "\"target\": [0, 0, 0], \"fov\": 35}, ...]}, with up where it is not the model's, and height instead of fov without "
+     "perspective. The first view twice, at the end too, makes it loop."},
+    {"frame", 0, "K", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frame), AT(has_frame), 0, 999999,
+     "Draw only this one of a film's frames, from 0 on, as a picture."},
+    {"resume", 0, NULL, OPTION_FLAG, GROUP_MOTION, DRAW, AT(resume), 0, 0, 0,
+     "Draw only those frames whose files are not there yet."},
+    {"jobs", 0, "N", OPTION_COUNT, GROUP_MOTION, DRAW, AT(jobs), 0, 1, 256,
+     "Frames that are drawn side by side, in processes that share --threads. The film is the same for any number. Default: "
+     "what is faster: one for each thread, or one after the other where frames are large."},
 
     {"triangles", 0, "N", OPTION_COUNT64, GROUP_MODEL, MAKE, AT(triangles), 0, 1, 1e11,
      "About how many triangles. Default: the shape's own number."},
@@ -342,8 +401,8 @@ const option option_table[] = {
     {"stats", 0, "[json]", OPTION_STATS, GROUP_PROGRAM, DRAW, AT(stats), 0, 0, 0,
      "Say what was drawn and how long each stage took: as a table on stderr, or as JSON on stdout "
      "(on stderr with -o -)."},
-    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO, AT(json), 0, 0, 0,
-     "Print JSON instead of a table."},
+    {"json", 0, NULL, OPTION_FLAG, GROUP_PROGRAM, INFO | DRAW, AT(json), 0, 0, 0,
+     "With --list, or of info: print JSON instead of a table."},
     {"quiet", 'q', NULL, OPTION_FLAG, GROUP_PROGRAM, EVERY, AT(quiet), 0, 0, 0,
      "No progress bar and no warnings."},
     {"help", 'h', NULL, OPTION_QUESTION, GROUP_PROGRAM, EVERY, QUESTION_HELP, 0, 0, 0,
@@ -373,6 +432,7 @@ const command_text command_table[COMMAND_COUNT] = {
                        "drypoint 'parts/*.stl' -o '%s.svg'", "a drawing for each of many files",
                        "drypoint shape:gear -o gear.png --color valley=#3060A0 --surface '#F4F0E8'",
                        "a generated model, in colour",
+                       "drypoint gear.stl --turn 360 -o gear.mp4", "a film, by ffmpeg",
                        "drypoint scan.stl -o scan.png --memory 100M", "a file larger than memory",
                        "drypoint - -o - < model.ply > model.png", "in a pipe", NULL}},
     [COMMAND_INFO] = {"info",

@@ -467,6 +467,8 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_angles(o, value, to);
     case OPTION_TIME:
         return store_time(o, value, to);
+    case OPTION_DEFORM:
+        return store_deform(o, value, to);
     case OPTION_PLANE:
         return store_plane(o, value, settings);
     case OPTION_CLIP:
@@ -499,6 +501,9 @@ bool option_store(const option *o, const char *value, tool_settings *settings) {
         return store_detail(o, value, to);
     case OPTION_SHEET:
         return store_sheet(o, value, to);
+    case OPTION_NAMES:
+    case OPTION_OBJECT:
+        return store_list(o, value, to);
     case OPTION_COLOR:
         return store_color(o, value, to);
     case OPTION_STATS:

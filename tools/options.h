@@ -88,6 +88,12 @@ typedef struct tool_page {
 
 enum { MARGIN_TOP = 0, MARGIN_RIGHT, MARGIN_BOTTOM, MARGIN_LEFT };
 
+/* Values of an option that may be given several times, in their order; borrowed. */
+typedef struct text_list {
+    const char **items; /* [count] */
+    uint32_t count;
+} text_list;
+
 /* --scale: lengths on paper and in the model; over 0 and 0: to fit. */
 typedef struct tool_scale {
     double paper, model;
@@ -202,13 +208,27 @@ typedef struct tool_settings {
     bool wants_edge_map;
     tool_section section;
 
+    text_list only, without, objects; /* names, and NAME:SETTINGS of --object (objects.h) */
+    double explode;
+    bool has_explode, list;
+    int explode_axis; /* word */
+
     double time[2]; /* s: from and to, the same for a picture */
     bool has_time;
+    const char *animation; /* name or number, from 1; "none" */
+    dp_deform deform;
+    const char *morph; /* a model */
+    double blend;
+    bool has_deform, has_blend;
+    double fps, turn; /* turn: degrees */
+    const char *path; /* of the camera: a file */
+    uint32_t frame, jobs;
+    bool has_turn, has_frame, resume;
 
     stats_kind stats;
     bool json, quiet;
     double read_time; /* s */
-    uint32_t frames;
+    uint32_t frames;  /* of a film, or of bench */
     uint64_t triangles;
     double shape_size;
     uint32_t seed;
@@ -225,6 +245,7 @@ typedef enum option_kind {
     OPTION_UP,            /* double[3]: a direction, or the word for one */
     OPTION_ANGLES,        /* double[2] */
     OPTION_TIME,          /* double[2]: a time, s, or from and to */
+    OPTION_DEFORM,        /* dp_deform */
     OPTION_PLANE,         /* double[4], then two bools as in tool_settings.mirror */
     OPTION_CLIP,          /* tool_settings.section: one more plane */
     OPTION_SPACING,       /* tool_section: spacing or share */
@@ -244,6 +265,8 @@ typedef enum option_kind {
     OPTION_HIDDEN_WIDTHS, /* tool_settings.hidden_width */
     OPTION_HIDDEN_COLORS, /* dp_style.hidden.line[][].color */
     OPTION_COLOR,         /* dp_color */
+    OPTION_NAMES,         /* text_list: names of objects */
+    OPTION_OBJECT,        /* text_list: names and settings */
     OPTION_STATS,         /* stats_kind; its argument may be left out */
     OPTION_QUESTION       /* question: ends the parsing */
 } option_kind;
@@ -256,6 +279,7 @@ typedef enum option_group {
     GROUP_PATHS,
     GROUP_STROKES,
     GROUP_SURFACE,
+    GROUP_OBJECTS,
     GROUP_EDGE_MAP,
     GROUP_METHOD,
     GROUP_MOTION,
@@ -303,6 +327,13 @@ bool store_margin(const option *o, const char *value, double to[4]);
 bool store_scale(const option *o, const char *value, tool_scale *to);
 bool store_sheet(const option *o, const char *value, tool_sheet *to);
 bool store_length(const option *o, const char *value, tool_length *to);
+/* KIND:NAME=VALUE,... (deform.c). */
+bool store_deform(const option *o, const char *value, dp_deform *to);
+/* Adds a value to an option's list (option_lists.c). */
+bool store_list(const option *o, const char *value, text_list *to);
+void option_lists_free(tool_settings *s);
+/* Is none of the names in [text, end), with commas between, empty? */
+bool option_names_check(const char *name, const char *text, const char *end);
 
 /* Reads a plain decimal number, and nothing else, up to `end`. */
 bool read_number(const char *text, const char *end, double *number);

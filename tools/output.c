@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -51,16 +52,63 @@ bool output_is_pattern(const char *path) {
     return false;
 }
 
-bool output_fill(const char *pattern, const char *stem, char *path, size_t size) {
+/* The text with %% for %. */
+static const char *double_signs(const char *text, char *doubled, size_t size) {
     size_t length = 0;
+    for (; *text && length + 3 < size; text++) {
+        doubled[length++] = *text;
+        if (*text == '%') doubled[length++] = '%';
+    }
+    doubled[length] = 0;
+    return doubled;
+}
+
+bool output_fill(const char *pattern, const char *stem, char *path, size_t size) {
+    const bool sequence = output_is_sequence(pattern); /* is filled once more */
+    char doubled[2 * PATH_MAX];
+    size_t length = 0;
+    if (sequence) stem = double_signs(stem, doubled, sizeof doubled);
     for (const char *at = pattern; *at; at++) {
         const char one[2] = {*at, 0}, *piece = one;
         if (at[0] == '%' && at[1] == 's') piece = stem;
+        if (sequence && at[0] == '%' && at[1] == '%') piece = "%%";
         if (at[0] == '%' && (at[1] == 's' || at[1] == '%')) at++;
         const size_t n = strlen(piece);
         if (length + n >= size) return false;
         memcpy(path + length, piece, n);
         length += n;
+    }
+    path[length] = 0;
+    return true;
+}
+
+/* "%d", "%4d" or "%04d" at `at`: how many digits there are at least; -1: it is something else. */
+static int number_at(const char *at, size_t *length) {
+    const size_t digits = strspn(at + 1, "0123456789");
+    if (*at != '%' || digits > 3 || at[1 + digits] != 'd') return -1;
+    *length = digits + 2;
+    return atoi(at + 1);
+}
+
+bool output_is_sequence(const char *path) {
+    size_t length;
+    for (const char *at = strchr(path, '%'); at; at = strchr(at + (at[1] ? 2 : 1), '%'))
+        if (number_at(at, &length) >= 0) return true;
+    return false;
+}
+
+bool output_number(const char *pattern, uint32_t number, char *path, size_t size) {
+    size_t length = 0;
+    for (const char *at = pattern; *at;) {
+        char piece[1024] = {*at, 0};
+        size_t taken = at[0] == '%' && at[1] == '%' ? 2 : 1;
+        const int digits = number_at(at, &taken);
+        if (digits >= 0) snprintf(piece, sizeof piece, "%0*u", digits, number);
+        const size_t n = strlen(piece);
+        if (length + n >= size) return false;
+        memcpy(path + length, piece, n);
+        length += n;
+        at += taken;
     }
     path[length] = 0;
     return true;

@@ -66,7 +66,7 @@ int paths_write(const tool_settings *s, const page_plan *plan, const view_paths 
     int code = 0;
     for (uint32_t k = 0; k < s->file_count && !code; k++) {
         const int format = files_format(s, s->files[k]);
-        if (format != FORMAT_PNG) code = write_page(s, &page, s->files[k], format);
+        if (format < FORMAT_PNG) code = write_page(s, &page, s->files[k], format);
     }
     if (!code && s->outputs[OUTPUT_SEGMENTS])
         code = write_page(s, &page, s->outputs[OUTPUT_SEGMENTS], DP_FORMAT_JSON);
@@ -82,7 +82,7 @@ static const char *first_file(const tool_settings *s, int *more) {
     const char *first = s->outputs[OUTPUT_SEGMENTS];
     *more = first ? 0 : -1;
     for (uint32_t k = s->file_count; k-- > 0;)
-        if (files_format(s, s->files[k]) != FORMAT_PNG) first = s->files[k], ++*more;
+        if (files_format(s, s->files[k]) < FORMAT_PNG) first = s->files[k], ++*more;
     return spoken(first);
 }
 

@@ -59,6 +59,8 @@ void interrupt_also(pid_t child) { child_process = (sig_atomic_t)child; }
 
 void interrupt_hold(void) { writing = 1; }
 
+bool interrupt_seen(void) { return signal_seen != 0; }
+
 void interrupt_release(void) {
     writing = 0;
     if (signal_seen) leave(signal_seen);

@@ -19,6 +19,8 @@ void progress_clear(void);
 void interrupt_install(void);
 void interrupt_hold(void);
 void interrupt_release(void);
+/* Has one come since interrupt_hold? */
+bool interrupt_seen(void);
 /* The child process that is ended with the program; 0: none. */
 void interrupt_also(pid_t child);
 

@@ -15,9 +15,7 @@ typedef enum transfer_end {
     TRANSFER_BROKEN, /* the sender has sent nothing whole */
 } transfer_end;
 
-/* Receives what was sent, and moves the progress bar meanwhile. deadline: by transfer_clock. */
+/* Receives what was sent, and moves the progress bar meanwhile. deadline: by pipe_clock (pipe.h). */
 transfer_end transfer_receive(int from, double deadline, dp_source **out, dp_diag *diag);
-
-double transfer_clock(void); /* s */
 
 #endif

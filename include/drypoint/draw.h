@@ -100,6 +100,28 @@ typedef struct dp_target {
 DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *style, const dp_target *target, dp_diag *diag);
 
+/* As dp_draw, with a style for each of the first `count` groups: groups[g] is that of group g (dp_batch),
+ * all others have `style`. To change one group, fill in `style` for the groups before it. Of a group's
+ * own style count
+ *
+ *     lines, line, ridge_angle, valley_angle    which lines it has, their widths and colours
+ *     hidden.line                               the same of its hidden lines
+ *     surface, shade.model_colors               its colour, or the model's
+ *     cull_back_faces
+ *
+ * and with DP_SHADING_PAPER no surface has a colour of its own. Everything else holds for the whole
+ * picture and is that of `style`: paper, edges, ink, method, stroke, shading, edge map, mirror, look and
+ * levels of hidden lines, detail, smoothing … A line has the style of its polygon
+ * (dp_segment.polygon): of two that share an edge or cross, the one that comes first in the source. A
+ * mirror has `style`, and what is seen in it the groups' own.
+ *
+ * Drawn from memory, whatever the model's size. Keeps a copy of the styles in the context. Errors of
+ * dp_draw; DP_ERR_ARGUMENT names the group whose style is refused; DP_ERR_LIMIT for more than 65536, and with a
+ * mirror for more than DP_MIRROR_GROUP. */
+DP_API dp_result dp_draw_grouped(dp_context *context, dp_source *source, const dp_camera *camera,
+                                 const dp_style *style, const dp_style *groups, uint32_t count,
+                                 const dp_target *target, dp_diag *diag);
+
 /* What ends a segment. */
 typedef enum dp_line_end {
     DP_END_VERTEX = 0, /* a vertex of its edge */

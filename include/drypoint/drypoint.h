@@ -5,9 +5,13 @@
 #include <drypoint/adjacency.h>
 #include <drypoint/base.h>
 #include <drypoint/camera.h>
+#include <drypoint/deform.h>
 #include <drypoint/draw.h>
 #include <drypoint/drawing.h>
 #include <drypoint/immediate.h>
+#include <drypoint/objects.h>
+#include <drypoint/scene.h>
+#include <drypoint/path.h>
 #include <drypoint/section.h>
 #include <drypoint/shade.h>
 #include <drypoint/shapes.h>

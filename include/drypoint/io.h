@@ -1,6 +1,6 @@
 /* drypoint/io.h: files, in the component libdrypoint_io (needs libpng, zlib and Assimp).
  *
- * The core library reads STL, PLY, OBJ and OFF itself (drypoint/source.h). This component reads
+ * The core library reads STL, PLY, OBJ, OFF and glTF 2.0 itself (drypoint/source.h). This component reads
  * every format that Assimp knows, and writes pictures as PNG, pages of lines (SVG, PDF, …), and
  * models as PLY, STL and OBJ. */
 #ifndef DRYPOINT_IO_H
@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* As dp_source_open, and everything else (glTF, FBX, 3MF, COLLADA, …) through Assimp, some of whose
+/* As dp_source_open, and everything else (FBX, 3MF, COLLADA, …) through Assimp, some of whose
  * readers crash or hang on broken files: an application that is given files by strangers does well
  * to read them in a process of its own, as the program does (tools/apart.c). */
 DP_API dp_result dp_io_open(const char *path, const dp_file_options *options, dp_source **out,

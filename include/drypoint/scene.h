@@ -58,15 +58,14 @@ typedef struct dp_scene_mesh {
 /* Joints that move a mesh. */
 typedef struct dp_scene_skin {
     const uint32_t *joints; /* [joint_count] 1 + numbers of nodes */
-    const double
-        *inverse_bind; /* [joint_count][3][4] mesh space to that of the joint, as rows; NULL:
-                                   the same space */
+    /* [joint_count][3][4] rows, mesh space to that of the joint; NULL: the same space */
+    const double *inverse_bind;
     uint32_t joint_count;
 } dp_scene_skin;
 
 /* A mesh in its place: at a node, or, with a skin, where the joints take it, whatever its node's
  * transform is (glTF 2.0, 3.7.3.3). Any number of instances may share a mesh. Each is a group,
- * called "node/mesh". */
+ * called "node/mesh"; those beyond 65536 share the last one. */
 typedef struct dp_scene_instance {
     uint32_t node, mesh;  /* 1 + numbers; node 0: none, as if at a node that is not moved */
     uint32_t skin;        /* 1 + number; 0: none */
@@ -97,9 +96,9 @@ typedef struct dp_scene_channel {
     dp_scene_path path;
     dp_interpolation interpolation;
     const double *times; /* [key_count] s */
-    const float
-        *values; /* [key_count][width], with cubic splines [key_count][3][width]; width: 3, 4
-                            for rotations (x, y, z, w), `width` for weights */
+    /* [key_count][width], with cubic splines [key_count][3][width]; width: 3, 4 for rotations (x, y,
+     * z, w), `width` for weights */
+    const float *values;
     uint32_t key_count;
     uint32_t width;
 } dp_scene_channel;
@@ -126,8 +125,8 @@ typedef struct dp_scene_desc {
 
 /* Makes a source of a scene, which is copied; the caller destroys *out. It is at rest, at time 0, until
  * a clip is chosen. DP_ERR_ARGUMENT where numbers are out of range, nodes are their own ancestors or
- * counts contradict each other (the message says which); DP_ERR_LIMIT for more than 65536
- * instances or 2^32 vertices in all, DP_ERR_MEMORY. */
+ * counts contradict each other (the message says which); DP_ERR_LIMIT for 2^32 vertices or corners in
+ * all, DP_ERR_MEMORY. */
 DP_API dp_result dp_source_from_scene(const dp_scene_desc *desc, const dp_allocator *allocator,
                                       dp_source **out, dp_diag *diag);
 

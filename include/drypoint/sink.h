@@ -23,7 +23,7 @@ extern "C" {
 /* What is drawn on, and how much there is to come. */
 typedef struct dp_sheet {
     uint32_t width, height;  /* px */
-    dp_color paper, surface; /* of the first style */
+    dp_color paper, surface; /* of the picture */
     size_t strokes;          /* to come; 0 where the sink takes neither layers nor strokes */
     size_t segments;
 } dp_sheet;

@@ -124,7 +124,8 @@ typedef enum dp_file_format {
     DP_FORMAT_PLY, /* ASCII, binary little or big endian; faces or tristrips; vertices' colours */
     DP_FORMAT_OBJ, /* v with colours, vn, vt, f, g, o, usemtl; relative indices; colours of its
                            mtllib */
-    DP_FORMAT_OFF  /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
+    DP_FORMAT_OFF, /* OFF and COFF, NOFF, … (of the extras, vertices' colours); ASCII */
+    DP_FORMAT_GLTF /* glTF 2.0, .gltf with the files beside it or .glb; a scene (scene.h) */
 } dp_file_format;
 
 typedef struct dp_file_options {

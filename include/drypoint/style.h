@@ -97,8 +97,8 @@ enum { DP_LEVELS = 8 /* the most that are told apart */ };
 
 /* Hidden lines, drawn below visible ones, which they do not change. A line's level says how many
  * front-facing surfaces lie between it and the eye, and is 1 at least where anything hides it;
- * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Of
- * groups (immediate.h) the first one's look, levels and smooth are those of all. */
+ * `levels` or more count as `levels`. DP_ERR_ARGUMENT with DP_INK_QUADS or DP_EDGES_ADJACENCY. Look,
+ * levels and smooth hold for all groups (dp_draw_grouped, immediate.h). */
 typedef struct dp_hidden {
     dp_hidden_look look;
     uint32_t levels; /* 1 to DP_LEVELS; 0 means 1: hidden by anything */
@@ -148,19 +148,19 @@ typedef struct dp_style {
     dp_hidden hidden;     /* strokes: lines that something hides; default: none */
     /* Strokes: where something hides a line, its end is solved, not taken midway between two sample
      * points a quarter of a pixel apart; and what is a line on a closed surface is decided as finely
-     * (docs/lines.md). Of the first style; not where the source is streamed. */
+     * (docs/lines.md). Of the picture; not where the source is streamed. */
     bool exact_ends;
     /* Strokes: how much is drawn of a scan, or of a coarse model (docs/clean-lines.md). 0: all lines, as
      * exact as the polygons are. 1: what a person would draw at this size; 2: twice as fine; 0.5: half
      * as fine; 0.01 to 100. Lines are left out, cut and thinned, never moved; borders,
-     * intersections, sections and hatching are all drawn. Of the first style. */
+     * intersections, sections and hatching are all drawn. Of the picture. */
     float detail;
     bool edge_table_off;  /* strokes: do not resolve edges in the tile's table; all lines emerge */
     dp_shade shade;       /* shading of surfaces */
     dp_edge_map edge_map; /* default: off */
     dp_mirror mirror;     /* default: none */
 
-    /* Drawn from memory, whatever the model's size. Of the first style. DP_ERR_LIMIT where that makes
+    /* Drawn from memory, whatever the model's size. Of the picture. DP_ERR_LIMIT where that makes
      * more than 2^30 polygons or vertices. */
     dp_smoothing smooth;
     uint32_t

@@ -37,7 +37,7 @@ typedef struct dp_frame {
     float touching, crack; /* pixel sizes by which planes that touch an edge may miss it; px: cracks
                               narrower than this are closed (core/precision.c) */
     double precision;      /* world units: thinner polygons are rounding; 0: none is known */
-    const dp_style *styles; /* by group, resolved; [style_count] */
+    const dp_style *styles; /* [style_count], resolved: the picture's, then those of groups */
     uint32_t style_count;
     dp_target target;
     uint32_t lines;     /* classes drawn by any group */
@@ -84,9 +84,14 @@ static inline uint8_t *dp_ink_place(const dp_frame *f, uint32_t x, uint32_t y) {
                         : f->target.rgba + (size_t)y * f->target.rgba_stride + 4 * (size_t)x;
 }
 
+/* Which of the frame's styles a group has: one of its own, or the picture's. */
+static inline uint32_t dp_style_number(const dp_frame *frame, uint32_t group) {
+    return group + 1 < frame->style_count ? group + 1 : 0;
+}
+
 static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t polygon) {
     const uint32_t group = frame->polygons.groups ? frame->polygons.groups[polygon] : 0;
-    return &frame->styles[group < frame->style_count ? group : 0];
+    return &frame->styles[dp_style_number(frame, group)];
 }
 
 /* Classes with an outside: outlines. */

@@ -100,6 +100,7 @@ void dp_context_destroy(dp_context *c) {
     dp_threads_destroy(c->threads);
     free_workers(c);
     dp_frame_free(&c->frame, &memory);
+    dp_free(&memory, c->styles);
     dp_polygon_store_free(&c->polygons, &memory);
     dp_normal_store_free(&c->normals, &memory);
     dp_smooth_store_free(&c->smooth, &memory);
@@ -132,5 +133,5 @@ uint64_t dp_context_bytes(const dp_context *c) {
            dp_lines_bytes(&c->drawing) + dp_lines_bytes(&c->once) + c->once_scratch.bytes +
            dp_detail_store_bytes(&c->detail) + dp_shade_store_bytes(&c->shade) +
            dp_mirror_store_bytes(&c->mirror) + dp_recording_bytes(c->recording) +
-           dp_stream_bytes(c->stream);
+           dp_stream_bytes(c->stream) + c->styles_cap * sizeof *c->styles;
 }

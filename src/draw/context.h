@@ -20,9 +20,10 @@ typedef struct dp_recording dp_recording; /* immediate.c */
 
 /* A mirror's own memory (mirror.c). Zero is empty. */
 typedef struct dp_mirror_store {
-    dp_normal_store normals; /* of the reflected scene */
-    uint8_t *rgba;           /* what is seen in the mirror, over the whole picture */
-    float *distance;         /* the same, INFINITY: paper */
+    struct dp_reflection *reflection; /* its sources */
+    dp_normal_store normals;          /* of the reflected scene */
+    uint8_t *rgba;                    /* what is seen in the mirror, over the whole picture */
+    float *distance;                  /* the same, INFINITY: paper */
     size_t rgba_cap, distance_cap;
 } dp_mirror_store;
 
@@ -57,6 +58,8 @@ struct dp_context {
     dp_found *found;            /* [workers] */
     dp_raster raster;           /* what the sink that inks keeps */
     dp_frame frame;
+    dp_style *styles; /* of dp_draw_grouped: the picture's, then those of groups, resolved */
+    size_t styles_cap;
     dp_adjacency adjacency; /* of the last source that asked for it */
 
     dp_stream_draw *stream; /* while one is drawn */
@@ -74,11 +77,17 @@ uint64_t dp_context_bytes(const dp_context *context);
  * asked for. Returns the result. */
 dp_result dp_context_settle(dp_context *context, dp_result result, dp_diag *diag);
 
-/* dp_draw with one resolved style per group; what holds for the whole picture comes from
- * styles[0]. */
+/* dp_draw with resolved styles: styles[0] is the picture's, and of groups that have none of their
+ * own; styles[1 + g] is that of group g. */
 dp_result dp_draw_groups(dp_context *context, dp_source *source, const dp_camera *camera,
                          const dp_style *styles, uint32_t style_count, const dp_target *target,
                          dp_diag *diag);
+
+/* The same, and with the first style's mirror where it has one; such a drawing changes that style, and
+ * puts back what it was. */
+dp_result dp_draw_resolved(dp_context *context, dp_source *source, const dp_camera *camera,
+                           dp_style *styles, uint32_t style_count, const dp_target *target,
+                           dp_diag *diag);
 
 /* There is no drawing, as before the first one. */
 void dp_forget_drawing(dp_context *context);
@@ -98,9 +107,10 @@ bool dp_compute_normals(dp_context *context, dp_source *source, dp_attribute *ou
 /* Replaces the frame's gathered polygons by curved ones, as the first style says (draw/smooth.c). */
 dp_result dp_smooth_frame(dp_context *context, dp_source *source, dp_diag *diag);
 
-/* dp_draw with a mirror; the style is resolved (draw/mirror.c). */
+/* dp_draw_groups with a mirror (draw/mirror.c). Changes the first style, and puts back what it was. */
 dp_result dp_draw_mirrored(dp_context *context, dp_source *source, const dp_camera *camera,
-                           const dp_style *style, const dp_target *target, dp_diag *diag);
+                           dp_style *styles, uint32_t style_count, const dp_target *target,
+                           dp_diag *diag);
 
 void dp_mirror_store_free(dp_mirror_store *store, const dp_allocator *memory);
 uint64_t dp_mirror_store_bytes(const dp_mirror_store *store);

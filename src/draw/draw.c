@@ -349,6 +349,11 @@ static bool make_normals(dp_context *c, dp_source *source) {
     return true;
 }
 
+/* What is made of a model that moves is made again in each frame, and keeps its scratch. */
+static void expect_motion(dp_context *c, bool moves) {
+    c->normals.moves = c->smooth.edges.moves = c->shade.pencil.curvature.moves = moves;
+}
+
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
@@ -359,6 +364,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
         return dp_fail(
             diag, DP_ERR_UNSUPPORTED,
             "a model with sections cannot be drawn smooth: its surface would leave them");
+    expect_motion(c, source->moves);
     if (f->styles[0].smooth && (result = dp_smooth_frame(c, source, diag))) return result;
     c->shade.pencil.curvature.ms = 0; /* of an earlier picture */
     if (!dp_shade_gathered(&c->shade)) return out_of_memory(diag);
@@ -446,9 +452,9 @@ static dp_result ink(dp_context *c, double from, dp_diag *diag) {
     return dp_hand_over(&c->frame, inking.drawing, &sink, diag);
 }
 
-static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
-    double since = now_ms();
-    const double start = since;
+/* start: when reading the source began. */
+static dp_result draw_stages(dp_context *c, dp_source *source, double start, dp_diag *diag) {
+    double since = start;
     c->shade.source = source;
     if (!begin_frame(c) || !dp_shade_begin(&c->shade, &c->frame)) return out_of_memory(diag);
     dp_result result = find_lines(c, source, &since, diag);
@@ -464,9 +470,9 @@ static dp_result draw_stages(dp_context *c, dp_source *source, dp_diag *diag) {
     return DP_OK;
 }
 
-static dp_result draw(dp_context *c, dp_source *source, dp_diag *diag) {
+static dp_result draw(dp_context *c, dp_source *source, double start, dp_diag *diag) {
     const double from = c->share_from;
-    const dp_result result = draw_stages(c, source, diag);
+    const dp_result result = draw_stages(c, source, start, diag);
     c->share_from = from;
     dp_stream_free(c->stream);
     c->stream = NULL;
@@ -510,13 +516,22 @@ dp_result dp_draw_groups(dp_context *c, dp_source *source, const dp_camera *came
     for (uint32_t i = 0; i < style_count; i++) f->lines |= styles[i].lines & DP_ALL_LINES;
     f->flat_cosine = flat_cosine(styles, style_count);
     dp_result result = dp_check_target(target, &f->target, diag);
+    const double start = now_ms();
     if (!result) result = init_view(f, source, camera, diag);
     if (!result) begin_view(f);
-    if (!result) result = draw(c, source, diag);
+    if (!result) result = draw(c, source, start, diag);
     if (result) c->drawing.count = 0;
     c->drawn = !result;
     f->styles = NULL; /* borrowed for this call only */
     return result;
+}
+
+dp_result dp_draw_resolved(dp_context *c, dp_source *source, const dp_camera *camera,
+                           dp_style *styles, uint32_t style_count, const dp_target *target,
+                           dp_diag *diag) {
+    if (styles[0].mirror.size > 0)
+        return dp_draw_mirrored(c, source, camera, styles, style_count, target, diag);
+    return dp_draw_groups(c, source, camera, styles, style_count, target, diag);
 }
 
 static dp_result draw_styled(dp_context *c, dp_source *source, const dp_camera *camera,
@@ -524,9 +539,7 @@ static dp_result draw_styled(dp_context *c, dp_source *source, const dp_camera *
     dp_style resolved;
     const dp_result result = dp_style_resolve(style, &resolved, diag);
     if (result) return result;
-    if (resolved.mirror.size > 0)
-        return dp_draw_mirrored(c, source, camera, &resolved, target, diag);
-    return dp_draw_groups(c, source, camera, &resolved, 1, target, diag);
+    return dp_draw_resolved(c, source, camera, &resolved, 1, target, diag);
 }
 
 dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera *camera,

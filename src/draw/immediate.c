@@ -44,7 +44,7 @@ struct dp_recording {
     uint32_t *firsts; /* polygons + 1 */
     uint16_t *groups; /* per polygon */
     state *states;    /* per group */
-    dp_style *styles; /* the same, resolved */
+    dp_style *styles; /* the picture's, then those of the groups, resolved */
     uint32_t *slots;  /* 1 + group; open addressing, at most half full */
     size_t positions_cap, flags_cap, corners_cap, corner_flags_cap, firsts_cap, groups_cap,
         states_cap, styles_cap, slots_cap;
@@ -414,14 +414,16 @@ void dp_end(dp_context *context) {
 
 /* ------- drawing ------- */
 
-/* One style per group; without polygons, the state that holds now, for the paper's sake. */
+/* The picture's style is that of its first group, which it alone stands for where there are no
+ * others; without polygons, the state that holds now, for the paper's sake. */
 static dp_result resolve_styles(dp_context *context, uint32_t *count, dp_diag *diag) {
     dp_recording *const r = context->recording;
-    *count = r->group_count ? (uint32_t)r->group_count : 1;
+    *count = r->group_count > 1 ? (uint32_t)r->group_count + 1 : 1;
     if (!dp_reserve(&context->memory, &r->styles, &r->styles_cap, *count, sizeof *r->styles))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for %u styles", *count);
     for (uint32_t i = 0; i < *count; i++) {
-        const dp_style style = style_of(&r->picture, r->group_count ? &r->states[i] : &r->now);
+        const dp_style style =
+            style_of(&r->picture, r->group_count ? &r->states[i ? i - 1 : 0] : &r->now);
         const dp_result result = dp_style_resolve(&style, &r->styles[i], diag);
         if (result) return result;
     }

@@ -20,10 +20,12 @@ static const dp_array arrays[] = {DP_ARRAY(dp_mirror_store, rgba, rgba_cap),
 void dp_mirror_store_free(dp_mirror_store *store, const dp_allocator *memory) {
     dp_normal_store_free(&store->normals, memory);
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
+    dp_reflection_free(store->reflection);
 }
 
 uint64_t dp_mirror_store_bytes(const dp_mirror_store *store) {
-    return dp_normal_store_bytes(&store->normals) + dp_arrays_bytes(store, DP_ARRAYS(arrays));
+    return dp_normal_store_bytes(&store->normals) + dp_arrays_bytes(store, DP_ARRAYS(arrays)) +
+           dp_reflection_bytes(store->reflection);
 }
 
 /* The plane, its normal turned to the eye. */
@@ -107,32 +109,36 @@ static void tint_row(void *arg, uint32_t y, uint32_t worker) {
     }
 }
 
+/* The scene's normals and the reflected one's. */
+static void exchange_normals(dp_context *c) {
+    const dp_normal_store other = c->mirror.normals;
+    c->mirror.normals = c->normals;
+    c->normals = other;
+}
+
 /* Fills the context's mirror picture. */
 static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *camera,
-                            const dp_style *style, const dp_target *target,
+                            dp_style *styles, uint32_t style_count, const dp_target *target,
                             const dp_plane_equation *plane, const dp_view *view, dp_diag *diag) {
+    dp_style *const style = &styles[0];
     const size_t pixels = (size_t)target->width * target->height;
     const bool fades = style->mirror.fade > 0;
     if (!dp_reserve(&c->memory, &c->mirror.rgba, &c->mirror.rgba_cap, dp_times(4, pixels), 1) ||
         (fades && !dp_reserve(&c->memory, &c->mirror.distance, &c->mirror.distance_cap, pixels,
                               sizeof(float))))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
-    dp_style reflected = *style;
-    reflect_light(camera, plane, reflected.shade.light);
     const dp_target image = {.width = target->width,
                              .height = target->height,
                              .samples = target->samples,
                              .rgba = c->mirror.rgba,
                              .distance = fades ? c->mirror.distance : NULL};
-    dp_source *other = NULL;
-    dp_result result = dp_reflect_source(source, plane, &c->memory, &other, diag);
-    if (result) return result;
-    const dp_normal_store own = c->normals;
-    c->normals = c->mirror.normals;
-    result = dp_draw_groups(c, other, camera, &reflected, 1, &image, diag);
-    c->mirror.normals = c->normals;
-    c->normals = own;
-    dp_source_destroy(other);
+    dp_source *const other = dp_reflect_source(c->mirror.reflection, source, plane);
+    const dp_shade shade = style->shade;
+    reflect_light(camera, plane, style->shade.light);
+    exchange_normals(c);
+    const dp_result result = dp_draw_groups(c, other, camera, styles, style_count, &image, diag);
+    exchange_normals(c);
+    style->shade = shade;
     if (result) return result;
     tinting t = {.mirror = &style->mirror,
                  .plane = *plane,
@@ -146,10 +152,10 @@ static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *c
 }
 
 dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *camera,
-                           const dp_style *style, const dp_target *target, dp_diag *diag) {
+                           dp_style *styles, uint32_t style_count, const dp_target *target,
+                           dp_diag *diag) {
     dp_view view;
     double corners[4][3];
-    dp_source *with_mirror = NULL;
     if (!dp_source_rewindable(source))
         return dp_fail(diag, DP_ERR_UNSUPPORTED, "a mirror needs a source that can be read twice");
     dp_target checked;
@@ -157,21 +163,22 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     if (result) return result;
     result = dp_view_init(&view, camera, target->width, target->height, diag);
     if (result) return result;
-    const dp_plane_equation plane = plane_of(&style->mirror, &view);
-    make_square(&style->mirror, &plane, corners);
+    dp_reflection **const reflection = &c->mirror.reflection;
+    if (!*reflection && !(*reflection = dp_reflection_create(&c->memory)))
+        return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
+    const dp_plane_equation plane = plane_of(&styles[0].mirror, &view);
+    make_square(&styles[0].mirror, &plane, corners);
     c->share_to = 0.5; /* two pictures, of much the same work */
-    result = draw_image(c, source, camera, style, target, &plane, &view, diag);
+    result = draw_image(c, source, camera, styles, style_count, target, &plane, &view, diag);
     c->share_to = 1;
     dp_forget_drawing(c); /* the image's is not the picture's */
     if (result) return result;
-    result = dp_add_quad_source(source, (const double(*)[3])corners, DP_MIRROR_GROUP, &c->memory,
-                                &with_mirror, diag);
-    if (result) return result;
+    dp_source *const with_mirror =
+        dp_add_quad_source(*reflection, source, (const double(*)[3])corners, DP_MIRROR_GROUP);
     c->share_from = 0.5;
     c->shade.mirrored = c->mirror.rgba;
-    result = dp_draw_groups(c, with_mirror, camera, style, 1, target, diag);
+    result = dp_draw_groups(c, with_mirror, camera, styles, style_count, target, diag);
     c->shade.mirrored = NULL;
     c->share_from = 0;
-    dp_source_destroy(with_mirror);
     return result;
 }

@@ -5,29 +5,29 @@
  * so that fronts stay fronts. Groups are named "node/mesh". Nothing is welded or triangulated.
  * Taken are positions, normals, texture coordinates, colours and faces.
  *
- * Not handled: animation, bones and morph targets (models come in their bind pose), points, lines,
- * reading from a pipe. Progress is reported only before and after, as Assimp cannot be stopped from
- * C. */
+ * That is for what stands still; scenes with bones, morph targets or animations go to
+ * assimp_scene.c.
+ *
+ * Not handled: points, lines, reading from a pipe. Progress is reported only before and after, as
+ * Assimp cannot be stopped from C. */
 #include <drypoint/io.h>
 
 #include "base/diag.h"
 #include "base/vec.h"
 #include "io/assimp_files.h"
+#include "io/assimp_look.h"
+#include "io/assimp_scene.h"
 #include "io/color.h"
 #include "io/readers.h"
 
 #include <assimp/cimport.h>
-#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
-#include <assimp/material.h>
 #include <assimp/matrix4x4.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
 
 #include <stdio.h>
 #include <string.h>
-
-enum { DEEPEST = 1000 /* depth of nodes: more is a loop, or overflows the stack */ };
 
 /* Rows that take (x, y, z, 1) to one coordinate each. */
 typedef struct transform {
@@ -145,28 +145,6 @@ static bool find_group(dp_builder *builder, const struct aiNode *node, const str
     return dp_groups_find(&builder->names, name, group);
 }
 
-/* The material's colour, in the file's own encoding; false: none. Assimp gives files without
- * materials a grey one. */
-static bool find_color(const struct aiScene *scene, const struct aiMesh *mesh, float rgb[3]) {
-    struct aiColor4D c;
-    struct aiString name;
-    if (mesh->mMaterialIndex >= scene->mNumMaterials) return false;
-    const struct aiMaterial *const material = scene->mMaterials[mesh->mMaterialIndex];
-    if (aiGetMaterialString(material, AI_MATKEY_NAME, &name) == aiReturn_SUCCESS &&
-        !strcmp(name.data, AI_DEFAULT_MATERIAL_NAME))
-        return false;
-    if (aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c) != aiReturn_SUCCESS) return false;
-    rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
-    return true;
-}
-
-static bool is_textured(const struct aiScene *scene, const struct aiMesh *mesh) {
-    if (mesh->mMaterialIndex >= scene->mNumMaterials) return false;
-    const struct aiMaterial *const material = scene->mMaterials[mesh->mMaterialIndex];
-    return aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) ||
-           aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR);
-}
-
 /* The colours of the last vertices, those of the mesh: each is multiplied by the material's. */
 static bool add_vertex_colors(dp_builder *builder, const struct aiMesh *mesh, const float rgb[3]) {
     const size_t base = builder->vertex_count - mesh->mNumVertices;
@@ -182,16 +160,15 @@ static bool add_vertex_colors(dp_builder *builder, const struct aiMesh *mesh, co
 static bool add_colors(dp_builder *builder, const struct aiScene *scene, const struct aiMesh *mesh,
                        uint16_t group) {
     float rgb[3] = {1, 1, 1};
-    const bool colored = find_color(scene, mesh, rgb);
-    if (is_textured(scene, mesh)) dp_builder_note_textures(builder);
+    const bool colored = dp_assimp_find_color(scene, mesh, rgb);
+    if (dp_assimp_is_textured(scene, mesh)) dp_builder_note_textures(builder);
     return (!colored || dp_builder_color(builder, group, dp_color_of(rgb, 1))) &&
            (!mesh->mColors[0] || add_vertex_colors(builder, mesh, rgb));
 }
 
 static bool add_mesh(dp_builder *builder, const struct aiScene *scene, const struct aiNode *node,
                      const struct aiMesh *mesh, const transform *t) {
-    const unsigned areas = aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON;
-    if (mesh->mPrimitiveTypes && !(mesh->mPrimitiveTypes & areas)) return true;
+    if (!dp_assimp_has_areas(mesh)) return true;
     const size_t base = builder->vertex_count;
     const bool turned = mirrors(t);
     uint16_t group;
@@ -208,9 +185,9 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
                           const struct aiNode *node, const transform *parent, int depth,
                           dp_diag *diag) {
     if (!node) return DP_OK; /* Assimp's RAW reader has such children */
-    if (depth > DEEPEST)
+    if (depth > DP_ASSIMP_DEEPEST)
         return dp_fail(diag, DP_ERR_LIMIT, "nodes are nested more than %d deep: flatten the scene",
-                       (int)DEEPEST);
+                       (int)DP_ASSIMP_DEEPEST);
     const transform t = compose(parent, &node->mTransformation);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < scene->mNumMeshes && scene->mMeshes[node->mMeshes[i]] &&
@@ -223,56 +200,19 @@ static dp_result add_node(dp_builder *builder, const struct aiScene *scene,
     return DP_OK;
 }
 
-/* Did that reader make the scene? */
-static bool is_from(const struct aiScene *scene, const char *reader) {
-    const struct aiMetadata *const data = scene->mMetaData;
-    for (unsigned i = 0; data && i < data->mNumProperties; i++) {
-        if (strcmp(data->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) != 0) continue;
-        const struct aiString *const name = data->mValues[i].mData;
-        return data->mValues[i].mType == AI_AISTRING && !strcmp(name->data, reader);
-    }
-    return false;
-}
-
-static bool find_integer(const struct aiScene *scene, const char *key, int32_t *value) {
-    const struct aiMetadata *const data = scene->mMetaData;
-    for (unsigned i = 0; data && i < data->mNumProperties; i++) {
-        if (strcmp(data->mKeys[i].data, key) != 0 || data->mValues[i].mType != AI_INT32) continue;
-        memcpy(value, data->mValues[i].mData, sizeof *value);
-        return true;
-    }
-    return false;
-}
-
-/* What the file, or its format, says is up. COLLADA comes turned to +y by its own up_axis; FBX as it
- * is, with its axis beside it. */
-static void find_up(const struct aiScene *scene, double up[3]) {
-    static const char *const on_y[] = {"glTF2 Importer", "glTF Importer", "Collada Importer"};
-    int32_t axis = -1, sign = 1;
-    find_integer(scene, "UpAxisSign", &sign);
-    find_integer(scene, "UpAxis", &axis);
-    for (size_t k = 0; k < sizeof on_y / sizeof *on_y; k++)
-        if (is_from(scene, on_y[k])) axis = 1, sign = 1;
-    if (is_from(scene, "3mf Importer")) axis = 2, sign = 1;
-    if (axis >= 0 && axis < 3) up[axis] = sign < 0 ? -1 : 1;
-}
-
 /* Before 5.4, the reader of 3MF frees the textures that it hands out (pictures in the archive, among
  * them thumbnails), and they would be freed again with the scene. */
 static void forget_freed_textures(struct aiScene *scene) {
     const unsigned version = 100 * aiGetVersionMajor() + aiGetVersionMinor();
-    if (version < 504 && is_from(scene, "3mf Importer")) scene->mNumTextures = 0;
+    if (version < 504 && dp_assimp_is_from(scene, "3mf Importer")) scene->mNumTextures = 0;
 }
 
 /* Without post-processing: its step that leaves out what is not needed would touch these textures.
- * FBX without animations and the helper nodes that its pivots would become, and in its own axes,
- * which later versions would turn. `files` NULL: the
- * system's. */
-static struct aiScene *import(const char *path, struct aiFileIO *files) {
+ * FBX in its own axes, which later versions would turn. `files` NULL: the system's. */
+static struct aiScene *import(const char *path, struct aiFileIO *files, bool pivots) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     if (!properties) return NULL;
-    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
-    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, pivots);
 #ifdef AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION, 1);
 #endif
@@ -281,6 +221,17 @@ static struct aiScene *import(const char *path, struct aiFileIO *files) {
     aiReleasePropertyStore(properties);
     if (scene) forget_freed_textures(scene);
     return scene;
+}
+
+/* FBX comes without the helper nodes that its pivots may become; only animations need them, as they
+ * move one or another of these. */
+static struct aiScene *import_moving(const char *path, struct aiFileIO *files) {
+    struct aiScene *const plain = import(path, files, false);
+    if (!plain || !plain->mNumAnimations || !dp_assimp_is_from(plain, "Autodesk FBX Importer"))
+        return plain;
+    struct aiScene *const pivoted = import(path, files, true);
+    aiReleaseImport(pivoted ? plain : NULL);
+    return pivoted ? pivoted : plain;
 }
 
 /* Copies Assimp's message as one line, up to where it names the file, which the caller names. */
@@ -313,13 +264,13 @@ static bool stopped(const dp_file_options *options, double fraction) {
     return options && options->progress && options->progress(options->user, fraction);
 }
 
-static dp_result build(const struct aiScene *scene, const dp_file_options *options, dp_source **out,
-                       dp_diag *diag) {
+static dp_result build_still(const struct aiScene *scene, const dp_file_options *options,
+                             dp_source **out, dp_diag *diag) {
     const dp_allocator memory = dp_allocator_resolve(options ? options->allocator : NULL);
     dp_builder builder;
     dp_builder_init(&builder, &memory);
     dp_result result = DP_OK;
-    find_up(scene, builder.up);
+    dp_assimp_find_up(scene, builder.up);
     if (scene->mRootNode) result = add_node(&builder, scene, scene->mRootNode, &identity, 0, diag);
     if (!result && stopped(options, 1))
         result = dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
@@ -328,11 +279,18 @@ static dp_result build(const struct aiScene *scene, const dp_file_options *optio
     return result;
 }
 
+static dp_result build(const struct aiScene *scene, const dp_file_options *options, dp_source **out,
+                       dp_diag *diag) {
+    if (!dp_assimp_moves(scene)) return build_still(scene, options, out, diag);
+    if (stopped(options, 1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
+    return dp_assimp_make_scene(scene, options ? options->allocator : NULL, out, diag);
+}
+
 /* Opens what the library's own readers did not know; `first` is their diagnostic. */
 static dp_result open_by_assimp(const char *path, struct aiFileIO *files, const dp_diag *first,
                                 const dp_file_options *options, dp_source **out, dp_diag *diag) {
     if (stopped(options, -1)) return dp_fail(diag, DP_ERR_CANCELLED, "reading was stopped");
-    const struct aiScene *const scene = import(path, files);
+    const struct aiScene *const scene = import_moving(path, files);
     const dp_result result = scene ? build(scene, options, out, diag) : import_failed(path, diag);
     aiReleaseImport(scene);
     if (result != DP_ERR_FORMAT || is_claimed(path)) return result;

@@ -140,8 +140,7 @@ bool dp_builder_polygon_color(dp_builder *builder, uint32_t rgba) {
 
 void dp_builder_note_textures(dp_builder *builder) {
     if (!*builder->color_remark)
-        snprintf(builder->color_remark, sizeof builder->color_remark,
-                 "the model's textures are not drawn, only its other colours");
+        snprintf(builder->color_remark, sizeof builder->color_remark, "%s", DP_TEXTURES_REMARK);
 }
 
 float *dp_builder_value(dp_builder *builder, dp_builder_attribute *a, size_t width) {

@@ -97,6 +97,7 @@ bool dp_builder_vertex_color(dp_builder *builder, size_t vertex, uint32_t rgba);
  * dp_builder_fail. */
 bool dp_builder_polygon_color(dp_builder *builder, uint32_t rgba);
 /* Remarks that the model's textures are not drawn, unless there is a remark already. */
+#define DP_TEXTURES_REMARK "the model's textures are not drawn, only its other colours"
 void dp_builder_note_textures(dp_builder *builder);
 
 /* Adds a value of `width` floats, which the caller writes; NULL when memory is out. */

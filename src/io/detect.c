@@ -156,16 +156,15 @@ static bool by_name(const char *name, dp_file_format *format) {
     static const struct {
         const char *ending;
         dp_file_format format;
-    } endings[] = {{".stl", DP_FORMAT_STL},
-                   {".ply", DP_FORMAT_PLY},
-                   {".obj", DP_FORMAT_OBJ},
-                   {".off", DP_FORMAT_OFF}};
+    } endings[] = {{".stl", DP_FORMAT_STL}, {".ply", DP_FORMAT_PLY},  {".obj", DP_FORMAT_OBJ},
+                   {".off", DP_FORMAT_OFF}, {".glb", DP_FORMAT_GLTF}, {".gltf", DP_FORMAT_GLTF}};
     const char *const dot = name ? strrchr(name, '.') : NULL;
-    if (!dot || strlen(dot) != 4) return false;
+    const size_t length = dot ? strlen(dot) : 0;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t same = 0;
-        while (same < 4 && (dot[same] | 0x20) == (endings[i].ending[same] | 0x20)) same++;
-        if (same < 4) continue;
+        if (strlen(endings[i].ending) != length) continue;
+        while (same < length && (dot[same] | 0x20) == (endings[i].ending[same] | 0x20)) same++;
+        if (same < length) continue;
         *format = endings[i].format;
         return true;
     }
@@ -201,14 +200,12 @@ static const foreign *find_foreign(const dp_stream *stream) {
          5, "compressed with xz", NULL, ": unpack it first"},
         {"\x28\xb5\x2f\xfd", 4, "compressed with zstd", NULL, ": unpack it first"},
         {"PK\x03\x04", 4, "a zip archive (3MF, say)", ".3mf", NULL},
-        {"glTF", 4, "a binary glTF file", ".glb", NULL},
         {"Kaydara FBX", 11, "an FBX file", ".fbx", NULL},
         {"BLENDER", 7, "a Blender file", ".blend", NULL},
         {"; FBX", 5, "an FBX file", ".fbx", NULL},
         {"<COLLADA", 0, "a COLLADA file", ".dae", NULL},
         {"<X3D", 0, "an X3D file", ".x3d", NULL},
         {"<amf", 0, "an AMF file", ".amf", NULL},
-        {"\"asset\"", 0, "a glTF file", ".gltf", NULL},
         {"\x89PNG", 4, "a picture (PNG), not a model", NULL, ""},
         {"\xff\xd8\xff", 3, "a picture (JPEG), not a model", NULL, ""},
     };
@@ -243,8 +240,14 @@ static const char *find_utf16(const dp_stream *stream) {
     return zeros[1] ? "UTF-16LE" : "UTF-16BE";
 }
 
+static bool is_gltf(const dp_stream *stream) {
+    return begins(stream, "glTF", 4) ||
+           (*skip_spaces(stream->cursor) == '{' && has_word(stream, "\"asset\""));
+}
+
 static dp_file_format text_format(const dp_stream *stream) {
     if (is_ply(stream)) return DP_FORMAT_PLY;
+    if (is_gltf(stream)) return DP_FORMAT_GLTF;
     if (is_off(stream)) return DP_FORMAT_OFF;
     if (is_solid(stream)) return DP_FORMAT_STL;
     return is_obj(stream) ? DP_FORMAT_OBJ : DP_FORMAT_AUTO;
@@ -252,7 +255,7 @@ static dp_file_format text_format(const dp_stream *stream) {
 
 static bool by_content(dp_stream *stream, dp_file_format *format) {
     const uint8_t *const start = stream->cursor;
-    if (!is_ply(stream) && is_binary_stl(stream)) {
+    if (!is_ply(stream) && !begins(stream, "glTF", 4) && is_binary_stl(stream)) {
         *format = DP_FORMAT_STL;
         return true;
     }
@@ -264,7 +267,7 @@ static bool by_content(dp_stream *stream, dp_file_format *format) {
 
 bool dp_has_own_ending(const char *name) {
     dp_file_format format;
-    return by_name(name, &format);
+    return by_name(name, &format) && format != DP_FORMAT_GLTF; /* Assimp reads what we do not */
 }
 
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag) {
@@ -279,6 +282,6 @@ dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format,
     if (by_name(name, format)) return DP_OK;
     return dp_fail(diag, DP_ERR_UNSUPPORTED,
                    "not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is a "
-                   "model, give a file whose name has its format's ending (.stl, .obj, %s…)",
-                   stream->more_readers ? ".gltf, .dae, " : "");
+                   "model, give a file whose name has its format's ending (.stl, .obj, .gltf, %s…)",
+                   stream->more_readers ? ".dae, " : "");
 }

@@ -28,6 +28,8 @@ static dp_result read_as(dp_stream *stream, dp_file_format format, dp_source **o
         return read_whole(stream, dp_read_off, out, diag);
     case DP_FORMAT_STL:
         return dp_read_stl(stream, out, diag);
+    case DP_FORMAT_GLTF:
+        return dp_read_gltf(stream, out, diag);
     case DP_FORMAT_AUTO:
         break;
     }

@@ -8,7 +8,7 @@
 /* The stream's format, by its first window, then by the ending of `name` (NULL allowed).
  * DP_ERR_UNSUPPORTED: another one, perhaps Assimp's. DP_ERR_FORMAT: in no reader's encoding. */
 dp_result dp_detect(dp_stream *stream, const char *name, dp_file_format *format, dp_diag *diag);
-/* Does the name's ending tell one of the library's own formats? NULL allowed. */
+/* Does the name's ending tell a format that only the library reads? NULL allowed. */
 bool dp_has_own_ending(const char *name);
 /* Is an STL file binary? */
 bool dp_detect_binary_stl(dp_stream *stream);
@@ -17,6 +17,8 @@ bool dp_detect_binary_stl(dp_stream *stream);
 dp_result dp_read_ply(dp_stream *stream, dp_builder *builder, dp_diag *diag);
 dp_result dp_read_obj(dp_stream *stream, dp_builder *builder, dp_diag *diag);
 dp_result dp_read_off(dp_stream *stream, dp_builder *builder, dp_diag *diag);
+/* Makes a source of the whole file, and of those that it names. */
+dp_result dp_read_gltf(dp_stream *stream, dp_source **out, dp_diag *diag);
 /* Makes a source that reads batch by batch; it owns the stream on success. */
 dp_result dp_read_stl(dp_stream *stream, dp_source **out, dp_diag *diag);
 

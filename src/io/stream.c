@@ -102,7 +102,8 @@ void dp_stream_close(dp_stream *stream) {
     dp_free(&memory, stream);
 }
 
-/* Reads to `to`; returns bytes, 0 at the end or on failure. */
+/* Reads to `to`; returns bytes, 0 at the end or on failure. A file is read by position: where it was
+ * read to is the stream's own, also after a fork, when processes share one descriptor. */
 static size_t load(dp_stream *stream, uint8_t *to, size_t room) {
     if (stream->descriptor < 0) {
         const uint64_t left = stream->size - stream->loaded;
@@ -111,7 +112,10 @@ static size_t load(dp_stream *stream, uint8_t *to, size_t room) {
         return count;
     }
     ssize_t count;
-    do count = read(stream->descriptor, to, room);
+    do
+        count = stream->start < 0 ? read(stream->descriptor, to, room)
+                                  : pread(stream->descriptor, to, room,
+                                          (off_t)((uint64_t)stream->start + stream->loaded));
     while (count < 0 && errno == EINTR);
     if (count >= 0) return (size_t)count;
     stream->error = errno;

@@ -24,7 +24,7 @@
 #include "base/vec.h"
 #include "mesh/fingerprint.h"
 #include "mesh/places.h"
-#include "mesh/source.h"
+#include "mesh/batch.h"
 #include <drypoint/adjacency.h>
 
 #include "base/diag.h"
@@ -406,10 +406,9 @@ static double now_ms(void) {
 
 bool dp_adjacency_update(dp_adjacency *a, const dp_polygons *p, dp_threads *threads,
                          const dp_allocator *memory, bool *built) {
-    uint64_t key;
     const double start = now_ms();
     if (built) *built = false;
-    if (!dp_topology_fingerprint(p, threads, memory, &key)) return false;
+    const uint64_t key = dp_topology_fingerprint(p, threads);
     if (a->key == key && twins_hold(a, p)) return true;
     builder b = {.out = a, .polygons = p};
     a->key = 0;

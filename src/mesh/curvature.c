@@ -469,12 +469,13 @@ static bool make(const dp_polygons *p, dp_threads *threads, const dp_allocator *
 static const dp_array arrays[] = {DP_ARRAY(dp_curvature_store, along, along_cap)};
 
 void dp_curvature_store_free(dp_curvature_store *store, const dp_allocator *memory) {
+    dp_pool_free(&store->scratch, memory);
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
     *store = (dp_curvature_store){0};
 }
 
 uint64_t dp_curvature_store_bytes(const dp_curvature_store *store) {
-    return dp_arrays_bytes(store, DP_ARRAYS(arrays));
+    return dp_arrays_bytes(store, DP_ARRAYS(arrays)) + store->scratch.bytes;
 }
 
 /* ------- computed once ------- */
@@ -487,16 +488,18 @@ static double now_ms(void) {
 
 bool dp_curvature_directions(dp_curvature_store *store, const dp_polygons *polygons,
                              dp_threads *threads, const dp_allocator *memory) {
-    uint64_t key;
     const double start = now_ms();
-    if (!dp_shape_fingerprint(polygons, threads, memory, &key)) return false;
+    const uint64_t key = dp_shape_fingerprint(polygons, threads);
     store->ms = 0;
     if (store->key == key) return true;
+    const bool keeps = store->key || store->moves;
+    const dp_allocator scratch = dp_pool_allocator(&store->scratch, memory);
     store->key = 0;
-    if (!dp_reserve(memory, &store->along, &store->along_cap, (size_t)polygons->vertex_count + 1,
-                    sizeof *store->along) ||
-        !make(polygons, threads, memory, store->along))
-        return false;
+    const bool made = dp_reserve(memory, &store->along, &store->along_cap,
+                                 (size_t)polygons->vertex_count + 1, sizeof *store->along) &&
+                      make(polygons, threads, &scratch, store->along);
+    if (!made || !keeps) dp_pool_free(&store->scratch, memory);
+    if (!made) return false;
     store->key = key;
     store->ms = now_ms() - start;
     return true;

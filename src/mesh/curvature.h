@@ -2,6 +2,7 @@
 #ifndef DP_MESH_CURVATURE_H
 #define DP_MESH_CURVATURE_H
 
+#include "base/pool.h"
 #include "base/threads.h"
 #include "mesh/polygons.h"
 
@@ -17,6 +18,10 @@ typedef struct dp_curvature_store {
     size_t along_cap;
     uint64_t key; /* fingerprint of polygons and positions; 0: none */
     double ms;    /* time of the last call; 0 when nothing had changed */
+    bool
+        moves; /* the polygons will be others in the next call: scratch is kept. It also is from the
+                     second model on */
+    dp_pool scratch;
 } dp_curvature_store;
 
 void dp_curvature_store_free(dp_curvature_store *store, const dp_allocator *memory);

@@ -30,14 +30,20 @@ static const dp_array scratch[] = {DP_ARRAY(dp_edge_normals, place, place_cap),
                                    DP_ARRAY(dp_edge_normals, differ, differ_cap),
                                    DP_ARRAY(dp_edge_normals, slots, slots_cap)};
 
+static void free_scratch(dp_edge_normals *n, const dp_allocator *memory) {
+    dp_arrays_free(memory, n, DP_ARRAYS(scratch));
+    dp_pool_free(&n->pool, memory);
+}
+
 void dp_edge_normals_free(dp_edge_normals *n, const dp_allocator *memory) {
     dp_arrays_free(memory, n, DP_ARRAYS(arrays));
-    dp_arrays_free(memory, n, DP_ARRAYS(scratch));
+    free_scratch(n, memory);
     *n = (dp_edge_normals){0};
 }
 
 uint64_t dp_edge_normals_bytes(const dp_edge_normals *n) {
-    return dp_arrays_bytes(n, DP_ARRAYS(arrays)) + dp_arrays_bytes(n, DP_ARRAYS(scratch));
+    return dp_arrays_bytes(n, DP_ARRAYS(arrays)) + dp_arrays_bytes(n, DP_ARRAYS(scratch)) +
+           n->pool.bytes;
 }
 
 /* ------- normals of corners ------- */
@@ -193,23 +199,24 @@ static bool collect_edges(job *j) {
 static bool collect(job *j) {
     dp_edge_normals *const out = j->out;
     const size_t vertices = j->polygons->vertex_count;
+    const dp_allocator pooled = dp_pool_allocator(&out->pool, j->memory);
     out->hard_count = 0;
     if (!dp_reserve(j->memory, &out->smooth, &out->smooth_cap, vertices, sizeof *out->smooth) ||
         !dp_reserve(j->memory, &out->place, &out->place_cap, vertices, sizeof *out->place) ||
         !dp_reserve(j->memory, &out->differ, &out->differ_cap, vertices, 1) ||
-        !dp_find_places(j->polygons, out->place, j->memory))
+        !dp_find_places(j->polygons, out->place, &pooled))
         return false;
     return !collect_places(j) || collect_edges(j);
 }
 
 /* Mixes the values and numbers of an attribute into the key. */
-static bool mix_attribute(const job *j, const dp_attribute *a, dp_threads *threads, uint64_t *key) {
+static void mix_attribute(const job *j, const dp_attribute *a, dp_threads *threads, uint64_t *key) {
     const size_t words = a->stride / sizeof(uint32_t);
     *key = *key * 31 + a->count;
-    if (!a->values || !a->count) return true;
-    return dp_fingerprint((const uint32_t *)(const void *)a->values, (a->count - 1) * words + 3,
-                          threads, j->memory, key) &&
-           (!a->indices || dp_fingerprint(a->indices, j->corners, threads, j->memory, key));
+    if (!a->values || !a->count) return;
+    dp_fingerprint((const uint32_t *)(const void *)a->values, (a->count - 1) * words + 3, threads,
+                   key);
+    if (a->indices) dp_fingerprint(a->indices, j->corners, threads, key);
 }
 
 bool dp_edge_normals_collect(dp_edge_normals *out, const dp_polygons *polygons,
@@ -221,15 +228,14 @@ bool dp_edge_normals_collect(dp_edge_normals *out, const dp_polygons *polygons,
              memory,
              polygons->firsts ? polygons->firsts[polygons->count] : 3 * polygons->count,
              64};
-    uint64_t key = 0;
-    if (!dp_shape_fingerprint(polygons, threads, memory, &key) ||
-        !mix_attribute(&j, &normals->given, threads, &key) ||
-        !mix_attribute(&j, &normals->made, threads, &key))
-        return false;
+    uint64_t key = dp_shape_fingerprint(polygons, threads);
+    mix_attribute(&j, &normals->given, threads, &key);
+    mix_attribute(&j, &normals->made, threads, &key);
     if (key && key == out->key) return true;
+    const bool keeps = out->key || out->moves;
     out->key = 0;
     const bool collected = collect(&j);
-    dp_arrays_free(memory, out, DP_ARRAYS(scratch));
+    if (!collected || !keeps) free_scratch(out, memory);
     if (collected) out->key = key;
     return collected;
 }

@@ -2,6 +2,7 @@
 #ifndef DP_MESH_EDGE_NORMALS_H
 #define DP_MESH_EDGE_NORMALS_H
 
+#include "base/pool.h"
 #include "base/threads.h"
 #include "mesh/pn.h"
 #include "mesh/polygons.h"
@@ -23,11 +24,15 @@ typedef struct dp_edge_normals {
     dp_hard_edge *hard; /* [hard_count] */
     uint32_t hard_count;
     uint64_t key; /* fingerprint of what they were made of; 0: nothing */
+    bool
+        moves; /* the polygons will be others in the next call: scratch is kept. It also is from the
+                   second model on */
 
     /* scratch */
     uint32_t *place; /* [vertices] the first vertex at its position */
     uint8_t *differ; /* [vertices] */
     uint32_t *slots; /* hash table of hard edges: 1 + number; 0: free */
+    dp_pool pool;    /* for finding places */
     size_t smooth_cap, hard_at_cap, hard_cap, place_cap, differ_cap, slots_cap;
 } dp_edge_normals;
 

@@ -1,17 +1,18 @@
-/* Fingerprints: blocks are hashed in parallel, four sums side by side, then the blocks' hashes in
- * order. */
+/* Fingerprints: blocks are hashed in parallel, four sums side by side, some hundred at a time, then the
+ * blocks' hashes in order. */
 #include "mesh/fingerprint.h"
 
 #include "base/hostile.h"
 
 #include <string.h>
 
-enum { BLOCK = DP_TUNED(65536, 11) };
+enum { BLOCK = DP_TUNED(65536, 11), AT_ONCE = DP_TUNED(256, 3) };
 
 typedef struct hashing {
     const uint32_t *words;
     size_t count;
-    uint64_t *blocks;
+    size_t first; /* block of blocks[0] */
+    uint64_t blocks[AT_ONCE];
 } hashing;
 
 static uint64_t mix(uint64_t h) {
@@ -24,9 +25,9 @@ static uint64_t mix(uint64_t h) {
 
 /* Four chains, so that their multiplications overlap in the processor. */
 static void hash_block(void *arg, uint32_t index, uint32_t worker) {
-    const hashing *const h = arg;
+    hashing *const h = arg;
     (void)worker;
-    const size_t first = (size_t)index * BLOCK,
+    const size_t first = (h->first + index) * BLOCK,
                  end = h->count - first < BLOCK ? h->count : first + BLOCK;
     uint64_t sums[4] = {1, 2, 3, 4};
     size_t i = first;
@@ -37,27 +38,23 @@ static void hash_block(void *arg, uint32_t index, uint32_t worker) {
     h->blocks[index] = mix(sums[0] ^ mix(sums[1] ^ mix(sums[2] ^ mix(sums[3]))));
 }
 
-bool dp_fingerprint(const uint32_t *words, size_t count, dp_threads *threads,
-                    const dp_allocator *memory, uint64_t *key) {
+void dp_fingerprint(const uint32_t *words, size_t count, dp_threads *threads, uint64_t *key) {
     const size_t blocks = count / BLOCK + 1;
-    hashing h = {words, count, dp_alloc_array(memory, blocks, sizeof *h.blocks)};
-    if (!h.blocks) return false;
-    dp_parallel(threads, (uint32_t)blocks, hash_block, &h);
-    for (size_t i = 0; i < blocks; i++) *key = mix(*key * 31 + h.blocks[i]);
-    dp_free(memory, h.blocks);
-    return true;
+    hashing h = {.words = words, .count = count};
+    for (; h.first < blocks; h.first += AT_ONCE) {
+        const size_t left = blocks - h.first, n = left < AT_ONCE ? left : AT_ONCE;
+        dp_parallel(threads, (uint32_t)n, hash_block, &h);
+        for (size_t i = 0; i < n; i++) *key = mix(*key * 31 + h.blocks[i]);
+    }
 }
 
-bool dp_topology_fingerprint(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory,
-                             uint64_t *key) {
-    *key =
+uint64_t dp_topology_fingerprint(const dp_polygons *p, dp_threads *threads) {
+    uint64_t key =
         mix(p->count + mix(p->vertex_count + mix((p->corners != NULL) + 2u * (p->firsts != NULL))));
     const size_t corners = p->firsts ? p->firsts[p->count] : 3 * (size_t)p->count;
-    if (p->corners && !dp_fingerprint(p->corners, corners, threads, memory, key)) return false;
-    if (p->firsts && !dp_fingerprint(p->firsts, (size_t)p->count + 1, threads, memory, key))
-        return false;
-    if (!*key) *key = 1;
-    return true;
+    if (p->corners) dp_fingerprint(p->corners, corners, threads, &key);
+    if (p->firsts) dp_fingerprint(p->firsts, (size_t)p->count + 1, threads, &key);
+    return key ? key : 1;
 }
 
 /* Positions that are not contiguous are hashed one by one. */
@@ -70,14 +67,12 @@ static void add_positions(const dp_polygons *p, uint64_t *key) {
     *key = mix(*key);
 }
 
-bool dp_shape_fingerprint(const dp_polygons *p, dp_threads *threads, const dp_allocator *memory,
-                          uint64_t *key) {
-    if (!dp_topology_fingerprint(p, threads, memory, key)) return false;
+uint64_t dp_shape_fingerprint(const dp_polygons *p, dp_threads *threads) {
+    uint64_t key = dp_topology_fingerprint(p, threads);
     if (p->stride != 3 * sizeof(float))
-        add_positions(p, key);
-    else if (!dp_fingerprint((const uint32_t *)(const void *)p->positions,
-                             3 * (size_t)p->vertex_count, threads, memory, key))
-        return false;
-    if (!*key) *key = 1;
-    return true;
+        add_positions(p, &key);
+    else
+        dp_fingerprint((const uint32_t *)(const void *)p->positions, 3 * (size_t)p->vertex_count,
+                       threads, &key);
+    return key ? key : 1;
 }

@@ -109,6 +109,11 @@ static uint32_t scene_group_color(void *user, uint32_t group) {
     return dp_source_group_color(s->parts[m->part].source, m->group);
 }
 
+static uint32_t scene_part_of_group(const void *user, uint32_t group) {
+    const scene *const s = user;
+    return group < s->member_count ? s->members[group].part : 0;
+}
+
 /* ------- messages ------- */
 
 /* Puts the part's name before a message, as much of it as half a message. */
@@ -332,6 +337,7 @@ dp_result dp_source_join(dp_source *const *sources, const char *const *names, si
     (*out)->callbacks.up_assumed = sources[0]->callbacks.up_assumed; /* the first one says */
     (*out)->constant = constant;
     (*out)->lend = scene_lend;
+    (*out)->part_of_group = count > 1 ? scene_part_of_group : NULL;
     offer_records(s, *out);
     return DP_OK;
 }

@@ -11,6 +11,7 @@ typedef void dp_builder(dp_model *model);
 
 dp_builder dp_build_cube, dp_build_tetrahedron, dp_build_boxes, dp_build_stairs; /* plane */
 dp_builder dp_build_sphere, dp_build_torus, dp_build_cylinder, dp_build_terrain; /* round */
+dp_builder dp_build_flag, dp_build_torso;                                        /* soft */
 dp_builder dp_build_gear, dp_build_bolt, dp_build_bracket;                       /* parts */
 
 #endif

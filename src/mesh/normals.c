@@ -18,6 +18,7 @@
 
 enum {
     BLOCK = DP_TUNED(16384, 3),
+    AT_ONCE = DP_TUNED(256, 3), /* blocks that are hashed before their hashes are mixed */
     MOST_AROUND = 512 /* polygons around a place: with more, creases are not sought (quadratic) */
 };
 
@@ -51,7 +52,8 @@ typedef struct job {
     const dp_polygons *polygons;
     size_t corners;
     float crease_cosine;
-    uint64_t *hashes; /* per block */
+    size_t first_block; /* hashes[0] is its */
+    uint64_t hashes[AT_ONCE];
 } job;
 
 static uint32_t blocks(size_t items) { return (uint32_t)(items / BLOCK + (items % BLOCK != 0)); }
@@ -81,10 +83,11 @@ static uint64_t hash_words(uint64_t h, const uint32_t *words, size_t count) {
 }
 
 static void hash_positions(void *arg, uint32_t index, uint32_t worker) {
-    const job *const j = arg;
+    job *const j = arg;
     const dp_polygons *const p = j->polygons;
-    const size_t first = (size_t)index * BLOCK, last = block_end(index, p->vertex_count);
-    uint64_t h = index;
+    const uint32_t block = (uint32_t)j->first_block + index;
+    const size_t first = (size_t)block * BLOCK, last = block_end(block, p->vertex_count);
+    uint64_t h = block;
     (void)worker;
     if (p->stride == 3 * sizeof(float)) {
         h = hash_words(h, (const uint32_t *)(const void *)(p->positions + 3 * first),
@@ -100,21 +103,30 @@ static void hash_positions(void *arg, uint32_t index, uint32_t worker) {
 }
 
 static void hash_corners(void *arg, uint32_t index, uint32_t worker) {
-    const job *const j = arg;
-    const size_t first = (size_t)index * BLOCK, last = block_end(index, j->corners);
+    job *const j = arg;
+    const uint32_t block = (uint32_t)j->first_block + index;
+    const size_t first = (size_t)block * BLOCK, last = block_end(block, j->corners);
     (void)worker;
-    j->hashes[index] = hash_words(index, j->polygons->corners + first, last - first);
+    j->hashes[index] = hash_words(block, j->polygons->corners + first, last - first);
 }
 
-static uint64_t make_key(const job *j, dp_threads *threads) {
+/* Mixes the hashes of all blocks of so many items, in order. */
+static uint64_t hash_all(uint64_t h, job *j, size_t items, dp_task *task, dp_threads *threads) {
+    const size_t count = blocks(items);
+    for (j->first_block = 0; j->first_block < count; j->first_block += AT_ONCE) {
+        const size_t left = count - j->first_block;
+        const uint32_t n = (uint32_t)(left < AT_ONCE ? left : AT_ONCE);
+        dp_parallel(threads, n, task, j);
+        for (uint32_t i = 0; i < n; i++) h = mix(h, j->hashes[i]);
+    }
+    return h;
+}
+
+static uint64_t make_key(job *j, dp_threads *threads) {
     const dp_polygons *const p = j->polygons;
     uint64_t h = mix(mix(p->count, j->corners), p->vertex_count);
-    dp_parallel(threads, blocks(p->vertex_count), hash_positions, (void *)(uintptr_t)j);
-    for (uint32_t i = 0; i < blocks(p->vertex_count); i++) h = mix(h, j->hashes[i]);
-    if (p->corners) {
-        dp_parallel(threads, blocks(j->corners), hash_corners, (void *)(uintptr_t)j);
-        for (uint32_t i = 0; i < blocks(j->corners); i++) h = mix(h, j->hashes[i]);
-    }
+    h = hash_all(h, j, p->vertex_count, hash_positions, threads);
+    if (p->corners) h = hash_all(h, j, j->corners, hash_corners, threads);
     if (p->firsts) h = mix(h, hash_words(0, p->firsts, (size_t)p->count + 1));
     return h ? h : 1;
 }
@@ -342,19 +354,15 @@ bool dp_normals_make(dp_normal_store *store, const dp_polygons *polygons, float 
                  polygons->firsts ? polygons->firsts[polygons->count] : 3 * (size_t)polygons->count,
              .crease_cosine = (float)dp_cos((double)crease * (3.14159265358979323846 / 180))};
     uint64_t unknown = 0, *const shape = known ? known : &unknown; /* key without the angle */
-    if (!*shape) {
-        const size_t most = j.corners > polygons->vertex_count ? j.corners : polygons->vertex_count;
-        j.hashes = dp_alloc_array(memory, blocks(most), sizeof *j.hashes);
-        if (!j.hashes) return false;
-        *shape = make_key(&j, threads);
-        dp_free(memory, j.hashes);
-    }
+    if (!*shape) *shape = make_key(&j, threads);
     const uint64_t mixed = mix(*shape, (uint64_t)((double)j.crease_cosine * 1e15)),
                    key = mixed ? mixed : 1;
     if (key != store->key) {
+        const bool again = store->key != 0;
         store->key = 0;
         const bool made = compute(&j, threads, memory);
-        free_scratch(store, memory); /* many times as large as the result */
+        /* it is many times as large as the result: a still model's is not kept */
+        if (!made || !(again || store->moves)) free_scratch(store, memory);
         if (!made) return false;
         store->key = key;
     }
@@ -401,10 +409,11 @@ static void pack_vertices(const job *j) {
 }
 
 static void hash_values(void *arg, uint32_t index, uint32_t worker) {
-    const job *const j = arg;
+    job *const j = arg;
     const dp_attribute *const a = &j->polygons->normals;
-    const size_t first = (size_t)index * BLOCK, last = block_end(index, a->count);
-    uint64_t h = index;
+    const uint32_t block = (uint32_t)j->first_block + index;
+    const size_t first = (size_t)block * BLOCK, last = block_end(block, a->count);
+    uint64_t h = block;
     (void)worker;
     for (size_t i = first; i < last; i++) {
         uint32_t bits[3];
@@ -415,24 +424,21 @@ static void hash_values(void *arg, uint32_t index, uint32_t worker) {
 }
 
 static void hash_indices(void *arg, uint32_t index, uint32_t worker) {
-    const job *const j = arg;
+    job *const j = arg;
     const dp_attribute *const a = &j->polygons->normals;
-    const size_t first = (size_t)index * BLOCK, last = block_end(index, j->corners);
+    const uint32_t block = (uint32_t)j->first_block + index;
+    const size_t first = (size_t)block * BLOCK, last = block_end(block, j->corners);
     (void)worker;
     j->hashes[index] =
-        hash_words(index, (a->indices ? a->indices : j->polygons->corners) + first, last - first);
+        hash_words(block, (a->indices ? a->indices : j->polygons->corners) + first, last - first);
 }
 
 /* The key of a model's own normals. */
-static uint64_t make_value_key(const job *j, dp_threads *threads) {
+static uint64_t make_value_key(job *j, dp_threads *threads) {
     const dp_attribute *const a = &j->polygons->normals;
     uint64_t h = mix(mix(a->count, j->corners), 77);
-    dp_parallel(threads, blocks(a->count), hash_values, (void *)(uintptr_t)j);
-    for (uint32_t i = 0; i < blocks(a->count); i++) h = mix(h, j->hashes[i]);
-    if (a->indices || j->polygons->corners) {
-        dp_parallel(threads, blocks(j->corners), hash_indices, (void *)(uintptr_t)j);
-        for (uint32_t i = 0; i < blocks(j->corners); i++) h = mix(h, j->hashes[i]);
-    }
+    h = hash_all(h, j, a->count, hash_values, threads);
+    if (a->indices || j->polygons->corners) h = hash_all(h, j, j->corners, hash_indices, threads);
     return h ? h : 1;
 }
 
@@ -445,13 +451,7 @@ bool dp_normals_pack(dp_normal_store *store, const dp_polygons *polygons, dp_thr
              .corners = polygons->firsts ? polygons->firsts[polygons->count]
                                          : 3 * (size_t)polygons->count};
     uint64_t key = store->key; /* of computed normals */
-    if (store->count == 0 || a->values != store->values[0]) {
-        j.hashes = dp_alloc_array(memory, blocks(j.corners > a->count ? j.corners : a->count),
-                                  sizeof *j.hashes);
-        if (!j.hashes) return false;
-        key = make_value_key(&j, threads);
-        dp_free(memory, j.hashes);
-    }
+    if (store->count == 0 || a->values != store->values[0]) key = make_value_key(&j, threads);
     if (key == store->packed_key) return true;
     store->packed_key = 0;
     if (!dp_reserve(memory, &store->packed.corner, &store->packed_corner_cap, j.corners,

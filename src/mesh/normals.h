@@ -18,6 +18,9 @@ typedef struct dp_normal_store {
     uint32_t *indices;  /* [corners] */
     size_t values_cap, indices_cap, count;
     uint64_t key; /* fingerprint of the polygons and the angle of these normals; 0: none */
+    bool
+        moves; /* the polygons will be others in the next call: scratch is kept. It also is from the
+                   second model on */
     dp_packed_normals packed; /* dp_normals_pack */
     size_t packed_corner_cap, packed_vertex_cap;
     uint64_t packed_key;

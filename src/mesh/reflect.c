@@ -13,6 +13,7 @@
 
 #include "base/diag.h"
 #include "mesh/attributes.h"
+#include "mesh/source.h"
 
 #include <string.h>
 
@@ -22,7 +23,19 @@ typedef struct corner {
     uint8_t flag; /* of the edge to the next corner */
 } corner;
 
-typedef struct reflection {
+/* A source and a quadrilateral. */
+typedef struct with_quad {
+    dp_source *source;
+    double corners[4][3]; /* world space */
+    double origin[3];     /* of the source's last batch */
+    float positions[4][3];
+    uint16_t group[1];
+    bool ended, done;
+} with_quad;
+
+struct dp_reflection {
+    dp_source image, scene; /* what is handed out */
+    with_quad quad;
     dp_source *source;
     dp_plane_equation plane;        /* world space */
     dp_plane_equation turn, border; /* the same about the batch's origin, and about its image's */
@@ -39,7 +52,8 @@ typedef struct reflection {
     size_t corners_cap, kept_cap;
     size_t vertices, corner_count, polygons; /* of the reflected batch */
     bool colored;                            /* it has colours */
-} reflection;
+};
+typedef dp_reflection reflection;
 
 static const float *position(const reflection *r, uint32_t vertex) {
     return r->positions + 3 * (size_t)vertex;
@@ -236,42 +250,7 @@ static const dp_array arrays[] = {DP_ARRAY(reflection, positions, positions_cap)
                                   DP_ARRAY(reflection, corners, corners_cap),
                                   DP_ARRAY(reflection, kept, kept_cap)};
 
-static void reflection_destroy(void *user) {
-    reflection *const r = user;
-    const dp_allocator memory = r->memory;
-    dp_arrays_free(&memory, r, DP_ARRAYS(arrays));
-    dp_free(&memory, r);
-}
-
-dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane,
-                            const dp_allocator *memory, dp_source **out, dp_diag *diag) {
-    reflection *const r = dp_alloc_zeroed(memory, sizeof *r);
-    if (!r) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror image");
-    r->source = source;
-    r->plane = *plane;
-    r->memory = *memory;
-    const dp_source_callbacks callbacks = {
-        .user = r,
-        .next = reflection_next,
-        .destroy = reflection_destroy,
-        .group_color = reflection_color,
-        .rewind = dp_source_rewindable(source) ? reflection_rewind : NULL};
-    const dp_result result = dp_source_from_callbacks(&callbacks, memory, out, diag);
-    if (result) dp_free(memory, r);
-    return result;
-}
-
 /* ------- a source and a quadrilateral ------- */
-
-typedef struct with_quad {
-    dp_source *source;
-    dp_allocator memory;
-    double corners[4][3]; /* world space */
-    double origin[3];     /* of the source's last batch */
-    float positions[4][3];
-    uint16_t group[1];
-    bool ended, done;
-} with_quad;
 
 static dp_result with_quad_next(void *user, dp_batch *out, dp_diag *diag) {
     static const uint32_t firsts[2] = {0, 4};
@@ -307,27 +286,46 @@ static uint32_t with_quad_color(void *user, uint32_t group) {
     return dp_source_group_color(((with_quad *)user)->source, group);
 }
 
-static void with_quad_destroy(void *user) {
-    with_quad *const q = user;
-    const dp_allocator memory = q->memory;
-    dp_free(&memory, q);
+/* ------- what is kept ------- */
+
+dp_reflection *dp_reflection_create(const dp_allocator *memory) {
+    reflection *const r = dp_alloc_zeroed(memory, sizeof *r);
+    if (r) r->memory = *memory;
+    return r;
 }
 
-dp_result dp_add_quad_source(dp_source *source, const double corners[4][3], uint16_t group,
-                             const dp_allocator *memory, dp_source **out, dp_diag *diag) {
-    with_quad *const q = dp_alloc_zeroed(memory, sizeof *q);
-    if (!q) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
-    q->source = source;
-    q->memory = *memory;
-    q->group[0] = group;
-    memcpy(q->corners, corners, sizeof q->corners);
-    const dp_source_callbacks callbacks = {.user = q,
-                                           .next = with_quad_next,
-                                           .destroy = with_quad_destroy,
-                                           .group_color = with_quad_color,
-                                           .rewind = dp_source_rewindable(source) ? with_quad_rewind
-                                                                                  : NULL};
-    const dp_result result = dp_source_from_callbacks(&callbacks, memory, out, diag);
-    if (result) dp_free(memory, q);
-    return result;
+void dp_reflection_free(dp_reflection *r) {
+    if (!r) return;
+    const dp_allocator memory = r->memory;
+    dp_arrays_free(&memory, r, DP_ARRAYS(arrays));
+    dp_free(&memory, r);
+}
+
+uint64_t dp_reflection_bytes(const dp_reflection *r) {
+    return r ? sizeof *r + dp_arrays_bytes(r, DP_ARRAYS(arrays)) : 0;
+}
+
+dp_source *dp_reflect_source(dp_reflection *r, dp_source *source, const dp_plane_equation *plane) {
+    r->source = source;
+    r->plane = *plane;
+    r->image = (dp_source){.callbacks = {.user = r,
+                                         .next = reflection_next,
+                                         .rewind = reflection_rewind,
+                                         .group_color = reflection_color},
+                           .allocator = r->memory,
+                           .moves = source->moves};
+    return &r->image;
+}
+
+dp_source *dp_add_quad_source(dp_reflection *r, dp_source *source, const double corners[4][3],
+                              uint16_t group) {
+    r->quad = (with_quad){.source = source, .group = {group}};
+    memcpy(r->quad.corners, corners, sizeof r->quad.corners);
+    r->scene = (dp_source){.callbacks = {.user = &r->quad,
+                                         .next = with_quad_next,
+                                         .rewind = with_quad_rewind,
+                                         .group_color = with_quad_color},
+                           .allocator = r->memory,
+                           .moves = source->moves};
+    return &r->scene;
 }

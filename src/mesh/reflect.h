@@ -10,14 +10,23 @@ typedef struct dp_plane_equation {
     double n[3], offset;
 } dp_plane_equation;
 
-/* The part of `source` on the side that n points to, reflected. Corners are reversed, so that
- * fronts stay fronts; edges made by cutting never draw. Borrows `source`; the caller destroys
- * *out. */
-dp_result dp_reflect_source(dp_source *source, const dp_plane_equation *plane,
-                            const dp_allocator *memory, dp_source **out, dp_diag *diag);
+/* The memory of both, kept from picture to picture. */
+typedef struct dp_reflection dp_reflection;
 
-/* `source`, then one quadrilateral of a group, corners in world space. Borrows `source`; the caller destroys *out. */
-dp_result dp_add_quad_source(dp_source *source, const double corners[4][3], uint16_t group,
-                             const dp_allocator *memory, dp_source **out, dp_diag *diag);
+/* NULL: memory is out. */
+dp_reflection *dp_reflection_create(const dp_allocator *memory);
+void dp_reflection_free(dp_reflection *reflection);            /* NULL allowed */
+uint64_t dp_reflection_bytes(const dp_reflection *reflection); /* of NULL 0 */
+
+/* The part of `source` on the side that n points to, reflected. Corners are reversed, so that
+ * fronts stay fronts; edges made by cutting never draw. Borrows `source`, which can be rewound; the
+ * result is the reflection's, good until the next call. */
+dp_source *dp_reflect_source(dp_reflection *reflection, dp_source *source,
+                             const dp_plane_equation *plane);
+
+/* `source`, then one quadrilateral of a group, corners in world space. Borrows `source`, which can be
+ * rewound; the result is the reflection's, good until the next call. */
+dp_source *dp_add_quad_source(dp_reflection *reflection, dp_source *source,
+                              const double corners[4][3], uint16_t group);
 
 #endif

@@ -3,6 +3,7 @@
  * Invariant: a batch from dp_source_next is a well-formed table (corner counts add up, firsts
  * ascend). The consumer checks indices and coordinates. */
 #include "mesh/source.h"
+#include "mesh/parts.h"
 
 #include "base/diag.h"
 
@@ -107,7 +108,7 @@ dp_result dp_source_from_arrays(const dp_batch *batch, const dp_allocator *alloc
 }
 
 /* A table whose counts contradict each other cannot be walked safely. */
-static dp_result check_table(const dp_batch *batch, dp_diag *diag) {
+dp_result dp_check_batch(const dp_batch *batch, dp_diag *diag) {
     if (!batch->polygon_count) return DP_OK;
     if (!batch->positions)
         return dp_fail(diag, DP_ERR_ARGUMENT, "a batch has polygons but no positions");
@@ -145,7 +146,7 @@ static dp_result next_batch(dp_source *source, dp_batch *batch, dp_diag *diag) {
     if (!batch->position_stride) batch->position_stride = 3 * sizeof(float);
     if (!batch->normals.stride) batch->normals.stride = 3 * sizeof(float);
     if (!batch->texcoords.stride) batch->texcoords.stride = 2 * sizeof(float);
-    return check_table(batch, diag);
+    return dp_check_batch(batch, diag);
 }
 
 dp_result dp_source_next(dp_source *source, dp_batch *batch, dp_diag *diag) {
@@ -190,6 +191,7 @@ dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag) {
                        "dp_source_set_time: source is NULL, or the time is not finite");
     if (!source->callbacks.set_time) return DP_OK;
     source->holds = false;
+    source->moves = true;
     diag->result = DP_OK;
     const dp_result result = source->callbacks.set_time(source->callbacks.user, time, diag);
     if (result && diag->result != result)
@@ -206,6 +208,14 @@ double dp_source_duration(const dp_source *source) {
 void dp_source_lend(dp_source *source, dp_threads *threads) {
     if (source->lend) source->lend(source->callbacks.user, threads);
 }
+
+bool dp_source_part(const dp_source *source, uint32_t group, uint32_t *part) {
+    if (!source->part_of_group) return false;
+    *part = source->part_of_group(source->callbacks.user, group);
+    return true;
+}
+
+const dp_allocator *dp_source_memory(const dp_source *source) { return &source->allocator; }
 
 bool dp_source_rewindable(const dp_source *source) { return source && source->callbacks.rewind; }
 

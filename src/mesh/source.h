@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "mesh/batch.h"
 #include "mesh/reach.h"
 #include <drypoint/source.h>
 
@@ -24,12 +25,15 @@ struct dp_source {
     dp_allocator allocator;
     dp_records records; /* read NULL: only batch by batch */
     bool constant;      /* its batches never change (an application's arrays may) */
+    bool moves;         /* dp_source_set_time has moved it: what is made of it will be made again */
     uint64_t key;       /* fingerprint of a constant source (mesh/normals.c); 0: not computed yet */
     bool holds;         /* dp_source_next is to return this batch, read ahead by dp_source_begin */
     dp_batch held;
     /* Sources that compute what they hand out may use these threads until they are taken back (NULL);
      * one made of others lends them on. NULL: it does not compute. */
     void (*lend)(void *user, dp_threads *threads);
+    /* Of a scene: which of its sources a group is of. NULL: it is no scene. */
+    uint32_t (*part_of_group)(const void *user, uint32_t group);
 };
 
 /* Lends threads to a source for a drawing, or takes them back with NULL. */
@@ -40,17 +44,6 @@ void dp_source_lend(dp_source *source, dp_threads *threads);
 dp_result dp_source_begin(dp_source *source, double origin[3], dp_diag *diag);
 /* To the source's start, if it can be rewound, where dp_source_begin has not just been called. */
 dp_result dp_source_begun(dp_source *source, dp_diag *diag);
-
-/* What moves a batch's positions so that they count from another origin. False: nothing is to be
- * moved. */
-static inline bool dp_batch_shift(const dp_batch *batch, const double origin[3], double shift[3]) {
-    for (int k = 0; k < 3; k++) shift[k] = batch->origin[k] - origin[k];
-    return shift[0] != 0 || shift[1] != 0 || shift[2] != 0;
-}
-
-/* DP_ERR_ARGUMENT unless a batch's pointers and strides are aligned (dp_batch). Strides of 0 are
- * tight. */
-dp_result dp_check_alignment(const dp_batch *batch, dp_diag *diag);
 
 /* Makes min and max of exact_min and exact_max; a box of nothing (from INFINITY on) becomes 0. */
 void dp_extent_round(dp_extent *extent);

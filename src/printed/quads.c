@@ -19,7 +19,7 @@
  * one stencil buffer (Raskar 2001, 7). All but interval with passes = 1 are independent of the
  * order of polygons.
  *
- * Data structure: per sample, the ink that it holds (0: none; else class and group) and that ink's
+ * Data structure: per sample, the ink that it holds (0: none; else class and style) and that ink's
  * depth; for interval the same array is z1, of faces and lines. Invariant: faces keep their own
  * depth, so surface, distance and normal of the picture are those of other inks. Not handled: a
  * border has no quad of its own; it is drawn as a ridge. */
@@ -46,10 +46,10 @@ static dp_step step_of(const dp_view *view, double px) {
     return (dp_step){1, (float)(-px / view->focal)};
 }
 
-static uint32_t group_of(const dp_printer *w, uint32_t polygon) {
+/* The number of a polygon's style. */
+static uint32_t style_of(const dp_printer *w, uint32_t polygon) {
     const uint16_t *const groups = w->tile->frame->polygons.groups;
-    const uint32_t group = groups ? groups[polygon] : 0;
-    return group < w->tile->frame->style_count ? group : 0;
+    return dp_style_number(w->tile->frame, groups ? groups[polygon] : 0);
 }
 
 /* ------- what the lines of a group are drawn with ------- */
@@ -62,7 +62,7 @@ typedef struct tool {
 
 /* What depends on the style alone. Polygons of one group mostly follow each other. */
 typedef struct style_cache {
-    uint32_t group;
+    uint32_t number;
     const dp_style *style;
     tool tools[DP_LINE_COUNT];
     /* How far what a polygon adds reaches: `reach` px on the screen; in depth, towards the eye or
@@ -93,11 +93,11 @@ static void set_test(dp_brush *b, const dp_style *style, dp_line line) {
     b->nearer = step_of(view, -offset);
 }
 
-static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t group, dp_line line) {
+static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t number, dp_line line) {
     t->pen = pen_of(style, line);
     t->reach =
         (float)t->pen.reach * (t->pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1) + 1;
-    t->brush = (dp_brush){.w = w, .ink = dp_ink_of(line, group), .other = UINT32_MAX};
+    t->brush = (dp_brush){.w = w, .ink = dp_ink_of(line, number), .other = UINT32_MAX};
     set_test(&t->brush, style, line);
 }
 
@@ -117,12 +117,12 @@ static void set_reach(style_cache *o, const dp_view *view) {
     o->offset = view->perspective ? 0 : share;
 }
 
-static void fill_cache(dp_printer *w, style_cache *o, uint32_t group) {
+static void fill_cache(dp_printer *w, style_cache *o, uint32_t number) {
     const dp_view *const view = &w->tile->frame->view;
-    o->group = group;
-    o->style = &w->tile->frame->styles[group];
+    o->number = number;
+    o->style = &w->tile->frame->styles[number];
     for (int line = 0; line < DP_LINE_COUNT; line++)
-        set_tool(w, &o->tools[line], o->style, group, (dp_line)line);
+        set_tool(w, &o->tools[line], o->style, number, (dp_line)line);
     set_reach(o, view);
     o->off[1] = hold_off(view, 0, 1);
     o->off[0] = hold_off(view, 1, 1) - o->off[1];
@@ -233,8 +233,8 @@ static void add_class(shading *pass, const dp_primitive *primitive, uint32_t ind
 static void add_lines(shading *pass, uint32_t index) {
     dp_printer *const w = pass->w;
     const dp_tile_polygon *const p = &w->tile->polygons[index];
-    const uint32_t group = group_of(w, p->id);
-    if (group != pass->style_cache.group) fill_cache(w, &pass->style_cache, group);
+    const uint32_t number = style_of(w, p->id);
+    if (number != pass->style_cache.number) fill_cache(w, &pass->style_cache, number);
     const bool front = p->flags & DP_POLYGON_FRONT;
     const uint32_t drawn = (pass->line ? ~(uint32_t)DP_VALLEY : 0) | (pass->valley ? DP_VALLEY : 0);
     const uint32_t lines = pass->style_cache.style->lines & drawn;
@@ -272,12 +272,12 @@ static void fill_face(dp_brush *b, const dp_tile_polygon *p, dp_fill *with) {
 /* Tests the polygon itself. `back`: back faces too, where they are painted. */
 static void add_face(dp_printer *w, uint32_t index, bool back, double bias, dp_fill *with) {
     const dp_tile_polygon *const p = &w->tile->polygons[index];
-    const uint32_t group = group_of(w, p->id);
-    const dp_style *const style = &w->tile->frame->styles[group];
+    const uint32_t number = style_of(w, p->id);
+    const dp_style *const style = &w->tile->frame->styles[number];
     if (!(style->lines & DP_INTERSECTION) || !dp_is_surface(w->tile, p)) return;
     if (!back && !(p->flags & DP_POLYGON_FRONT)) return;
     dp_brush b = {.w = w,
-                  .ink = dp_ink_of(DP_LINE_INTERSECTION, group),
+                  .ink = dp_ink_of(DP_LINE_INTERSECTION, number),
                   .self = index,
                   .face = true,
                   .other = UINT32_MAX};
@@ -308,11 +308,11 @@ static void between_depths_once(dp_printer *w) {
     begin_shading(&pass, w, dp_fill_interval, dp_fill_trap_in_interval);
     for (uint32_t i = 0; i < w->tile->polygon_count && !w->tile->failed; i++) {
         const dp_tile_polygon *const p = &w->tile->polygons[i];
-        const uint32_t group = group_of(w, p->id);
-        const dp_style *const style = &w->tile->frame->styles[group];
+        const uint32_t number = style_of(w, p->id);
+        const dp_style *const style = &w->tile->frame->styles[number];
         if (dp_is_surface(w->tile, p)) {
             dp_brush b = {.w = w,
-                          .ink = dp_ink_of(DP_LINE_INTERSECTION, group),
+                          .ink = dp_ink_of(DP_LINE_INTERSECTION, number),
                           .face = true,
                           .intersections =
                               style->lines & DP_INTERSECTION && p->flags & DP_POLYGON_FRONT};
@@ -340,7 +340,7 @@ static void ink_stencil(dp_printer *w, dp_line line) {
         w->stencil[i] = 0;
         if (!count || w->tile->winner[i] == UINT32_MAX) continue;
         if (w->ink[i] & DP_INK_ADDED) continue;
-        w->ink[i] = dp_ink_of(line, group_of(w, w->tile->polygons[w->tile->winner[i]].id));
+        w->ink[i] = dp_ink_of(line, style_of(w, w->tile->polygons[w->tile->winner[i]].id));
     }
 }
 

@@ -10,7 +10,7 @@
 /* A worker's scratch for added polygons as ink. */
 typedef struct dp_printer {
     dp_tile *tile;
-    uint32_t *ink; /* by sample: class and group (quads.c); below: its depth, the stencil buffer */
+    uint32_t *ink; /* by sample: class and style (quads.c); below: its depth, the stencil buffer */
     float *ink_depth;
     uint8_t *stencil;
     dp_vec3 *world; /* of one polygon: its corners, and what is made of them */
@@ -67,12 +67,13 @@ typedef struct dp_ink_shape {
  * it. */
 #define DP_INK_ADDED (1u << 31)
 
-static inline uint32_t dp_ink_of(dp_line line, uint32_t group) {
+/* `style`: its number (dp_style_number), up to 65536. */
+static inline uint32_t dp_ink_of(dp_line line, uint32_t style) {
     const bool trapped = line == DP_LINE_VALLEY || line == DP_LINE_INTERSECTION;
-    return (trapped ? 0 : DP_INK_ADDED) | (line + 1u) << 16 | group;
+    return (trapped ? 0 : DP_INK_ADDED) | (line + 1u) << 17 | style;
 }
-static inline dp_line dp_ink_line(uint32_t ink) { return (dp_line)((ink >> 16 & 7) - 1); }
-static inline uint32_t dp_ink_group(uint32_t ink) { return ink & 0xffff; }
+static inline dp_line dp_ink_line(uint32_t ink) { return (dp_line)((ink >> 17 & 7) - 1); }
+static inline uint32_t dp_ink_style(uint32_t ink) { return ink & 0x1ffff; }
 
 /* Fills a convex polygon of n points in tile space, with the brush's plane as depth. */
 typedef void dp_fill(dp_brush *brush, const dp_point *points, uint32_t n);

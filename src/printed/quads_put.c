@@ -15,7 +15,7 @@ static void spare_back_faces(dp_printer *w) {
         if (!ink || dp_ink_line(ink) != DP_LINE_SILHOUETTE || winner == UINT32_MAX) continue;
         if (w->tile->polygons[winner].flags & DP_POLYGON_FRONT) continue;
         const double width =
-            (double)w->tile->frame->styles[dp_ink_group(ink)].line[DP_LINE_SILHOUETTE].width;
+            (double)w->tile->frame->styles[dp_ink_style(ink)].line[DP_LINE_SILHOUETTE].width;
         const double close =
             dp_depth_step(&w->tile->frame->view, (double)w->tile->depth[i], SPARE * width);
         if ((double)w->ink_depth[i] - (double)w->tile->depth[i] < close) w->ink[i] = 0;
@@ -36,7 +36,7 @@ static void add_sample(const dp_printer *w, size_t lane, float sum[4]) {
     const uint32_t ink = w->ink[lane];
     const dp_color under = w->tile->frame->ink_layer ? 0 : surface_color(w, lane);
     const dp_color over =
-        ink ? w->tile->frame->styles[dp_ink_group(ink)].line[dp_ink_line(ink)].color : 0;
+        ink ? w->tile->frame->styles[dp_ink_style(ink)].line[dp_ink_line(ink)].color : 0;
     const float a = (float)(over & 0xff) / 255, b = (float)(under & 0xff) / 255 * (1 - a);
     for (int k = 0; k < 3; k++)
         sum[k] +=

@@ -69,19 +69,39 @@ static dp_color surface_of(const dp_frame *frame, uint32_t polygon) {
                                                                            : style->surface;
 }
 
-static void shade_groups(const dp_tile *w, uint32_t x, uint32_t y) {
-    const dp_target *const target = &w->frame->target;
-    const size_t lane = dp_pixel_lane(&w->sampling, x - w->tile_x, y - w->tile_y);
+/* Colours by 1 + tile polygon, the paper's at 0, where samples of none have theirs. False: no memory. */
+static bool list_colors(dp_tile *w) {
     const dp_color paper = w->frame->styles[0].paper;
+    if (!DP_TILE_RESERVE(w, w, colors, colors_cap, (size_t)w->polygon_count + 1)) return false;
+    w->colors[0] = paper;
+    for (uint32_t i = 0; i < w->polygon_count; i++)
+        w->colors[i + 1] = shown(surface_of(w->frame, w->polygons[i].id), paper);
+    return true;
+}
+
+static void put_mean(const dp_tile *w, const uint32_t *winner, uint8_t out[4]) {
+    const uint32_t samples = w->frame->target.samples;
     mean m = {{0}};
-    for (uint32_t i = 0; i < target->samples; i++) {
-        const uint32_t winner = w->winner[lane + i];
-        const bool none = winner == UINT32_MAX;
-        add_sample(&m, none ? paper : shown(surface_of(w->frame, w->polygons[winner].id), paper),
-                   1);
+    for (uint32_t i = 0; i < samples; i++) add_sample(&m, w->colors[winner[i] + 1], 1);
+    mean_rgba(&m, w->frame->styles[0].paper, (float)samples, out);
+}
+
+/* Most pixels have one colour, although small polygons share them. */
+static void shade_groups(dp_tile *w, uint32_t x1, uint32_t y1) {
+    const dp_target *const target = &w->frame->target;
+    const uint32_t samples = target->samples;
+    if (!list_colors(w)) return;
+    for (uint32_t y = w->tile_y; y < y1; y++) {
+        uint8_t *out = target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)w->tile_x;
+        const uint32_t *winner = w->winner + dp_pixel_lane(&w->sampling, 0, y - w->tile_y);
+        for (uint32_t x = w->tile_x; x < x1; x++, out += 4, winner += samples) {
+            const dp_color c = w->colors[winner[0] + 1];
+            dp_color differ = 0;
+            for (uint32_t i = 1; i < samples; i++) differ |= w->colors[winner[i] + 1] ^ c;
+            for (int k = 0; k < 4; k++) out[k] = (uint8_t)(c >> (24 - 8 * k));
+            if (differ) put_mean(w, winner, out);
+        }
     }
-    mean_rgba(&m, paper, (float)target->samples,
-              target->rgba + (size_t)y * target->rgba_stride + 4 * (size_t)x);
 }
 
 static void put_geometry(const dp_tile *w, uint32_t x, uint32_t y) {
@@ -135,13 +155,11 @@ void dp_tile_surface(dp_tile *w) {
                groups = w->frame->style_count > 1 || colors_sections(w->frame);
     clear_classes(w, s);
     clear_ink(w, s);
+    if (paints && groups) shade_groups(w, s.x1, s.y1);
     if (paints && !groups) shade_one_group(w, s.x1, s.y1);
-    if (!(paints && groups) && !target->depth && !target->normal) return;
+    if (!target->depth && !target->normal) return;
     for (uint32_t y = s.y0; y < s.y1; y++)
-        for (uint32_t x = s.x0; x < s.x1; x++) {
-            if (paints && groups) shade_groups(w, x, y);
-            if (target->depth || target->normal) put_geometry(w, x, y);
-        }
+        for (uint32_t x = s.x0; x < s.x1; x++) put_geometry(w, x, y);
 }
 
 /* No polygon touches the tile: it shows paper. */

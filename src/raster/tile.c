@@ -20,17 +20,13 @@ bool dp_tile_begin(dp_tile *tile, const dp_frame *frame) {
                       sizeof *tile->winner);
 }
 
-static const dp_array arrays[] = {DP_ARRAY(dp_tile, winner, winner_cap),
-                                  DP_ARRAY(dp_tile, ids, ids_cap),
-                                  DP_ARRAY(dp_tile, backs, backs_cap),
-                                  DP_ARRAY(dp_tile, culled, culled_cap),
-                                  DP_ARRAY(dp_tile, polygons, polygons_cap),
-                                  DP_ARRAY(dp_tile, normals, normals_cap),
-                                  DP_ARRAY(dp_tile, unsure, unsure_cap),
-                                  DP_ARRAY(dp_tile, points, points_cap),
-                                  DP_ARRAY(dp_tile, keys, keys_cap),
-                                  DP_ARRAY(dp_tile, seen, seen_cap),
-                                  DP_ARRAY(dp_tile, seen_words, seen_words_cap)};
+static const dp_array arrays[] = {
+    DP_ARRAY(dp_tile, winner, winner_cap),   DP_ARRAY(dp_tile, colors, colors_cap),
+    DP_ARRAY(dp_tile, ids, ids_cap),         DP_ARRAY(dp_tile, backs, backs_cap),
+    DP_ARRAY(dp_tile, culled, culled_cap),   DP_ARRAY(dp_tile, polygons, polygons_cap),
+    DP_ARRAY(dp_tile, normals, normals_cap), DP_ARRAY(dp_tile, unsure, unsure_cap),
+    DP_ARRAY(dp_tile, points, points_cap),   DP_ARRAY(dp_tile, keys, keys_cap),
+    DP_ARRAY(dp_tile, seen, seen_cap),       DP_ARRAY(dp_tile, seen_words, seen_words_cap)};
 
 void dp_tile_free(dp_tile *tile) {
     if (!tile->memory.free) return; /* never used */

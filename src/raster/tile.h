@@ -128,6 +128,8 @@ typedef struct dp_tile {
     uint32_t *keys;           /* key of corner k of triangle i at k * keys_stride + i */
     uint32_t *seen;           /* numbers of polygons that are not hidden, ascending */
     uint32_t *seen_words;     /* see dp_seen_words */
+    dp_color *colors;         /* of surfaces, where groups have their own (surface.c) */
+    size_t colors_cap;
     size_t winner_cap, ids_cap, backs_cap, culled_cap, polygons_cap, normals_cap, unsure_cap,
         points_cap, keys_cap, seen_cap, seen_words_cap;
     uint32_t won;     /* not 0: a sample was won since it was last set to 0 */

@@ -41,10 +41,16 @@ uint64_t dp_shade_store_bytes(const dp_shade_store *s) {
            dp_arrays_bytes(s, DP_ARRAYS(arrays));
 }
 
+/* Does any group have the model's colours? */
+static bool has_model_colors(const dp_frame *frame) {
+    for (uint32_t i = 0; i < frame->style_count; i++)
+        if (frame->styles[i].shade.model_colors) return true;
+    return false;
+}
+
 static bool is_shaded(const dp_frame *frame) {
     const dp_shading shading = frame->styles[0].shade.shading;
-    return (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) ||
-           frame->styles[0].shade.model_colors;
+    return (shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER) || has_model_colors(frame);
 }
 
 static bool wants_colors(const dp_frame *frame, bool mirror) {
@@ -119,9 +125,9 @@ static bool wants_texcoords(const dp_shade_store *s) {
 
 static bool wants_vertex_colors(const dp_shade_store *s) {
     const dp_polygons *const p = &s->frame->polygons;
-    return s->colored && ((s->setup.shade.model_colors && p->colors &&
-                           s->setup.shade.shading != DP_SHADING_PAPER) ||
-                          (s->frame->styles[0].section && p->has_diagonals));
+    return s->colored &&
+           ((s->model_colors && p->colors && s->setup.shade.shading != DP_SHADING_PAPER) ||
+            (s->frame->styles[0].section && p->has_diagonals));
 }
 
 bool dp_shade_gathered(dp_shade_store *s) {
@@ -136,6 +142,7 @@ bool dp_shade_gathered(dp_shade_store *s) {
 static void set_up(dp_shade_store *s, const dp_frame *frame) {
     const dp_shade *const shade = &frame->styles[0].shade;
     const dp_color ink = shade->ink;
+    s->model_colors = has_model_colors(frame);
     s->setup = (dp_shading_setup){.shade = *shade,
                                   .g = &s->gbuffer,
                                   .shades = shade->shades.values,
@@ -172,9 +179,9 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
 
 static dp_color surface_of(const dp_shade_store *s, uint16_t id) {
     const uint32_t group = id - 1u;
-    const dp_style *const styles = s->frame->styles,
-                          *const style = &styles[group < s->frame->style_count ? group : 0];
-    const dp_color own = s->setup.shade.model_colors && style->shade.shading != DP_SHADING_PAPER
+    const dp_style *const styles = s->frame->styles, *const style =
+                                                         &styles[dp_style_number(s->frame, group)];
+    const dp_color own = style->shade.model_colors && style->shade.shading != DP_SHADING_PAPER
                              ? dp_source_group_color(s->source, group)
                              : 0;
     const dp_color c = own ? own : style->surface;
@@ -199,11 +206,15 @@ static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
     }
 }
 
+static bool shows_model_colors(const dp_shade_store *s, uint16_t id) {
+    return s->frame->styles[dp_style_number(s->frame, id - 1u)].shade.model_colors;
+}
+
 /* Where the vertices have colours, these replace the group's. */
-static void paint_vertex_colors(const uint32_t *color, dp_shade_run *run) {
+static void paint_vertex_colors(const dp_shade_store *s, const uint32_t *color, dp_shade_run *run) {
     for (uint32_t i = 0; i < run->n; i++) {
         float rgba[4];
-        if (!run->id[i] || !color[i]) continue;
+        if (!run->id[i] || !color[i] || !shows_model_colors(s, run->id[i])) continue;
         to_floats(color[i], rgba);
         run->color[0][i] = rgba[0], run->color[1][i] = rgba[1], run->color[2][i] = rgba[2];
         run->alpha[i] = rgba[3];
@@ -218,14 +229,14 @@ static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t
     run->distance = g->distance + at;
     run->u = g->u ? g->u + at : NULL, run->v = g->v ? g->v + at : NULL, run->id = g->id + at;
     run->stride = g->stride, run->x = x0, run->y = y, run->n = x1 - x0;
-    if (s->frame->style_count == 1 && !s->setup.shade.model_colors) {
+    if (s->frame->style_count == 1 && !s->model_colors) {
         float rgba[4];
         to_floats(surface_of(s, 1), rgba);
         s->shaders->paint(rgba, run);
     } else {
         paint_groups(s, run);
     }
-    if (g->colored) paint_vertex_colors(g->color + at, run);
+    if (g->colored) paint_vertex_colors(s, g->color + at, run);
 }
 
 static void end_run(const dp_shade_store *s, const dp_shade_run *run) {

@@ -131,6 +131,7 @@ typedef struct dp_shade_store {
     const dp_shaders *shaders; /* for this processor */
     bool active;               /* this frame has a G-buffer */
     bool colored;              /* this frame is shaded or has edges */
+    bool model_colors;         /* some group has the model's */
     dp_shading_setup setup;
     const dp_frame *frame;
     const dp_source *source; /* of the groups' colours; NULL: none */

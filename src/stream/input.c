@@ -20,6 +20,10 @@ static const dp_array arrays[] = {DP_ARRAY(dp_input, corners, corners_cap),
                                   DP_ARRAY(dp_input, flags, flags_cap),
                                   DP_ARRAY(dp_input, polygons, polygons_cap)};
 
+uint64_t dp_input_known(const dp_source *source) {
+    return source->records.read ? source->records.count : 0;
+}
+
 dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
                         const dp_allocator *memory, dp_stats *stats, dp_diag *diag) {
     *input =

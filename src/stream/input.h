@@ -29,6 +29,9 @@ typedef struct dp_input {
     dp_split_scratch scratch;
 } dp_input;
 
+/* How many triangles a source is known to have before it is read; 0: that is not known. */
+uint64_t dp_input_known(const dp_source *source);
+
 /* Opens a source from its start, in parts of `chunks` chunks. */
 dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
                         const dp_allocator *memory, dp_stats *stats, dp_diag *diag);

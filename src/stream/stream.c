@@ -15,7 +15,6 @@
 #include "stream/draw.h"
 
 #include "base/diag.h"
-#include "mesh/source.h"
 
 #include <string.h>
 
@@ -35,7 +34,7 @@ enum {
 };
 
 bool dp_stream_is_large(const dp_source *source, size_t memory) {
-    return source->records.read && source->records.count > memory / GATHERED;
+    return dp_input_known(source) > memory / GATHERED;
 }
 
 static const dp_array arrays[] = {

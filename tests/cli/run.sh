@@ -224,12 +224,12 @@ eye_alone_looks_at_the_centre() {
     cmp -s a.png b.png && fail "--target moves nothing"
 }
 made_models() {
-    for shape in cube tetrahedron sphere torus cylinder gear bolt bracket stairs boxes terrain; do
+    for shape in cube tetrahedron sphere torus cylinder gear bolt bracket stairs boxes flag torso terrain; do
         for ending in ply stl obj; do
             run 0 make $shape -o $shape.$ending --triangles 2000
             run 0 info --json $shape.$ending
             says out '"dropped": 0'
-            [ $shape = terrain ] || says out '"open_edges": 0'
+            [ $shape = terrain ] || [ $shape = flag ] || says out '"open_edges": 0'
             cp out $ending.json
         done
         [ "$(grep -o '"polygons": [0-9]*' stl.json)" = "$(grep -o '"polygons": [0-9]*' obj.json)" ] ||
@@ -533,11 +533,11 @@ unclosed_solids_are_told() {
 }
 # What an error tells to do can be done.
 advice() {
-    printf 'glTF\2' >scene
+    printf 'Kaydara FBX' >scene
     cp scene scene.obj
-    for model in scene scene.obj; do bad $model 'this is a binary glTF file: give its path, ending in .glb'; done
-    "$program" - -o out.png <scene 2>err && fail "glTF from a pipe"
-    says err 'standard input: this is a binary glTF file: give its path, ending in .glb'
+    for model in scene scene.obj; do bad $model 'this is an FBX file: give its path, ending in .fbx'; done
+    "$program" - -o out.png <scene 2>err && fail "FBX from a pipe"
+    says err 'standard input: this is an FBX file: give its path, ending in .fbx'
     printf 'hello\n' >x.xyz
     bad x.xyz 'x.xyz: not in a known format: convert it to STL, PLY, OBJ or OFF, or, if it is a model, give a file whose name has its format'\''s ending (.stl, .obj, .gltf'
     printf '\377\376v\0 \0' >wide.obj
@@ -582,29 +582,29 @@ left() { grep -sl -e "[${1:0:1}]${1:1}" /proc/[0-9]*/cmdline; }
 broken_readers() {
     [ -e "$broken_assimp" ] || return # not beside sanitizers
     local file
-    for file in crash exit memory hang; do printf 'glTF\2' >$file.glb; done
-    broken 1 crash.glb -o out.png
+    for file in crash exit memory hang; do printf 'Kaydara FBX' >$file.fbx; done
+    broken 1 crash.fbx -o out.png
     one_line
-    says err "crash.glb: Assimp's reader of .glb files crashed on it (Aborted): export it again"
+    says err "crash.fbx: Assimp's reader of .fbx files crashed on it (Aborted): export it again"
     silent out
-    broken 1 info exit.glb
+    broken 1 info exit.fbx
     one_line
-    says err "exit.glb: Assimp's reader of .glb files gave up on it"
-    broken 1 memory.glb -o out.png
+    says err "exit.fbx: Assimp's reader of .fbx files gave up on it"
+    broken 1 memory.fbx -o out.png
     one_line
-    says err "memory.glb: Assimp's reader of .glb files"
-    broken 1 hang.glb --read-time 0.5 -o out.png
+    says err "memory.fbx: Assimp's reader of .fbx files"
+    broken 1 hang.fbx --read-time 0.5 -o out.png
     one_line
-    says err "hang.glb: Assimp's reader of .glb files was not done after 0.5 s: give it more with --read-time"
+    says err "hang.fbx: Assimp's reader of .fbx files was not done after 0.5 s: give it more with --read-time"
     absent out.png
-    [ -z "$(left hang.glb)" ] || fail "a child is left after the time was over"
+    [ -z "$(left hang.fbx)" ] || fail "a child is left after the time was over"
 }
 interrupted_readers() {
     [ -e "$broken_assimp" ] || return
     local signal file code
     for signal in INT TERM KILL; do
-        file=hang-$$-$signal.glb code=0
-        printf 'glTF\2' >$file
+        file=hang-$$-$signal.fbx code=0
+        printf 'Kaydara FBX' >$file
         # to the program alone: a terminal would send it to the child, too
         LD_PRELOAD=$broken_assimp timeout --foreground --preserve-status -s $signal 0.5 \
             "$program" info $file >out 2>err </dev/null || code=$?
@@ -1401,11 +1401,15 @@ paper_presets() {
 }
 
 . "$here/look.sh"    # line weights, colours, presets, options without effect
+. "$here/animations.sh" # which one plays, and whether models move
+. "$here/deform.sh"  # models whose vertices move
 . "$here/several.sh" # scenes, a drawing for each of several models
+. "$here/objects.sh" # groups with styles of their own, left out, exploded
 . "$here/sections.sh" # models cut open
 . "$here/helps.sh"   # --help and its topics, completions
+. "$here/film.sh"    # films
 
-tests="$look_tests $several_tests $section_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_pictures empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects smoothing absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
+tests="$look_tests $animations_tests $deform_tests $film_tests $objects_tests $section_tests $several_tests $helps_tests vectors_by_ending several_outputs wrong_outputs vectors_that_fail empty_pictures empty_vectors cleaning pages wrong_pages widths_on_paper scales sheets wrong_sheets sheets_for_any_threads paper_presets strokes wrong_strokes adjacency pencil styles_and_edges outputs_beside planes_alone widths_of_classes hidden_lines wrong_hidden_lines traces traces_that_fail traces_of_streamed_models odd_normals mirrors presets textures enhanced_objects smoothing absurd_thresholds draws default_size standard_output standard_input streamed streamed_from_a_pipe same_for_any_threads equals_sign every_option views_differ what_is_up distant_terrain eye_alone_looks_at_the_centre made_models sizes_and_seeds info_table stats bench_json helps far_from_zero coarse_files_are_told
     man_page nearest_option wrong_values missing_words wrong_endings contradictions a_shape_is_no_file bad_files
     cut_files huge_counts many_corners crowded_pixels dropped_are_counted flat_triangles_are_passed_over unclosed_solids_are_told advice missing_materials_are_told colors_of_vertices_are_drawn broken_readers interrupted_readers old_file_stays_on_error full_disk devices unwritable_places
     strange_names interrupted progress_on_a_terminal"

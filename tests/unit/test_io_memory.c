@@ -354,7 +354,7 @@ static void wrong_calls_are_refused(void **state) {
     assert_int_equal(dp_source_open_memory(&(dp_memory_file){0}, NULL, &source, &diag),
                      DP_ERR_FORMAT);
     assert_contains(diag.message, "the file is empty");
-    const dp_memory_file scene = {.data = "glTF\2", .size = 5, .name = "part.glb"};
+    const dp_memory_file scene = {.data = "Kaydara FBX", .size = 11, .name = "part.fbx"};
     assert_int_equal(dp_source_open_memory(&scene, NULL, &source, &diag), DP_ERR_UNSUPPORTED);
     assert_contains(diag.message, "convert it to STL, PLY, OBJ or OFF");
     assert_null(source);

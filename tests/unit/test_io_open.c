@@ -63,7 +63,7 @@ static void unknown_content_is_refused(void **state) {
         "convert it to STL, PLY, OBJ or OFF, or, if it is a model, give a file whose name");
     assert_contains(trace_file("", "v\nfrom 0 0 1\n", DP_FORMAT_AUTO), "not supported"); /* NFF */
     assert_contains(trace_file(".ply", "\x1f\x8b\x08 x", DP_FORMAT_AUTO), "unpack it first");
-    assert_contains(trace_file(".obj", "glTF\x02", DP_FORMAT_AUTO), "glTF");
+    assert_contains(trace_file(".obj", "Kaydara FBX", DP_FORMAT_AUTO), "FBX");
     assert_contains(trace_file(".stl", "", DP_FORMAT_AUTO),
                     "bad file content at line 0, byte 0: the file is empty");
     assert_contains(trace_file("", "", DP_FORMAT_AUTO), "empty");

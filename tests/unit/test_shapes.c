@@ -135,7 +135,10 @@ static void check_closed(const char *name, uint64_t request) {
     soup s = read_shape(name, request);
     const edge_tally t = tally(&s);
     assert_int_equal(t.wrong, 0);
-    if (strcmp(name, "terrain")) {
+    if (!strcmp(name, "flag")) { /* the cloth has a border */
+        assert_true(t.open >= 10 && t.open % 10 == 0);
+        volume(&s);
+    } else if (strcmp(name, "terrain")) {
         assert_int_equal(t.open, 0);
         assert_true(volume(&s) > 0.05);
     } else { /* a square of n * n cells has 4 n edges at its border */
@@ -247,7 +250,7 @@ static void holes_are_known(void **state) {
     static const struct {
         const char *name;
         long holes;
-    } known[] = {{"bolt", 0}, {"torus", 1}, {"bracket", 3}, {"gear", 7}};
+    } known[] = {{"bolt", 0}, {"torso", 0}, {"torus", 1}, {"bracket", 3}, {"gear", 7}};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         soup s = read_shape(known[k].name, 0);
         const long faces = (long)s.count, edges = (long)tally(&s).paired;

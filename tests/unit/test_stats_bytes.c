@@ -141,7 +141,7 @@ static void draw_source(const char *what, dp_source *source, const dp_camera *ca
         if (limit) b.context->limit = limit;
         for (int frame = 0; frame < 3; frame++) {
             const dp_style *const now = frame == 2 ? NULL : style;
-            b.is_alone = !now || !(now->mirror.size > 0); /* whose sources come and go */
+            b.is_alone = true;
             const dp_result result = dp_draw(b.context, source, camera, now, to, &diag);
             if (result) fail_msg("%s: %s", what, diag.message);
             check(&b, when[frame]);
@@ -354,7 +354,7 @@ static void stopped(const char *what, const dp_style *style, size_t limit) {
     dp_source *const source = new_shape("boxes", &camera);
     begin(&b, what, 2);
     if (limit) b.context->limit = limit;
-    b.is_alone = !(style->mirror.size > 0);
+    b.is_alone = true;
     dp_result result = DP_ERR_CANCELLED;
     for (long at = 1; result == DP_ERR_CANCELLED; at += at < 4 ? 1 : 5) {
         b.tells = 0, b.stop_at = at;

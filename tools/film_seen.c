@@ -1,0 +1,111 @@
+/* What a film shows, frame after frame, as one source: a camera that is fitted to it shows all
+ * frames whole, and stands still while they go by.
+ *
+ * Of a long film some frames are looked at, evenly spaced: what a motion reaches between two of them
+ * lies within the fit's margin of 4 % unless it is very quick. */
+#include "film_seen.h"
+#include "report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOOKS = 48, LOOKS_AT_MUCH = 8, MUCH = 2000000 /* polygons */ };
+
+typedef struct seen {
+    dp_source *source;
+    const film_plan *plan;
+    uint32_t looks, at;
+    bool turned;
+    double rotation[3][3];
+    float *positions; /* of a turned batch, [room][3] */
+    size_t room;
+} seen;
+
+static uint32_t frame_of(const seen *w) {
+    return (uint32_t)((uint64_t)w->at * w->plan->count / w->looks);
+}
+
+static dp_result begin_look(seen *w, uint32_t at, dp_diag *diag) {
+    w->at = at;
+    if (w->turned) film_turn_back(w->plan, frame_of(w), w->rotation);
+    const dp_result result = dp_source_set_time(w->source, film_time(w->plan, frame_of(w)), diag);
+    return result ? result : dp_source_rewind(w->source, diag);
+}
+
+/* Turns a batch's positions, in memory of our own. */
+static bool turn_batch(seen *w, dp_batch *b) {
+    if (b->vertex_count > w->room) {
+        float *const more = realloc(w->positions, b->vertex_count * 3 * sizeof *more);
+        if (!more) return false;
+        w->positions = more, w->room = b->vertex_count;
+    }
+    const double *const c = w->plan->centre;
+    for (size_t v = 0; v < b->vertex_count; v++) {
+        float from[3];
+        double q[3];
+        memcpy(from, (const char *)b->positions + v * b->position_stride, sizeof from);
+        for (int i = 0; i < 3; i++) q[i] = b->origin[i] + (double)from[i] - c[i];
+        for (int i = 0; i < 3; i++) {
+            const double *const r = w->rotation[i];
+            const double p = c[i] + r[0] * q[0] + r[1] * q[1] + r[2] * q[2];
+            w->positions[3 * v + i] = (float)(p - b->origin[i]);
+        }
+    }
+    b->positions = w->positions;
+    b->position_stride = 3 * sizeof(float);
+    b->stable = false;
+    return true;
+}
+
+static dp_result seen_next(void *user, dp_batch *batch, dp_diag *diag) {
+    seen *const w = user;
+    for (;;) {
+        dp_result result = dp_source_next(w->source, batch, diag);
+        if (!result && !batch->polygon_count && w->at + 1 < w->looks) {
+            result = begin_look(w, w->at + 1, diag);
+            if (!result) continue;
+        }
+        if (result || !batch->polygon_count || !w->turned) return result;
+        batch->normals = batch->texcoords = (dp_attribute){0};
+        if (turn_batch(w, batch)) return DP_OK;
+        *diag =
+            (dp_diag){.result = DP_ERR_MEMORY, .message = "out of memory for what a film shows"};
+        return DP_ERR_MEMORY;
+    }
+}
+
+static dp_result seen_rewind(void *user, dp_diag *diag) { return begin_look(user, 0, diag); }
+
+static void seen_destroy(void *user) {
+    seen *const w = user;
+    free(w->positions);
+    free(w);
+}
+
+/* How many frames are looked at. */
+static dp_result count_looks(seen *w, uint64_t *polygons, dp_diag *diag) {
+    dp_extent extent;
+    const dp_result result = dp_source_extent(w->source, &extent, diag);
+    const uint32_t most = extent.polygons > MUCH ? LOOKS_AT_MUCH : LOOKS;
+    w->looks = w->plan->count < most ? w->plan->count : most;
+    if (polygons) *polygons = extent.polygons;
+    return result;
+}
+
+int film_seen_make(const film_plan *plan, dp_source *source, bool turned, dp_source **out,
+                   uint64_t *polygons) {
+    dp_diag diag = {0};
+    seen *const w = calloc(1, sizeof *w);
+    *out = NULL;
+    if (!w) return wrong_usage("out of memory for a film"), EXIT_FAILED;
+    *w = (seen){.source = source, .plan = plan, .turned = turned};
+    dp_source_callbacks callbacks = {
+        .user = w, .next = seen_next, .rewind = seen_rewind, .destroy = seen_destroy};
+    callbacks.up_assumed = !dp_source_up(source, callbacks.up);
+    dp_result result = count_looks(w, polygons, &diag);
+    if (!result) result = begin_look(w, 0, &diag);
+    if (!result) result = dp_source_from_callbacks(&callbacks, NULL, out, &diag);
+    if (!result) return 0;
+    free(w);
+    return report_failure(NULL, &diag), EXIT_FAILED;
+}
