@@ -35,6 +35,7 @@ typedef struct golden {
     dp_style style;
     golden_camera camera;
     const char *texture; /* of strokes, by name */
+    const char *pattern; /* on lines, by name */
     uint32_t triangles;  /* of a generated model; 0: its own */
     uint32_t samples;
     golden_reading reading;
