@@ -50,7 +50,7 @@ static void value_words(const option *o, char words[WORDS_BYTES]) {
     if (o->kind == OPTION_PAGE)
         for (size_t k = 0; k < sizeof pages / sizeof *pages; k++)
             add(words, pages[k], strlen(pages[k]));
-    if (!strcmp(o->name, "stroke"))
+    if (!strcmp(o->name, "stroke") || !strcmp(o->name, "pattern"))
         for (uint32_t k = 0; k < dp_texture_count(); k++)
             add(words, dp_texture_name(k), strlen(dp_texture_name(k)));
     if (o->kind == OPTION_OUTPUT)

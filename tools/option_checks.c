@@ -140,7 +140,22 @@ static bool check_xray(const tool_settings *s) {
     return true;
 }
 
+/* What a line's texture is, and where it lies. */
+static bool check_pattern(const tool_settings *s) {
+    if (s->pattern && option_given(s, "stroke"))
+        return wrong_usage("--pattern and --stroke both say what lines look like; leave one out");
+    if (s->pattern && s->edges == EDGES_ADJACENCY && s->ink != INK_STROKES)
+        return wrong_usage("silhouettes by --edges adjacency have --stroke textures; give --stroke "
+                           "%s instead of --pattern, or add --ink strokes",
+                           s->pattern);
+    if (s->pattern_length.unit && s->pattern_units > 0)
+        return wrong_usage("--pattern-length and --pattern-units both say how long a repeat is; "
+                           "leave one out");
+    return true;
+}
+
 bool options_check(const tool_settings *s) {
     return check_present(s) && check_camera(s) && check_scale(s) && check_page(s) &&
-           check_sheet(s) && check_motion(s) && film_check(s) && check_xray(s) && check_section(s);
+           check_sheet(s) && check_motion(s) && film_check(s) && check_xray(s) &&
+           check_pattern(s) && check_section(s);
 }

@@ -49,19 +49,29 @@ static bool has_ground(const tool_settings *s) {
 
 static bool has_smooth(const tool_settings *s) { return s->smooth > 1; /* 1: off */ }
 static bool has_pens(const tool_settings *s) { return !has_quads_alone(s); }
-static bool has_texture(const tool_settings *s) { return s->stroke != NULL; }
+static bool has_texture(const tool_settings *s) { return s->stroke || s->pattern; }
+static bool has_stroke(const tool_settings *s) { return s->stroke && !s->pattern; }
+static bool has_pattern(const tool_settings *s) { return s->pattern != NULL; }
+static bool has_line_light(const tool_settings *s) { return s->line_light > 1; /* 1: off */ }
+static bool mixes_light(const tool_settings *s) { return s->line_light != 4; /* gooch */ }
 static bool is_polar(const tool_settings *s) {
     return s->stroke_u ? s->stroke_u == STROKE_POLAR : has_quads(s);
 }
 static bool has_errors(const tool_settings *s) {
-    /* dashes and dots are all alike, and so are a PNG's strokes */
-    const bool by_rule = s->stroke && strcmp(s->stroke, "dashes") && strcmp(s->stroke, "dots") &&
-                         !strpbrk(s->stroke, "./");
-    return by_rule || s->jitter.value > 0 || s->repeats > 1;
+    /* dashes and ornaments are all alike, and so are a PNG's strokes */
+    const char *const name = s->pattern ? s->pattern : s->stroke;
+    return (name && word_index("pencil|brush|charcoal|ink", name)) || s->jitter.value > 0 ||
+           s->repeats > 1;
+}
+
+static bool has_pens_or_pattern(const tool_settings *s) { return has_pens(s) || s->pattern; }
+static bool has_natural_length(const tool_settings *s) {
+    return !s->pattern_length.unit && !(s->pattern_units > 0);
 }
 
 static bool is_paper(const tool_settings *s) { return s->shading == SHADING_PAPER; }
 static bool is_shaded(const tool_settings *s) { return s->shading > SHADING_FLAT; }
+static bool is_lit(const tool_settings *s) { return is_shaded(s) || has_line_light(s); }
 static bool has_color(const tool_settings *s) { return !is_paper(s); }
 static bool is_gooch(const tool_settings *s) { return s->shading == SHADING_GOOCH; }
 static bool is_toon(const tool_settings *s) { return s->shading == SHADING_TOON; }
@@ -115,15 +125,17 @@ typedef struct rule {
 
 #define STROKES "stroke|taper|jitter|overshoot|repeats|width-by-depth|width-by-light"
 
+#define PATTERNS "pattern|pattern-length|pattern-units|pattern-space|line-light|lit-color"
+
 static const rule drawing_rules[] = {
-    {STROKES "|stroke-u|stroke-k|stroke-scale|seed", finds_lines,
+    {STROKES "|stroke-u|stroke-k|stroke-scale|seed|" PATTERNS, finds_lines,
      "an edge map is of pixels and has no strokes; --edges both draws lines with them as well"},
     {"lines|width|color|ridge-angle|valley-angle|detail|hidden|levels|hidden-smooth|hidden-width|"
      "hidden-color|ink|method|between|edge-table",
      finds_lines, "--edges map and none draw no such lines; --edges both adds them"},
-    {STROKES
-     "|stroke-u|stroke-k|stroke-scale|seed|width|color|ridge-angle|valley-angle|detail|hidden|"
-     "levels|hidden-smooth|hidden-width|hidden-color|ink|method|between|edge-table",
+    {STROKES "|stroke-u|stroke-k|stroke-scale|seed|" PATTERNS
+             "|width|color|ridge-angle|valley-angle|detail|hidden|"
+             "levels|hidden-smooth|hidden-width|hidden-color|ink|method|between|edge-table",
      has_lines, "no lines are drawn; leave out --lines none"},
     {"detail", has_pens, "with --ink quads the added polygons are the lines; leave it out"},
     {"detail", has_outlines_or_creases,
@@ -143,15 +155,22 @@ static const rule drawing_rules[] = {
      "a picture has no title; add --sheet front,top,right,iso, say, or write an "
      "SVG or PDF"},
 
-    {STROKES "|stroke-u|stroke-k|stroke-scale|seed", has_pens,
+    {STROKES "|stroke-u|stroke-k", has_pens,
      "with --ink quads lines are plain; leave it out for strokes, or add --edges adjacency"},
-    {"stroke-u|stroke-k|stroke-scale", has_texture,
-     "lines have no texture; add --stroke pencil, say"},
+    {"stroke-scale|seed", has_pens_or_pattern,
+     "with --ink quads lines are plain; leave it out for strokes, or add --edges adjacency"},
+    {"stroke-u|stroke-k", has_stroke, "lines have no such texture; add --stroke pencil, say"},
+    {"stroke-scale", has_texture, "lines have no texture; add --stroke pencil, say"},
+    {"pattern-length|pattern-units|pattern-space", has_pattern,
+     "lines have no pattern; add --pattern rope, say"},
+    {"stroke-scale", has_natural_length, "the pattern's length says it; leave one out"},
+    {"lit-color", has_line_light, "no light falls on lines; add --line-light lambert, say"},
+    {"lit-color", mixes_light, "--line-light gooch is from cool to warm; leave one out"},
     {"stroke-k", is_polar, "textures lie along the lines; add --stroke-u polar"},
     {"seed", has_errors,
      "strokes have no errors of the hand; add --stroke pencil or --jitter 1, say"},
 
-    {"light", is_shaded, "surfaces are not shaded; add --style lambert, say"},
+    {"light", is_lit, "surfaces are not shaded; add --style lambert, say"},
     {"normals|crease-angle", has_normals, "surfaces are not shaded; add --style lambert, say"},
     {"surface|model-colors", has_color, "with --style paper surfaces have the paper's colour"},
     {"surface", has_surface, "--gooch-plain leaves the surface's colour out"},

@@ -176,7 +176,7 @@ const option option_table[] = {
      "Put the surface under the lines of vector files, as pixels. Default: none."},
 
     {"stroke", 0, "NAME|FILE.png", OPTION_TEXT, GROUP_STROKES, PICTURE, AT(stroke), 0, 0, 0,
-     "Draw lines with a texture: pencil, brush, charcoal, ink, dashes, dots, or any PNG (black is ink, or its alpha)."},
+     "Draw lines with a texture: pencil, brush, charcoal, ink, dashes, dots (and those of --pattern), or any PNG (black is ink, or its alpha)."},
     {"stroke-u", 0, "arc|polar", OPTION_WORD, GROUP_STROKES, PICTURE, AT(stroke_u), 0, 0, 0,
      "Lay textures along lines by their length, or by the angle and distance from the model's centre (Hermosilla and "
      "Vazquez 2010). Default: arc; with --edges adjacency, polar."},
@@ -184,6 +184,22 @@ const option option_table[] = {
      "Polar: weight of the distance, per half a picture height; 0 for round models. Default: 0.5."},
     {"stroke-scale", 0, "F", OPTION_INSIDE, GROUP_STROKES, PICTURE, AT(stroke_scale), 0, 0, 1000,
      "How many times longer than natural textures are. Default: 1."},
+    {"pattern", 0, "NAME|FILE.png", OPTION_TEXT, GROUP_STROKES, PICTURE, AT(pattern), 0, 0, 0,
+     "Lay a texture on lines as if it were on the model, in perspective: dashes, dots, rope, waves, checks, chevrons, "
+     "lace, meander, any other of --stroke, or any PNG. In place of --stroke; and with --ink quads too, where outlines "
+     "have its top at the edge and its bottom outside."},
+    {"pattern-length", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(pattern_length), 0, 1, 100000,
+     "Length of one repeat in the middle of the model (or 5mm, 10pt, 1%); farther off it is shorter. Default: natural, "
+     "as the texture is to its height, so it is to the line's width."},
+    {"pattern-units", 0, "F", OPTION_INSIDE, GROUP_STROKES, PICTURE, AT(pattern_units), 0, 0, 1e30,
+     "Length of one repeat in the model's own units, in place of --pattern-length."},
+    {"pattern-space", 0, "object|screen", OPTION_WORD, GROUP_STROKES, PICTURE, AT(pattern_space), 0, 0, 0,
+     "Patterns lie on the model, or are equally long all over the picture. Default: object."},
+    {"line-light", 0, "off|lambert|toon|gooch", OPTION_WORD, GROUP_STROKES, PICTURE, AT(line_light), 0, 0, 0,
+     "Light (--light) on lines, by what they lie on: from the line's colour to the paper's, smoothly or in three "
+     "steps; or from cool to warm. Default: off."},
+    {"lit-color", 0, "COLOR", OPTION_COLOR, GROUP_STROKES, PICTURE, AT(lit_color), 0, 0, 0,
+     "With --line-light: the colour of lines in full light. Default: four fifths of the way to the paper's."},
     {"taper", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(taper), 0, 0, 10000,
      "Strokes thin out over this length (or 5mm, 10pt, 1%) at both ends. Default: what suits --stroke."},
     {"jitter", 0, "PX", OPTION_LENGTH, GROUP_STROKES, PICTURE, AT(jitter), 0, 0, 64,

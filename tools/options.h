@@ -32,6 +32,7 @@ typedef enum stats_kind { STATS_NONE = 0, STATS_TABLE, STATS_JSON } stats_kind;
 enum { VIEW_FRONT = 1, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 enum { SWITCH_ON = 1, SWITCH_OFF };
 enum { STROKE_ARC = 1, STROKE_POLAR };
+enum { PATTERN_OBJECT = 1, PATTERN_SCREEN };
 enum { HIDDEN_DASHED = 1, HIDDEN_DOTTED, HIDDEN_THIN, HIDDEN_SOLID, HIDDEN_NONE };
 enum { INK_STROKES = 1, INK_QUADS };
 enum {
@@ -178,9 +179,14 @@ typedef struct tool_settings {
     double pencil_s, pencil_o;
     bool has_pencil_s, has_pencil_o;
     uint32_t pencil_tones;
-    int pencil_turns;   /* word */
-    const char *stroke; /* a name, or a PNG file */
-    int stroke_u;       /* word */
+    int pencil_turns;    /* word */
+    const char *stroke;  /* a name, or a PNG file */
+    const char *pattern; /* the same */
+    tool_length pattern_length;
+    double pattern_units;
+    int pattern_space, line_light; /* words */
+    dp_color lit_color;
+    int stroke_u; /* word */
     double stroke_k, stroke_scale, width_by_depth, width_by_light;
     tool_length taper, jitter, overshoot;
     bool has_stroke_k;

@@ -180,7 +180,7 @@ static bool has_alpha(const dp_style *style) {
 }
 
 void paths_warn(const tool_settings *s, const dp_style *style) {
-    const bool textured = s->stroke || s->taper.value > 0 || s->jitter.value > 0 ||
+    const bool textured = s->stroke || s->pattern || s->taper.value > 0 || s->jitter.value > 0 ||
                           s->overshoot.value > 0 || s->repeats > 1 || s->width_by_depth > 0 ||
                           s->width_by_light > 0;
     const dp_shading shading = style->shade.shading;
@@ -192,7 +192,7 @@ void paths_warn(const tool_settings *s, const dp_style *style) {
     else if (style->lines == DP_NO_LINES && s->edges == EDGES_MAP)
         warn("an edge map is of pixels and has no paths: --edges both adds lines");
     else if (textured)
-        warn("paths are plain: what --stroke and its options do is seen in PNGs only");
+        warn("paths are plain: what --stroke, --pattern and their options do is seen in PNGs only");
     if (shaded && s->ground != GROUND_PNG)
         warn("vector files have no shaded surface: --ground png puts it under the lines");
     else if (has_faces(style) && s->ground != GROUND_PNG)

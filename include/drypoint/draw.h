@@ -80,7 +80,7 @@ typedef struct dp_target {
  * between polygons of one part; beyond 64 readings edges are given up, and where lines alone do not
  * fit they are thinned (dp_stats.edges_lost). Polygons of more than three corners are streamed as
  * triangles, which dp_segment.edge then counts by. What needs all polygons at once (shading,
- * adjacency, hidden lines, polar stroke textures, smoothing) is drawn from memory. With dp_style.passes = 1
+ * adjacency, hidden lines, polar stroke textures, patterns, light on lines, smoothing) is drawn from memory. With dp_style.passes = 1
  * the source is read once, and what hides lines is known only as finely as the picture's samples. A
  * source that can be read only once and does not fit fails with DP_ERR_LIMIT unless passes is 1.
  * Sources of one stable batch are drawn from where they lie, whatever their size.

@@ -28,16 +28,17 @@ typedef struct dp_sheet {
     size_t segments;
 } dp_sheet;
 
-/* A chain of segments of one class, level and colour, drawn without lifting the pen. Consecutive
+/* A chain of segments of one class, level and colour (but for the light that falls on stylized ones,
+ * dp_style.line_light), drawn without lifting the pen. Consecutive
  * segments meet at one point; those of stylized strokes (strokes.h) may leave a gap of a few px,
  * over which the stroke runs. */
 typedef struct dp_chain_stroke {
     dp_line line;
-    uint32_t chain; /* as in dp_segment */
-    uint32_t group; /* of the first segment */
-    uint32_t level; /* of all its segments; 0: visible */
-    float width;    /* px, the whole line, of the first segment */
-    dp_color color;
+    uint32_t chain;                    /* as in dp_segment */
+    uint32_t group;                    /* of the first segment */
+    uint32_t level;                    /* of all its segments; 0: visible */
+    float width;                       /* px, the whole line, of the first segment */
+    dp_color color;                    /* of the first segment */
     bool closed;                       /* the last segment ends where the first begins */
     const dp_segment *const *segments; /* [count] in the order in which they follow each other;
                                            one that is `reversed` is drawn from b to a */

@@ -35,7 +35,8 @@ typedef struct dp_texture_desc {
 DP_API dp_result dp_texture_create(const dp_texture_desc *desc, dp_texture **out, dp_diag *diag);
 DP_API void dp_texture_destroy(dp_texture *texture); /* NULL allowed */
 
-/* Makes one of the procedural textures: "pencil", "brush", "charcoal", "ink", "dashes", "dots".
+/* Makes one of the procedural textures: "pencil", "brush", "charcoal", "ink", "dashes", "dots", and
+ * ornaments for wide lines: "hatch", "rope", "waves", "checks", "chevrons", "lace", "meander".
  * Each seed gives another one of the same kind; the caller destroys *out. DP_ERR_ARGUMENT for an
  * unknown name (the message names the nearest known one), DP_ERR_MEMORY. */
 DP_API dp_result dp_texture_named(const char *name, uint32_t seed, const dp_allocator *allocator,
@@ -51,8 +52,10 @@ DP_API const uint8_t *dp_texture_pixels(const dp_texture *texture, uint32_t *wid
 /* How u is measured. */
 typedef enum dp_stroke_u {
     DP_STROKE_ARC = 0, /* length along chains of segments: no seams, no stretching */
-    DP_STROKE_POLAR    /* u = angle / 2 pi + k * distance, about the projected centre of the
+    DP_STROKE_POLAR,   /* u = angle / 2 pi + k * distance, about the projected centre of the
                           model's box (Hermosilla and Vázquez 2010, 2.3.3) */
+    DP_STROKE_WORLD    /* length in the model's space along chains of segments: what is farther, or
+                          runs away from the eye, has shorter repeats. With DP_INK_STROKES */
 } dp_stroke_u;
 
 /* How strokes are stylized. Zero is a plain stroke. */

@@ -121,6 +121,37 @@ typedef enum dp_smoothing {
 
 enum { DP_SMOOTH_LEVELS = 6 };
 
+/* A pattern on lines (Raskar 2001, 2.1: "interesting patterns of silhouette edges can be rendered by
+ * texture mapping the enlarged part", and 5; docs/patterns.md). A texture's u runs along the line, its
+ * v across it: of outlines as quads from the edge (0) to the outer border (1); of all other lines
+ * from one side (0) to the other (1). Its ink is as of stroke textures: it takes the line's colour,
+ * or brings its own. With DP_INK_STROKES the first style's is a stroke texture whose u is DP_STROKE_WORLD (or,
+ * `screen`, DP_STROKE_ARC), and dp_style.stroke.texture must be NULL or the same. With DP_INK_QUADS
+ * intersections, which have no edge, stay plain. DP_ERR_ARGUMENT with DP_INK_QUADS and
+ * DP_EDGES_ADJACENCY, whose silhouettes have stroke.texture. */
+typedef struct dp_pattern {
+    const dp_texture *texture; /* NULL: no pattern; must outlive the drawing */
+    float length;       /* of one repeat, px in the middle of the model's box; 0 means natural: as
+                           the texture is to its height, so is the repeat to the line's width, times stroke.scale */
+    float world_length; /* of one repeat, in the model's units; 0: as `length` says */
+    bool screen; /* repeats are equally long on the screen: they do not stick to the surface */
+} dp_pattern;
+
+/* How light falls on lines (Raskar 2001, 5; docs/patterns.md). `c` is the line's colour, N·L the
+ * cosine between what it lies on and dp_shade.light. */
+typedef enum dp_line_lighting {
+    DP_LINE_LIGHT_OFF = 0,
+    DP_LINE_LIGHT_LAMBERT, /* c + t (lit - c), t = max(N·L, 0) */
+    DP_LINE_LIGHT_TOON,    /* the same, t in three steps: 0, 1/2, 1 */
+    DP_LINE_LIGHT_GOOCH /* cool to warm, t = (1 + N·L) / 2, by gooch_… of dp_shade with k_d = c */
+} dp_line_lighting;
+
+typedef struct dp_line_light {
+    dp_line_lighting lighting;
+    dp_color lit; /* of what the light falls on squarely; its alpha says how much of it is taken.
+                     0 means the paper's colour, four fifths of it */
+} dp_line_light;
+
 /* Zero is the default: `dp_style style = {0};` draws every class, 2 px wide, black on white. */
 typedef struct dp_style {
     uint32_t lines;                    /* set of classes; 0 means DP_ALL_LINES; or DP_NO_LINES */
@@ -128,7 +159,9 @@ typedef struct dp_style {
     float ridge_angle;                 /* theta, degrees in (0, 360); 0 means 150 */
     float valley_angle;                /* phi, degrees in (0, 360); 0 means 210 */
     dp_edges edges;
-    dp_stroke_style stroke; /* textures, taper, jitter: strokes.h */
+    dp_stroke_style stroke;   /* textures, taper, jitter: strokes.h */
+    dp_pattern pattern;       /* on lines, along and across, in perspective; default: none */
+    dp_line_light line_light; /* on lines; default: none */
     dp_method method;
     dp_between between;
     dp_ink ink;

@@ -64,9 +64,10 @@ typedef struct dp_frame {
     const struct dp_adjacency *adjacency; /* mesh/adjacency.h; NULL: lines are found without it */
     float fin_reach; /* px: how far printed silhouettes reach beyond outlined polygons; 0: none */
     uint8_t *facing; /* with adjacency, by polygon: core/facing.h */
-    double centre[2], radius; /* px: for polar stroke textures (features/silhouette_edge.h) */
-    bool any_without_area;    /* some polygons have no area */
-    uint8_t *outlined;        /* by polygon: does dp_outline_of_edge find an edge that it draws? */
+    double centre[2], radius; /* px: for polar stroke textures (features/silhouette_edge.h) … */
+    double middle_pixel;   /* … and for patterns: pixel size in the middle of the model's box */
+    bool any_without_area; /* some polygons have no area */
+    uint8_t *outlined;     /* by polygon: does dp_outline_of_edge find an edge that it draws? */
 
     float *depth; /* [tile][sample]: nearest surface; layout in raster/samples.h */
     size_t tile_samples;

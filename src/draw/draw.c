@@ -226,10 +226,12 @@ static void lap(dp_stats *stats, dp_stage stage, double *since) {
     *since = now;
 }
 
-/* Does any stroke texture need the centre of the picture? */
-static bool is_polar(const dp_frame *f) {
-    for (uint32_t i = 0; i < f->style_count; i++)
-        if (f->styles[i].stroke.texture && f->styles[i].stroke.u == DP_STROKE_POLAR) return true;
+/* Does any texture need the centre of the picture? */
+static bool needs_centre(const dp_frame *f) {
+    for (uint32_t i = 0; i < f->style_count; i++) {
+        const dp_style *const s = &f->styles[i];
+        if (s->pattern.texture || (s->stroke.texture && s->stroke.u != DP_STROKE_ARC)) return true;
+    }
     return dp_draws_fins(f);
 }
 
@@ -269,7 +271,7 @@ static bool may_stream(const dp_context *c) {
     const dp_style *const style = &c->frame.styles[0];
     return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && !c->frame.hidden &&
            style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !style->smooth &&
-           !is_polar(&c->frame) && !(style->stroke.light > 0);
+           !needs_centre(&c->frame) && !(style->stroke.light > 0) && !style->line_light.lighting;
 }
 
 static dp_result tell_gathered(void *arg, double done, dp_diag *diag) {
@@ -328,7 +330,7 @@ static dp_result place_vertices(dp_context *c, dp_diag *diag) {
     dp_result result = dp_tell_progress(c, TRANSFORMED, diag);
     if (!result && f->styles[0].edges == DP_EDGES_ADJACENCY)
         result = find_adjacency(c) ? dp_tell_progress(c, PAIRED, diag) : out_of_memory(diag);
-    if (!result && is_polar(f)) dp_find_centre(f);
+    if (!result && needs_centre(f)) dp_find_centre(f);
     return result;
 }
 

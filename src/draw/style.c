@@ -77,13 +77,45 @@ static dp_result resolve_stroke(dp_stroke_style *s, dp_diag *diag) {
     if (s->k == 0) s->k = 0.5f;
     if (s->scale == 0) s->scale = 1;
     if (!s->repeats) s->repeats = 1;
-    if ((unsigned)s->u > DP_STROKE_POLAR || s->repeats > 8 || !within(s->k, -100, 100) ||
+    if ((unsigned)s->u > DP_STROKE_WORLD || s->repeats > 8 || !within(s->k, -100, 100) ||
         !within(s->scale, 1e-3f, 1e3f) || !within(s->taper, 0, 1e4f) || !within(s->jitter, 0, 64) ||
         !within(s->overshoot, 0, 1e3f) || !within(s->depth, 0, 1) || !within(s->light, 0, 1))
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "the stroke's u, k, scale, taper, jitter, overshoot, depth, light or "
                        "repeats is out of range");
     return DP_OK;
+}
+
+/* With strokes a pattern is their texture. */
+static dp_result take_pattern(dp_style *style, dp_diag *diag) {
+    const dp_pattern *const p = &style->pattern;
+    if (style->ink == DP_INK_QUADS) {
+        if (style->edges != DP_EDGES_ADJACENCY) return DP_OK;
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "silhouettes added by adjacency have stroke textures, and no pattern");
+    }
+    if (style->stroke.texture && style->stroke.texture != p->texture)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "strokes have a texture or a pattern, not both; leave one out");
+    style->stroke.texture = p->texture;
+    style->stroke.u = p->screen ? DP_STROKE_ARC : DP_STROKE_WORLD;
+    return DP_OK;
+}
+
+static dp_result resolve_pattern(dp_style *style, dp_diag *diag) {
+    const dp_pattern *const p = &style->pattern;
+    if ((unsigned)style->line_light.lighting > DP_LINE_LIGHT_GOOCH)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "the light on lines is not one of its values");
+    if (!(p->length == 0 || within(p->length, 1, 1e5f)))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "a repeat of the pattern is %s px long; it must be 1 to 100000",
+                       NUMBER(p->length));
+    if (!(p->world_length == 0 || (p->world_length > 0 && isfinite(p->world_length))))
+        return dp_fail(
+            diag, DP_ERR_ARGUMENT,
+            "a repeat of the pattern is %s of the model's units long; it must be above 0",
+            NUMBER(p->world_length));
+    return p->texture ? take_pattern(style, diag) : DP_OK;
 }
 
 const char *dp_shading_name(dp_shading shading) {
@@ -282,7 +314,13 @@ dp_result dp_style_resolve(const dp_style *style, dp_style *resolved, dp_diag *d
         (unsigned)full.ink > DP_INK_QUADS || (unsigned)full.edges > DP_EDGES_ADJACENCY)
         return dp_fail(diag, DP_ERR_ARGUMENT,
                        "edges, method, between or ink is not one of its values");
-    if ((result = check_hidden(&full, diag)) || (result = resolve_xray(&full, diag))) return result;
+    if ((result = check_hidden(&full, diag)) || (result = resolve_xray(&full, diag)) ||
+        (result = resolve_pattern(&full, diag)))
+        return result;
+    if (full.stroke.texture && full.stroke.u == DP_STROKE_WORLD && full.ink == DP_INK_QUADS)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the stroke's u in the model's space is of strokes; with quads as ink give "
+                       "a pattern");
     if (full.detail != 0 && !(full.detail >= 0.01f && full.detail <= 100))
         return dp_fail(diag, DP_ERR_ARGUMENT, "detail is %s; it must be 0, or 0.01 to 100",
                        NUMBER(full.detail));

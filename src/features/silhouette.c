@@ -17,8 +17,10 @@ static uint32_t paper(const dp_primitive *p, uint32_t edge, const dp_pen *pen, d
     const dp_vec3 bevel[3] = {corner,
                               dp_paper_offset(p->view, corner, e, dp_cross(e, n), n, pen->reach),
                               dp_paper_offset(p->view, corner, f, dp_cross(f, n), n, pen->reach)};
-    count += dp_paper_project(p, edge, bevel, 3, DP_PAPER_REACH * pen->reach, &out[count]);
-    return count;
+    if (!dp_paper_project(p, edge, bevel, 3, DP_PAPER_REACH * pen->reach, &out[count]))
+        return count;
+    out[count].joint = true;
+    return count + 1;
 }
 
 /* A polygon seen nearly edge-on would shoot towards the eye, so its slope is limited to

@@ -137,12 +137,14 @@ void dp_find_centre(dp_frame *frame) {
     find_box(frame, min, max);
     frame->centre[0] = frame->view.width / 2, frame->centre[1] = frame->view.height / 2;
     frame->radius = frame->view.height / 2;
+    frame->middle_pixel = 1 / frame->view.focal;
     if (!(min[0] <= max[0])) return;
     const dp_vec3 middle = dp_mix(dp_v3f(min), dp_v3f(max), 0.5);
     const dp_clip_point c = dp_to_clip(&frame->view, middle);
     if (!(c.w > 0)) return;
     const dp_pointd centre = dp_to_screen(&frame->view, c);
     frame->centre[0] = centre.x, frame->centre[1] = centre.y;
+    frame->middle_pixel = dp_pixel_size(&frame->view, centre.d);
     double reach = 0;
     for (int i = 0; i < 8; i++) {
         const dp_vec3 corner = dp_v3((double)(i & 1 ? max : min)[0], (double)(i & 2 ? max : min)[1],

@@ -26,7 +26,8 @@ dp_vec3 dp_vertex_normal(const dp_frame *frame, uint32_t corner);
 float dp_polar_repeats(const dp_frame *frame, const dp_stroke_style *stroke, float width);
 
 /* Sets frame->centre and frame->radius, px: the projected centre of the box of all vertices
- * (Hermosilla and Vázquez 2010, 2.3.3), and how far the projected box reaches from it. */
+ * (Hermosilla and Vázquez 2010, 2.3.3), and how far the projected box reaches from it; and
+ * frame->middle_pixel. */
 void dp_find_centre(dp_frame *frame);
 
 #endif

@@ -26,6 +26,7 @@
 #include "printed/quads.h"
 
 #include "features/features.h"
+#include "printed/marks.h"
 
 #include <string.h>
 
@@ -57,7 +58,8 @@ static uint32_t style_of(const dp_printer *w, uint32_t polygon) {
 typedef struct tool {
     dp_pen pen;
     dp_brush brush;
-    float reach; /* px; how far it draws from its edge */
+    float reach;  /* px; how far it draws from its edge */
+    uint32_t ink; /* the brush's, without marks */
 } tool;
 
 /* What depends on the style alone. Polygons of one group mostly follow each other. */
@@ -76,10 +78,13 @@ typedef struct style_cache {
 
 /* Ridges and valleys are drawn half from each side. One pass of the depth interval shows a valley
  * from one side only, so that side gets the whole width. */
-static dp_pen pen_of(const dp_style *style, dp_line line) {
-    const bool whole =
-        line == DP_LINE_SILHOUETTE ||
-        (line == DP_LINE_VALLEY && style->between == DP_BETWEEN_INTERVAL && style->passes == 1);
+bool dp_quads_whole(const dp_style *style, dp_line line) {
+    return line == DP_LINE_SILHOUETTE ||
+           (line == DP_LINE_VALLEY && style->between == DP_BETWEEN_INTERVAL && style->passes == 1);
+}
+
+dp_pen dp_quads_pen(const dp_style *style, dp_line line) {
+    const bool whole = dp_quads_whole(style, line);
     const float angle = line == DP_LINE_VALLEY ? style->valley_angle : style->ridge_angle;
     return dp_pen_make(style->method, (double)style->line[line].width * (whole ? 1 : 0.5),
                        (double)angle);
@@ -94,10 +99,11 @@ static void set_test(dp_brush *b, const dp_style *style, dp_line line) {
 }
 
 static void set_tool(dp_printer *w, tool *t, const dp_style *style, uint32_t number, dp_line line) {
-    t->pen = pen_of(style, line);
+    t->pen = dp_quads_pen(style, line);
     t->reach =
         (float)t->pen.reach * (t->pen.method == DP_METHOD_PAPER ? (float)DP_PAPER_MARGIN : 1) + 1;
-    t->brush = (dp_brush){.w = w, .ink = dp_ink_of(line, number), .other = UINT32_MAX};
+    t->ink = dp_ink_of(line, number);
+    t->brush = (dp_brush){.w = w, .ink = t->ink, .other = UINT32_MAX};
     set_test(&t->brush, style, line);
 }
 
@@ -138,9 +144,16 @@ typedef struct shading {
     style_cache style_cache;
 } shading;
 
+/* How lines are filled with marks. */
+static dp_fill *marked_fill(dp_fill *line) {
+    return line == dp_fill_line       ? dp_fill_marked_line
+           : line == dp_fill_interval ? dp_fill_marked_interval
+                                      : line;
+}
+
 static void begin_shading(shading *pass, dp_printer *w, dp_fill *line, dp_fill *valley) {
     pass->w = w;
-    pass->line = line, pass->valley = valley;
+    pass->line = w->marked ? marked_fill(line) : line, pass->valley = valley;
     fill_cache(w, &pass->style_cache, 0);
 }
 
@@ -161,8 +174,7 @@ static bool is_hidden(const dp_printer *w, const style_cache *o, const dp_tile_p
     return true;
 }
 
-/* Fetches the corners of a tile polygon. False: out of memory. */
-static bool fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
+bool dp_quads_fetch(dp_printer *w, uint32_t index, dp_primitive *out) {
     const dp_polygons *const polygons = &w->tile->frame->polygons;
     const dp_tile_polygon *const p = &w->tile->polygons[index];
     const uint32_t first = dp_first_corner(polygons, p->id), n = dp_corner_count(polygons, p->id);
@@ -210,20 +222,43 @@ static void fill_added(dp_brush *b, const style_cache *o, const dp_added *a, dou
     with(b, points, a->count);
 }
 
+/* How joints are filled where lines are filled so; silhouettes have none that need be asked. */
+static dp_fill *joint_fill(dp_line line, dp_fill *with) {
+    if (line == DP_LINE_SILHOUETTE) return with;
+    return with == dp_fill_line          ? dp_fill_joint
+           : with == dp_fill_marked_line ? dp_fill_marked_joint
+                                         : with;
+}
+
+/* Gives an added polygon its mark. */
+static __attribute__((noinline)) void mark(dp_brush *b, uint32_t ink, uint32_t edge,
+                                           const dp_added *added) {
+    b->ink = dp_mark_added(b->w, ink, b->self, edge, added);
+    for (int i = 0; i < 2; i++) b->screen_root[i] = added->root[i];
+}
+
 /* Fills everything of one class that polygon `index` adds. */
 static void add_class(shading *pass, const dp_primitive *primitive, uint32_t index, dp_line line,
                       dp_primitive_shader *shade, double bias, dp_fill *with) {
     dp_printer *const w = pass->w;
     tool *const t = &pass->style_cache.tools[line];
-    const bool folded = line != DP_LINE_SILHOUETTE && with == dp_fill_line;
+    dp_fill *const joint = joint_fill(line, with);
+    const bool marked = w->marked;
     t->brush.self = index;
     for (uint32_t edge = 0; edge < primitive->n; edge++) {
         dp_added added[DP_ADDED_MOST];
         if (!dp_tile_edge_reaches(w->tile, &w->tile->polygons[index], edge, t->reach)) continue;
         const uint32_t count = shade(primitive, edge, &t->pen, added);
-        for (uint32_t i = 0; i < count; i++)
+        for (uint32_t i = 0; i < count; i++) {
+            if (marked) /* of a joint, the second half is the next edge's */
+                mark(&t->brush, t->ink,
+                     i <= count / 2             ? edge
+                     : edge + 1 == primitive->n ? 0
+                                                : edge + 1,
+                     &added[i]);
             fill_added(&t->brush, &pass->style_cache, &added[i], bias,
-                       folded && added[i].joint ? dp_fill_joint : with);
+                       added[i].joint ? joint : with);
+        }
         w->tile->stats.added_polygons += count;
     }
 }
@@ -240,7 +275,7 @@ static void add_lines(shading *pass, uint32_t index) {
     const uint32_t lines = pass->style_cache.style->lines & drawn;
     dp_primitive primitive;
     if (!(lines & (front ? DP_RIDGE | DP_BORDER | DP_VALLEY : DP_SILHOUETTE))) return;
-    if (is_hidden(w, &pass->style_cache, p) || !fetch(w, index, &primitive)) return;
+    if (is_hidden(w, &pass->style_cache, p) || !dp_quads_fetch(w, index, &primitive)) return;
     if (!front)
         add_class(pass, &primitive, index, DP_LINE_SILHOUETTE, dp_shade_silhouette, BIAS,
                   pass->line);
@@ -260,6 +295,12 @@ static void add_all(dp_printer *w, dp_fill *line, dp_fill *valley) {
 
 /* ------- faces ------- */
 
+/* The ink of what no added polygon draws. */
+static uint32_t ink_of(dp_printer *w, dp_line line, uint32_t style) {
+    const uint32_t ink = dp_ink_of(line, style);
+    return w->marked ? dp_mark_class(w, ink) : ink;
+}
+
 static void fill_face(dp_brush *b, const dp_tile_polygon *p, dp_fill *with) {
     b->plane = (dp_plane){p->d0, p->dx, p->dy, p->nearest};
     const dp_vertex *const v = b->w->tile->points + p->point;
@@ -277,7 +318,7 @@ static void add_face(dp_printer *w, uint32_t index, bool back, double bias, dp_f
     if (!(style->lines & DP_INTERSECTION) || !dp_is_surface(w->tile, p)) return;
     if (!back && !(p->flags & DP_POLYGON_FRONT)) return;
     dp_brush b = {.w = w,
-                  .ink = dp_ink_of(DP_LINE_INTERSECTION, number),
+                  .ink = ink_of(w, DP_LINE_INTERSECTION, number),
                   .self = index,
                   .face = true,
                   .other = UINT32_MAX};
@@ -312,7 +353,7 @@ static void between_depths_once(dp_printer *w) {
         const dp_style *const style = &w->tile->frame->styles[number];
         if (dp_is_surface(w->tile, p)) {
             dp_brush b = {.w = w,
-                          .ink = dp_ink_of(DP_LINE_INTERSECTION, number),
+                          .ink = ink_of(w, DP_LINE_INTERSECTION, number),
                           .face = true,
                           .intersections =
                               style->lines & DP_INTERSECTION && p->flags & DP_POLYGON_FRONT};
@@ -340,7 +381,10 @@ static void ink_stencil(dp_printer *w, dp_line line) {
         w->stencil[i] = 0;
         if (!count || w->tile->winner[i] == UINT32_MAX) continue;
         if (w->ink[i] & DP_INK_ADDED) continue;
-        w->ink[i] = dp_ink_of(line, style_of(w, w->tile->polygons[w->tile->winner[i]].id));
+        w->ink[i] = w->marked && w->trapped[i]
+                        ? w->trapped[i]
+                        : ink_of(w, line, style_of(w, w->tile->polygons[w->tile->winner[i]].id));
+        if (w->marked) w->trapped[i] = 0;
     }
 }
 
@@ -369,6 +413,13 @@ static bool begin(dp_printer *w) {
         return false;
     memset(w->ink, 0, n * sizeof *w->ink);
     memset(w->stencil, 0, n);
+    dp_marks_begin(w);
+    if (w->marked) {
+        if (!DP_TILE_RESERVE(w->tile, w, trapped, trapped_cap, n) ||
+            !DP_TILE_RESERVE(w->tile, w, rank, rank_cap, n))
+            return false;
+        memset(w->trapped, 0, n * sizeof *w->trapped);
+    }
     /* In perspective nothing lies beyond infinity, d = 0, though a steep plane may lead there. */
     const float farthest = w->tile->frame->view.perspective ? 0 : DP_DEPTH_EMPTY;
     for (size_t i = 0; i < n; i++) w->ink_depth[i] = farthest;
@@ -386,7 +437,7 @@ void dp_tile_quads(dp_printer *w) {
         between_depths_once(w);
     else
         between_depths_twice(w);
-    dp_quads_put(w);
+    if (!w->tile->failed) dp_quads_put(w);
 }
 
 /* ------- memory ------- */
@@ -396,7 +447,12 @@ static const dp_array arrays[] = {DP_ARRAY(dp_printer, ink, ink_cap),
                                   DP_ARRAY(dp_printer, stencil, stencil_cap),
                                   DP_ARRAY(dp_printer, world, world_cap),
                                   DP_ARRAY(dp_printer, clip, clip_cap),
-                                  DP_ARRAY(dp_printer, screen_edges, screen_edges_cap)};
+                                  DP_ARRAY(dp_printer, screen_edges, screen_edges_cap),
+                                  DP_ARRAY(dp_printer, marks, marks_cap),
+                                  DP_ARRAY(dp_printer, shown, shown_cap),
+                                  DP_ARRAY(dp_printer, colors, colors_cap),
+                                  DP_ARRAY(dp_printer, trapped, trapped_cap),
+                                  DP_ARRAY(dp_printer, rank, rank_cap)};
 
 void dp_printer_free(dp_printer *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));

@@ -17,6 +17,15 @@ typedef struct dp_printer {
     dp_clip_point *clip;
     struct dp_screen_edge *screen_edges;
     size_t ink_cap, ink_depth_cap, stencil_cap, world_cap, clip_cap, screen_edges_cap;
+
+    /* With patterns or light (marks.h): `ink` holds numbers of marks, from 1 */
+    bool marked;
+    struct dp_mark *marks;
+    struct dp_shown *shown; /* of those that samples show */
+    dp_color *colors;       /* by sample */
+    uint32_t *trapped;      /* by sample, stencil: the ink of a quad that is trapped there */
+    float *rank;            /* by sample: px to what its ink grows from */
+    size_t marks_cap, shown_cap, colors_cap, trapped_cap, rank_cap, mark_count, shown_count;
 } dp_printer;
 
 void dp_printer_free(dp_printer *printer, const dp_allocator *memory);
@@ -44,12 +53,13 @@ typedef struct dp_brush {
     dp_printer *w;
     dp_ink_test test;
     uint32_t ink;
-    uint32_t self;    /* tile polygon */
-    dp_plane plane;   /* of what is drawn: its depth */
-    float reach;      /* px; plane test: how near the planes must cross */
-    dp_point root[2]; /* plane test: the edge or corner that it grows from */
-    dp_step trap;     /* how far behind the surface still counts */
-    dp_step nearer;   /* stencil: how far to move it towards the eye */
+    uint32_t self;            /* tile polygon */
+    dp_plane plane;           /* of what is drawn: its depth */
+    float reach;              /* px; plane test: how near the planes must cross */
+    dp_point root[2];         /* plane test: the edge or corner that it grows from */
+    dp_pointd screen_root[2]; /* with marks: the same on the screen */
+    dp_step trap;             /* how far behind the surface still counts */
+    dp_step nearer;           /* stencil: how far to move it towards the eye */
     bool face, intersections;
     uint32_t other; /* intersections: the last polygon asked about; meets: the answer */
     bool meets;
@@ -75,12 +85,21 @@ static inline uint32_t dp_ink_of(dp_line line, uint32_t style) {
 static inline dp_line dp_ink_line(uint32_t ink) { return (dp_line)((ink >> 17 & 7) - 1); }
 static inline uint32_t dp_ink_style(uint32_t ink) { return ink & 0x1ffff; }
 
+/* With what a class of lines is drawn, and whether one polygon draws all of its width. */
+dp_pen dp_quads_pen(const dp_style *style, dp_line line);
+bool dp_quads_whole(const dp_style *style, dp_line line);
+/* Fetches the corners of a tile polygon. False: out of memory. */
+bool dp_quads_fetch(dp_printer *printer, uint32_t polygon, dp_primitive *out);
+
 /* Fills a convex polygon of n points in tile space, with the brush's plane as depth. */
 typedef void dp_fill(dp_brush *brush, const dp_point *points, uint32_t n);
 
 /* Over the finished faces: the nearest wins; the same for joints of ridges; the between-test of
  * planes. */
 dp_fill dp_fill_line, dp_fill_joint, dp_fill_between_planes;
+/* The first two, and lines as dp_fill_interval has them, with marks: of polygons of one class at about one
+ * depth that from whose edge the sample is least far (marks.h). */
+dp_fill dp_fill_marked_line, dp_fill_marked_joint, dp_fill_marked_interval;
 /* The two depth buffers (Raskar 2001, 2.3). */
 dp_fill dp_fill_interval, dp_fill_trap_in_interval;
 /* The stencil buffer (Raskar 2001, 7). */

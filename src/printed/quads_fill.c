@@ -10,7 +10,7 @@
  * triangles, four samples at a time. Invariant: no test changes the depth of faces. */
 #include "printed/kernels.h"
 #include "features/crossing.h"
-#include "printed/quads.h"
+#include "printed/marks.h"
 
 #include "features/features.h"
 
@@ -74,11 +74,72 @@ static bool wins_joint(const dp_brush *b, size_t lane, float d) {
     return !close || passes_root(b, lane, d, JOINT * b->reach);
 }
 
-/* The between-test of planes. */
+/* ------- marks ------- */
+
+/* With a pattern it matters which of several polygons inks a sample: those behind an outline reach
+ * over it too, and often nearer to the eye. The pattern of the edge that is least far on the screen
+ * is the one that is meant, for the same class of lines and within this many widths in depth. */
+static const double ONE_LINE = 8;
+
+/* px from the sample to the edge or corner that the polygon grows from. */
+static float rank_of(const dp_brush *b, size_t lane) {
+    double x, y;
+    dp_mark_sample_at(b->w, lane, &x, &y);
+    const dp_pointd p = b->screen_root[0], q = b->screen_root[1];
+    const double ex = q.x - p.x, ey = q.y - p.y, length2 = ex * ex + ey * ey;
+    const double along = length2 > 0 ? ((x - p.x) * ex + (y - p.y) * ey) / length2 : 0;
+    const double t = dp_min(dp_max(along, 0), 1);
+    return (float)dp_hypot(x - p.x - t * ex, y - p.y - t * ey);
+}
+
+static bool is_one_class(const dp_brush *b, uint32_t held) {
+    const dp_mark *const m = &b->w->marks[(held & ~DP_INK_ADDED) - 1],
+                         *const n = &b->w->marks[(b->ink & ~DP_INK_ADDED) - 1];
+    return m->line == n->line && m->style == n->style && !m->plain;
+}
+
+/* Puts the polygon's ink into a sample, unless one that is less far has its own there (`held`). */
+static void take(const dp_brush *b, uint32_t *held, size_t lane, bool compares) {
+    const float rank = rank_of(b, lane);
+    if (compares && *held && rank >= b->w->rank[lane]) return;
+    *held = b->ink;
+    b->w->rank[lane] = rank;
+}
+
+/* Is what inks the sample of the same line, at this depth? */
+static bool is_one_line(const dp_brush *b, uint32_t held, size_t lane, float d) {
+    const dp_printer *const w = b->w;
+    if (!held || !is_one_class(b, held)) return false;
+    const dp_mark *const m = &w->marks[(b->ink & ~DP_INK_ADDED) - 1];
+    const double width = (double)w->tile->frame->styles[m->style].line[m->line].width;
+    const double step = dp_depth_step(&w->tile->frame->view, fabs((double)d), ONE_LINE * width);
+    return fabs((double)d - (double)w->ink_depth[lane]) <= step;
+}
+
+/* A line before the surface. Its depth is that of the nearest polygon, whichever inks it. */
+static void take_line(const dp_brush *b, size_t lane, float d) {
+    dp_printer *const w = b->w;
+    const bool seen = d > w->tile->depth[lane], nearer = d > w->ink_depth[lane];
+    if (!b->ink) return;
+    const bool one_line = is_one_line(b, w->ink[lane], lane, d);
+    if (!nearer && !(one_line && seen)) return;
+    if (b->test == DP_INK_JOINT && !wins_joint(b, lane, d)) return;
+    take(b, &w->ink[lane], lane, one_line);
+    if (nearer) w->ink_depth[lane] = d;
+}
+
+/* May a trapped polygon ink what holds this ink already? */
+static bool may_replace(const dp_brush *b, uint32_t held, size_t lane) {
+    return b->w->marked && b->ink && is_one_class(b, held) && rank_of(b, lane) < b->w->rank[lane];
+}
+
+/* ------- the between-test of planes ------- */
+
 static bool is_trapped(dp_brush *b, size_t lane, float d) {
     const dp_printer *const w = b->w;
     const uint32_t winner = w->tile->winner[lane], held = w->ink[lane];
-    if (winner == UINT32_MAX || held & DP_INK_ADDED || (held && !b->face)) return false;
+    if (winner == UINT32_MAX || held & DP_INK_ADDED) return false;
+    if (held && !b->face && !may_replace(b, held, lane)) return false;
     const dp_tile_polygon *const q = &w->tile->polygons[winner];
     if (!b->face && !(q->flags & DP_POLYGON_FRONT)) return false;
     if (!dp_planes_cross_within(w->tile->depth[lane] - d, q->dx - b->plane.dx, q->dy - b->plane.dy,
@@ -93,6 +154,7 @@ void dp_quads_ask(dp_brush *b, size_t lane, uint32_t bits, const float *d) {
         const uint32_t i = (uint32_t)__builtin_ctz(bits);
         if (!(joint ? wins_joint(b, lane + i, d[i]) : is_trapped(b, lane + i, d[i]))) continue;
         b->w->ink[lane + i] = b->ink;
+        if (b->w->marked) b->w->rank[lane + i] = rank_of(b, lane + i);
         if (joint) b->w->ink_depth[lane + i] = d[i];
     }
 }
@@ -117,8 +179,20 @@ DP_INLINED void draw_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     *ink_at(b, lane) = dp_selecti(trapped, splat(b->ink), ink);
 }
 
+/* The same for ink with marks. */
+static void trap_marked(const dp_brush *b, size_t lane, dp_i4 trapped) {
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t *const held = &b->w->ink[lane + i];
+        if (trapped[i]) take(b, held, lane + i, *held && b->ink && is_one_class(b, *held));
+    }
+}
+
 DP_INLINED void trap_in_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const dp_brush *const b = arg;
+    if (b->w->marked) {
+        trap_marked(b, lane, between(b, lane, in, d));
+        return;
+    }
     *ink_at(b, lane) = dp_selecti(between(b, lane, in, d), splat(b->ink), *ink_at(b, lane));
 }
 
@@ -133,6 +207,27 @@ DP_INLINED void count_up(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
     const dp_brush *const b = arg;
     const dp_i4 front = in & (behind(d, b->nearer) > *depth_at(b, lane));
     for (uint32_t i = 0; i < 4; i++) b->w->stencil[lane + i] -= (uint8_t)front[i];
+    if (!b->w->marked || b->face) return;
+    const dp_i4 trapped = front & ~(d > *depth_at(b, lane));
+    for (uint32_t i = 0; i < 4; i++)
+        if (trapped[i]) take(b, &b->w->trapped[lane + i], lane + i, true);
+}
+
+/* Of four samples those that a line with a mark may take, one by one: they are few. */
+static void take_lines(const dp_brush *b, size_t lane, dp_i4 may, dp_f4 d) {
+    for (uint32_t i = 0; i < 4; i++)
+        if (may[i]) take_line(b, lane + i, d[i]);
+}
+
+DP_INLINED void draw_marked(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+    const dp_i4 seen = in & (d > *depth_at(arg, lane));
+    if (dp_any(seen)) take_lines(arg, lane, seen, d);
+}
+
+/* z1 is that of lines and faces. */
+DP_INLINED void draw_marked_interval(void *arg, size_t lane, dp_i4 in, dp_f4 d) {
+    const dp_i4 may = in & ((d > *depth_at(arg, lane)) | (d > *ink_depth_at(arg, lane)));
+    if (dp_any(may)) take_lines(arg, lane, may, d);
 }
 
 /* ------- rasterizing ------- */
@@ -206,7 +301,19 @@ void dp_fill_between_planes(dp_brush *b, const dp_point *p, uint32_t n) {
                 dp_coverage_fill(s, &area, &b->plane, s->vectors, test, b);                        \
         }                                                                                          \
     }
+static dp_fill fill_marked;
+DEFINE_FILL(fill_marked, draw_marked)
+DEFINE_FILL(dp_fill_marked_interval, draw_marked_interval)
 DEFINE_FILL(dp_fill_interval, draw_interval)
 DEFINE_FILL(dp_fill_trap_in_interval, trap_in_interval)
 DEFINE_FILL(dp_fill_count_down, count_down)
 DEFINE_FILL(dp_fill_count_up, count_up)
+
+void dp_fill_marked_line(dp_brush *b, const dp_point *p, uint32_t n) {
+    b->test = DP_INK_NEAREST;
+    fill_marked(b, p, n);
+}
+void dp_fill_marked_joint(dp_brush *b, const dp_point *p, uint32_t n) {
+    b->test = DP_INK_JOINT;
+    fill_marked(b, p, n);
+}

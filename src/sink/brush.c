@@ -28,6 +28,7 @@ typedef struct brush {
     uint32_t x0, y0, x1, y1;
     const dp_stroke_style *style;
     bool outlines_outside;
+    bool pattern; /* the texture is a pattern */
 } brush;
 
 /* Texels with less ink are discarded. */
@@ -76,11 +77,19 @@ static bool find_spot(const dp_stylized *m, float x, float y, spot *s) {
 static void cover_centred(const dp_stylized *m, spot *s) {
     const float half = m->half[0] + (m->half[1] - m->half[0]) * s->t;
     s->cover = overlap(s->distance, -half, half);
-    s->v = 0.5f + 0.5f * s->across / half;
+    s->v = 0.5f + 0.5f * (m->flipped ? -s->across : s->across) / half;
 }
 
 /* Does a chain begin here? */
 static bool starts(const dp_stylized *m) { return m->before[0] == 0 && m->before[1] == 0; }
+
+/* Patterns end square, or where lines meet the round ends of one would lie over the pattern of the
+ * other: the share of a pixel that lies between a chain's ends. */
+static float within_ends(const dp_stylized *m, const spot *s) {
+    const float ahead = starts(m) ? -s->along * m->length : -1,
+                past = m->ends ? (s->along - 1) * m->length : -1;
+    return clamp01(0.5f - ahead) * clamp01(0.5f - past);
+}
 
 /* The sector at the joint with the part before: beyond that one's end, before this one's start. */
 static bool in_joint(const dp_stylized *m, float dx, float dy) {
@@ -116,7 +125,20 @@ static void cover_outside(const dp_stylized *m, spot *s, float x, float y) {
 /* u in repeats of the texture. It stands still around a joint and runs on beyond the ends. */
 static float u_at(const dp_stylized *m, const spot *s) {
     const float along = (s->along < 0 && starts(m)) || (s->along > 1 && m->ends) ? s->along : s->t;
+    if (m->world && along > 0 && along < 1) /* as lengths in space are seen */
+        return (m->arc[0] * m->stroke.a.d * (1 - along) + m->arc[1] * m->stroke.b.d * along) /
+               (m->stroke.a.d * (1 - along) + m->stroke.b.d * along);
     return m->arc[0] + (m->arc[1] - m->arc[0]) * along;
+}
+
+/* The texture's ink: of a pattern, which may be seen from afar, the mean over the pixel. */
+static dp_texel texel_at(const brush *b, const dp_stylized *m, uint32_t level, const spot *s) {
+    const dp_texture *const texture = b->style->texture;
+    const float u = u_at(m, s);
+    if (!b->pattern) return dp_texture_sample(texture, level, u, s->v);
+    const float width = (m->outside ? 1 : 2) * (m->half[0] + (m->half[1] - m->half[0]) * s->t);
+    const float du = m->length > 0 ? fabsf(m->arc[1] - m->arc[0]) / m->length : 0;
+    return dp_texture_filtered(texture, u - floorf(u), s->v, dp_minf(du, 1e3f), 1 / width);
 }
 
 /* The distance by which dp_visible_share lets a surface come nearer and still not hide the stroke.
@@ -160,6 +182,8 @@ static void cover_pixel(const brush *b, const dp_stylized *m, uint32_t level, ui
         cover_centred(m, &s);
     if (!(s.cover > 0)) return;
     if (m->core) s.v = 0;
+    if (b->pattern) s.cover *= within_ends(m, &s);
+    if (!(s.cover > 0)) return;
     const float rank = m->outside ? s.distance + 1000 * (1 - s.cover) : s.distance;
     if (set && rank >= w->nearest[at]) return;
     s.cover *= m->outside && !m->core
@@ -169,7 +193,7 @@ static void cover_pixel(const brush *b, const dp_stylized *m, uint32_t level, ui
     if (!(s.cover > 0)) return;
     dp_color color = m->stroke.color;
     if (b->style->texture) {
-        const dp_texel t = dp_texture_sample(b->style->texture, level, u_at(m, &s), s.v);
+        const dp_texel t = texel_at(b, m, level, &s);
         s.cover *= t.ink < least_ink(m)
                        ? 0
                        : t.ink; /* discarded, it is this part's pixel all the same, no other's */
@@ -246,6 +270,7 @@ void dp_ink_stylized(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
                      .worker = worker,
                      .style = &frame->styles[0].stroke,
                      .outlines_outside = dp_lies_outside(frame),
+                     .pattern = frame->styles[0].pattern.texture,
                      .depth = frame->tile_pieces[tile].empty
                                   ? NULL
                                   : frame->depth + (size_t)tile * frame->tile_samples,

@@ -50,11 +50,15 @@ static dp_point end_point(const chaining *c, uint32_t end) {
     return end & 1 ? s->b : s->a;
 }
 
+static bool one_line(const chaining *c, const dp_stroke *s, const dp_stroke *t) {
+    return c->rule->any_class ||
+           (s->line == t->line && (c->rule->any_color || s->color == t->color));
+}
+
 static bool same_node(const chaining *c, uint32_t e, uint32_t f) {
     const dp_point p = end_point(c, e), q = end_point(c, f);
     const dp_stroke *const s = &c->strokes[e / 2], *const t = &c->strokes[f / 2];
-    return p.x == q.x && p.y == q.y && p.d == q.d && s->level == t->level &&
-           (c->rule->any_class || (s->line == t->line && s->color == t->color));
+    return p.x == q.x && p.y == q.y && p.d == q.d && s->level == t->level && one_line(c, s, t);
 }
 
 static uint32_t node_hash(const chaining *c, uint32_t end) {
@@ -164,8 +168,7 @@ static bool may_bridge(const chaining *c, uint32_t e, uint32_t f, float *distanc
     const dp_point p = end_point(c, e), q = end_point(c, f);
     *distance = dp_hypotf(q.x - p.x, q.y - p.y);
     return *distance <= (side_at(c, e) ? c->rule->side_gap : c->rule->gap) &&
-           fabsf(p.d - q.d) <= c->rule->step && s->level == t->level &&
-           (c->rule->any_class || (s->line == t->line && s->color == t->color)) &&
+           fabsf(p.d - q.d) <= c->rule->step && s->level == t->level && one_line(c, s, t) &&
            may_join(c, e, f);
 }
 

@@ -34,6 +34,7 @@ typedef struct dp_chain_rule {
     float step;         /* as far in depth d as that, at most */
     float sharp;        /* degrees: only segments whose fold turns by so much go over gaps */
     bool any_class;     /* segments of all classes and colours are joined */
+    bool any_color;     /* those of all colours: light gives each its own */
     const int8_t *side; /* [segments] +1 or -1: where the outside lies, seen from a to b; it must
                            stay on one side of a chain. 0: it has none. All of a class have one, or
                            none has. NULL: none at all */

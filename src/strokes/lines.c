@@ -71,14 +71,20 @@ static double nearest_depth(const dp_lines *d) {
 /* Thin extruded lines must not run over what no edge does. */
 static float gap_outside(const dp_lines *d) { return dp_minf(GAP, d->silhouette_width / 4); }
 
+/* A pattern that begins anew is seen from farther off than the gap in a wide line. */
+static float gap_of(const dp_lines *d) {
+    return d->patterned ? dp_maxf(GAP, d->silhouette_width / 4) : GAP;
+}
+
 /* They are chained where their ends are equal, and nowhere else. */
 dp_chain_rule dp_plain_chain_rule(void) { return (dp_chain_rule){.sharpest = TURN}; }
 
 static dp_chain_rule rule_of(const dp_frame *frame, const dp_lines *d) {
     if (!d->stylizes) return dp_plain_chain_rule();
     return (dp_chain_rule){.sharpest = TURN,
+                           .any_color = d->lit,
                            .side = d->sides,
-                           .gap = GAP,
+                           .gap = gap_of(d),
                            .side_gap = gap_outside(d),
                            .step = (float)dp_depth_step(&frame->view, nearest_depth(d), 30)};
 }

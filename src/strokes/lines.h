@@ -39,6 +39,8 @@ typedef struct dp_lines {
 
     /* Of the first style, which is no longer there when chains are asked for after the picture. */
     bool stylizes;          /* it asks for stylized strokes */
+    bool patterned;         /* … with a pattern */
+    bool lit;               /* light gives each segment its colour */
     bool lies_outside;      /* they lie beside their lines, as extruded ones do */
     float silhouette_width; /* px */
 

@@ -17,6 +17,7 @@
 #include "strokes/evidence.h"
 #include "strokes/kernels.h"
 #include "features/crossing.h"
+#include "features/lit.h"
 #include "core/outline.h"
 #include "core/spine.h"
 #include "base/sort.h"
@@ -231,6 +232,23 @@ static dp_color faded(const dp_style *style, float through, dp_color color) {
     return out;
 }
 
+/* The colour of a visible line in the light that falls on the polygons beside it: at a crease, both
+ * are taken as they are seen. */
+static dp_color lit(const dp_frame *frame, const dp_style *style, const dp_piece *piece,
+                    dp_color color) {
+    const bool outline = piece->line == DP_LINE_SILHOUETTE;
+    const uint32_t polygons[2] = {piece->a, piece->b};
+    dp_vec3 sum = {0, 0, 0};
+    for (int k = 0; k < 2; k++) {
+        if (polygons[k] == UINT32_MAX) continue;
+        const dp_vec3 n = dp_polygon_normal(frame, polygons[k]);
+        const bool away = !outline && !dp_polygon_faces_eye(frame, polygons[k]);
+        sum = dp_mad(sum, n, away ? -1 : 1);
+    }
+    return dp_lit_color(style, color,
+                        dp_dot(dp_unit(sum), dp_light_direction(&frame->view, style)));
+}
+
 void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segment,
                   dp_stroke *stroke) {
     const dp_style *const style = dp_polygon_style(frame, piece->a);
@@ -239,9 +257,10 @@ void dp_take_look(const dp_frame *frame, const dp_piece *piece, dp_segment *segm
         own ? &style->hidden.line[piece->level - 1][piece->line] : &style->line[piece->line];
     segment->level = stroke->level = piece->level;
     segment->width = line->width;
-    stroke->color = line->color;
-    segment->color =
-        frame->xray && piece->level ? faded(style, piece->through, line->color) : line->color;
+    dp_color color = line->color;
+    if (style->line_light.lighting && !own) color = lit(frame, style, piece, color);
+    stroke->color = color;
+    segment->color = frame->xray && piece->level ? faded(style, piece->through, color) : color;
     stroke->half_width = line->width / 2;
 }
 
@@ -318,6 +337,8 @@ bool dp_make_segments(const dp_frame *frame, const dp_found *found, dp_lines *st
     store->chained = false;
     store->inks_hidden = false;
     store->stylizes = dp_is_stylized(frame);
+    store->patterned = frame->styles[0].pattern.texture;
+    store->lit = frame->styles[0].line_light.lighting;
     store->lies_outside = dp_lies_outside(frame);
     store->silhouette_width = frame->styles[0].line[DP_LINE_SILHOUETTE].width;
     store->paper = frame->styles[0].paper;

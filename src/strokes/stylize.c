@@ -1,9 +1,13 @@
 /* Stylizing: from chains of segments to stylized strokes.
  *
  *     for each chain, cut at corners where a pen is lifted, and for each repeat:
- *         take points along it at even distances
+ *         take points along it at even depths
  *         smooth them, but not at corners; move them by jitter; lengthen both ends by overshoot
  *         make a part of a stroke of each two points: width by taper, depth and light; u by length
+ *
+ * A pattern's u (DP_STROKE_WORLD) is measured in space, from point to point of the same points, with
+ * their depths smoothed (which are affine on a straight line): a zigzag towards the eye and away, as outlines of round
+ * surfaces have it, is not seen and takes no length.
  *
  * The texture of a closed chain is stretched to fit a whole number of times, so that it has no
  * seam. Jitter is noise over the arc length, seeded by the style's seed, the repeat and the
@@ -12,11 +16,12 @@
  * not moved. */
 #include "strokes/lines.h"
 
+#include "features/mapping.h"
 #include "features/silhouette_edge.h"
 #include "core/outline.h"
 #include "texture/texture.h"
 
-enum { SMOOTHINGS = 3 };
+enum { SMOOTHINGS = 3, DEPTH_SMOOTHINGS = 48 };
 static const float CORNER = 0.77f; /* cosine: sharper turns than 40 degrees are meant, and stay */
 static const float BREAK = 0.34f;  /* at corners of more than 70 degrees the pen is lifted */
 static const float SWELL = 0.4f;   /* px of width per px of an extruded outline's length */
@@ -26,12 +31,14 @@ static const float THINNEST = 0.12f; /* of the width, at the end of a taper */
 typedef struct dp_stylized_point {
     float x, y, d;
     float arc;        /* px from the chain's start */
+    float reach;      /* world units from there, with DP_STROKE_WORLD; else as arc */
     uint32_t segment; /* that follows */
 } path_point;
 
 static const dp_array arrays[] = {DP_ARRAY(dp_stylized_store, stylized, stylized_cap),
                                   DP_ARRAY(dp_stylized_store, points, points_cap),
-                                  DP_ARRAY(dp_stylized_store, lights, lights_cap)};
+                                  DP_ARRAY(dp_stylized_store, lights, lights_cap),
+                                  DP_ARRAY(dp_stylized_store, depths, depths_cap)};
 
 void dp_stylized_store_free(dp_stylized_store *store, const dp_allocator *memory) {
     dp_arrays_free(memory, store, DP_ARRAYS(arrays));
@@ -76,7 +83,7 @@ typedef struct stylizer {
     dp_stylized_store *store;
     const dp_stroke_style *style;
     bool outside;            /* the line that is being drawn lies beside its spine */
-    float nearest, farthest; /* distances of all lines */
+    float nearest, farthest; /* depths of all lines */
 } stylizer;
 
 /* A part of a chain between two corners at which the pen is lifted; or the whole. */
@@ -101,7 +108,7 @@ static bool add_point(stylizer *h, size_t *n, dp_point p, uint32_t segment) {
     dp_stylized_store *const s = h->store;
     if (!dp_reserve(h->frame->memory, &s->points, &s->points_cap, *n + 1, sizeof *s->points))
         return false;
-    s->points[(*n)++] = (path_point){p.x, p.y, p.d, 0, segment};
+    s->points[(*n)++] = (path_point){p.x, p.y, p.d, 0, 0, segment};
     return true;
 }
 
@@ -146,6 +153,45 @@ static float measure(path_point *p, size_t n) {
         p[i].arc = arc;
     }
     return arc;
+}
+
+static bool is_world(const stylizer *h) {
+    return h->style->texture && h->style->u == DP_STROKE_WORLD;
+}
+
+/* Smooths a row of numbers, but for its ends. */
+static void even_out(double *v, size_t n) {
+    for (int pass = 0; pass < DEPTH_SMOOTHINGS; pass++) {
+        double last = v[0];
+        for (size_t i = 1; i + 1 < n; i++) {
+            const double own = v[i];
+            v[i] = (last + 2 * own + v[i + 1]) / 4;
+            last = own;
+        }
+    }
+}
+
+/* Lengths in space from the chain's start, for u. */
+static bool measure_space(stylizer *h, size_t n) {
+    dp_stylized_store *const s = h->store;
+    const dp_view *const view = &h->frame->view;
+    path_point *const p = s->points;
+    for (size_t i = 0; i < n; i++) p[i].reach = p[i].arc;
+    if (!is_world(h)) return true;
+    if (!dp_reserve(h->frame->memory, &s->depths, &s->depths_cap, n, sizeof *s->depths))
+        return false;
+    for (size_t i = 0; i < n; i++) s->depths[i] = (double)p[i].d;
+    even_out(s->depths, n);
+    dp_vec3 last = {0, 0, 0};
+    double reach = 0;
+    for (size_t i = 0; i < n; i++) {
+        const dp_vec3 at =
+            dp_unproject(view, (dp_pointd){(double)p[i].x, (double)p[i].y, s->depths[i]});
+        if (i) reach += dp_length(dp_sub(at, last));
+        p[i].reach = (float)reach;
+        last = at;
+    }
+    return true;
 }
 
 /* Where a ring closes is a point like any other. */
@@ -241,12 +287,12 @@ static float width_at(const stylizer *h, const path_point *p, float length, bool
 
 /* ------- parts of strokes ------- */
 
-/* How many repeats of the texture one px is long. Closed chains have no seam; long open ones that
+/* How many repeats of the texture one px, or one unit of space, is long. Closed chains have no seam; long open ones that
  * begin where the texture does end where it does, so that no dot is cut, for a stretch of an eighth
  * at most. */
 static float repeats_per_px(const stylizer *h, float width, float length, bool closed) {
     if (!h->style->texture) return 0;
-    const float period = dp_texture_period(h->style->texture, width) * h->style->scale;
+    const float period = (float)dp_pattern_length(h->frame, &h->frame->styles[0], width);
     if (length < (closed ? 0.5f : 4) * period || (!closed && h->style->jitter > 0))
         return 1 / period;
     return floorf(length / period + 0.5f) / length;
@@ -281,6 +327,16 @@ static float outside_width(float full, float length) {
     return dp_maxf(dp_minf(full, 1.5f + SWELL * length) - CORE, 0.25f);
 }
 
+/* Does a pattern's v, which runs to the right of the stroke's way, run towards the model? */
+static bool is_flipped(const stylizer *h, const dp_link *l) {
+    const dp_piece *const piece = &h->drawing->pieces[l->segment];
+    if (!h->frame->styles[0].pattern.texture || !(1u << piece->line & DP_OUTLINES)) return false;
+    const dp_point a = link_start(h, l), b = link_end(h, l);
+    double out[2];
+    dp_find_outside(h->frame, piece->a, (dp_pointd){a.x, a.y, 0}, (dp_pointd){b.x, b.y, 0}, out);
+    return (b.x - a.x) * out[1] - (b.y - a.y) * out[0] < 0;
+}
+
 static bool add_parts(stylizer *h, const run *chain, size_t n, float length, uint32_t id,
                       uint32_t seed) {
     dp_stylized_store *const s = h->store;
@@ -292,26 +348,29 @@ static bool add_parts(stylizer *h, const run *chain, size_t n, float length, uin
     const dp_stroke *const first = &h->drawing->strokes[head->segment];
     const float full =
         h->outside ? outside_width(2 * first->half_width, length) : first->half_width;
-    const float per_px = repeats_per_px(h, 2 * first->half_width, length, chain->closed);
+    const float per_px = repeats_per_px(h, 2 * first->half_width, p[n - 1].reach, chain->closed);
     const float start =
         h->style->jitter > 0 && !chain->closed ? 0.5f + 0.5f * random_at(7, seed) : 0;
     const bool polar = h->style->texture && h->style->u == DP_STROKE_POLAR;
     const float turns = polar ? dp_polar_repeats(h->frame, h->style, 2 * first->half_width) : 0;
     const float side =
         h->outside ? (float)(h->drawing->sides[head->segment] * (head->reversed ? -1 : 1)) : 0;
+    const bool flipped = is_flipped(h, head);
     for (size_t i = 0; i + 1 < n; i++) {
         const bool closed = chain->closed;
         dp_stylized *const m = &s->stylized[s->count++];
         *m = (dp_stylized){.stroke = h->drawing->strokes[p[i].segment],
                            .chain = id,
                            .outside = h->outside,
+                           .flipped = flipped,
                            .ends = i + 2 == n && !chain->closed};
         m->stroke.a = (dp_point){p[i].x, p[i].y, p[i].d},
         m->stroke.b = (dp_point){p[i + 1].x, p[i + 1].y, p[i + 1].d};
         m->half[0] = full * width_at(h, &p[i], length, closed);
         m->half[1] = full * width_at(h, &p[i + 1], length, closed);
         m->stroke.half_width = dp_maxf(m->half[0], m->half[1]);
-        m->arc[0] = start + p[i].arc * per_px, m->arc[1] = start + p[i + 1].arc * per_px;
+        m->arc[0] = start + p[i].reach * per_px, m->arc[1] = start + p[i + 1].reach * per_px;
+        m->world = is_world(h) && h->frame->view.perspective;
         if (polar) {
             m->arc[0] = polar_at(h, m->stroke.a, 0.5f);
             m->arc[1] = polar_at(h, m->stroke.b, m->arc[0]);
@@ -362,6 +421,13 @@ static bool add_core(stylizer *h, const run *r, size_t first_part, uint32_t id) 
     return true;
 }
 
+/* What is shorter than it is wide shows nothing of a pattern but a blot: fine meshes are full of folds
+ * of a few triangles. */
+static bool shows_pattern(const stylizer *h, const dp_link *head, float length) {
+    const float width = 2 * h->drawing->strokes[head->segment].half_width;
+    return !h->frame->styles[0].pattern.texture || length >= width;
+}
+
 static bool draw_run(stylizer *h, const run *chain, uint32_t repeat, uint32_t *id) {
     const dp_stroke_style *const s = h->style;
     const dp_link *const head = link_at(chain, 0);
@@ -384,7 +450,9 @@ static bool draw_run(stylizer *h, const run *chain, uint32_t repeat, uint32_t *i
         length = measure(p, n);
     }
     const size_t first = h->store->count;
-    if (length > 0 && !add_parts(h, chain, n, length, *id, seed)) return false;
+    if (!measure_space(h, n)) return false;
+    if (length > 0 && shows_pattern(h, head, length) && !add_parts(h, chain, n, length, *id, seed))
+        return false;
     if (h->outside && !add_core(h, chain, first, *id)) return false;
     ++*id;
     return true;

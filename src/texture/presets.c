@@ -7,11 +7,9 @@
 
 #include "base/diag.h"
 #include "base/memory.h"
-#include "base/vec.h"
+#include "texture/rules.h"
 
 #include <string.h>
-
-typedef float rule(float u, float v, uint32_t seed);
 
 static uint32_t hash(uint32_t x, uint32_t y, uint32_t seed) {
     uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ seed * 0xc2b2ae3du;
@@ -95,7 +93,7 @@ static float dots(float u, float v, uint32_t seed) {
 
 typedef struct preset {
     const char *name, *about;
-    rule *make;
+    dp_rule *make;
     uint32_t width, height; /* px */
     float taper, jitter, overshoot;
     uint32_t repeats;
@@ -108,6 +106,14 @@ static const preset presets[] = {
     {"ink", "a pen: full ink, tapered ends", pen, 512, 64, 48, 0.25f, 2, 1},
     {"dashes", "dashes of five widths, three widths apart", dashes, 256, 32, 0, 0, 0, 1},
     {"dots", "round dots, one every two widths", dots, 128, 64, 0, 0, 0, 1},
+    {"hatch", "slanted strokes between two rules", dp_rule_hatch, 128, 128, 0, 0, 0, 1},
+    {"rope", "two strands laid round each other", dp_rule_rope, 128, 96, 0, 0, 0, 1},
+    {"waves", "a line that swings from side to side", dp_rule_waves, 256, 96, 0, 0, 0, 1},
+    {"checks", "two rows of squares", dp_rule_checks, 128, 128, 0, 0, 0, 1},
+    {"chevrons", "arrows along the line", dp_rule_chevrons, 96, 96, 0, 0, 0, 1},
+    {"lace", "scallops with holes, hung on the edge of an outline", dp_rule_lace, 128, 116, 0, 0, 0,
+     1},
+    {"meander", "the Greek key, on the edge of an outline", dp_rule_meander, 192, 160, 0, 0, 0, 1},
 };
 enum { PRESETS = sizeof presets / sizeof *presets };
 
@@ -119,7 +125,7 @@ const char *dp_texture_about(uint32_t index) {
 
 /* The preset of a name; NULL, with *diag filled, if there is none. */
 static const preset *find(const char *name, dp_diag *diag) {
-    char known[128] = "";
+    char known[256] = "";
     for (uint32_t i = 0; i < PRESETS; i++) {
         if (name && !strcmp(name, presets[i].name)) return &presets[i];
         strcat(strcat(known, i ? ", " : ""), presets[i].name);

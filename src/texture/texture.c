@@ -113,7 +113,8 @@ static bool add_level(dp_texture *t, uint32_t width, uint32_t height) {
 }
 
 static bool add_levels(dp_texture *t) {
-    while (t->height[t->levels - 1] > 1 && t->levels < DP_TEXTURE_LEVELS) {
+    while ((t->height[t->levels - 1] > 1 || t->width[t->levels - 1] > 1) &&
+           t->levels < DP_TEXTURE_LEVELS) {
         const uint32_t last = t->levels - 1;
         const uint32_t width = t->width[last] > 1 ? (t->width[last] + 1) / 2 : 1;
         if (!add_level(t, width, (t->height[last] + 1) / 2)) return false;
@@ -164,7 +165,8 @@ const uint8_t *dp_texture_pixels(const dp_texture *t, uint32_t *width, uint32_t 
 
 uint32_t dp_texture_level(const dp_texture *t, float px) {
     uint32_t level = 0;
-    while (level + 1 < t->levels && (float)t->height[level + 1] >= px) level++;
+    while (level + 1 < t->levels && t->height[level] > 1 && (float)t->height[level + 1] >= px)
+        level++;
     return level;
 }
 

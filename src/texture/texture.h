@@ -20,11 +20,16 @@ typedef struct dp_texel {
     float r, g, b, ink;
 } dp_texel;
 
-/* The level at which a line `px` wide is about as wide as the image is high. */
+/* The level at which a line `px` wide is about as wide as the image is high; the first that is one
+ * texel high at most. */
 uint32_t dp_texture_level(const dp_texture *texture, float px);
 
 /* Bilinear sample; u repeats, v is clamped to [0, 1]. */
 dp_texel dp_texture_sample(const dp_texture *texture, uint32_t level, float u, float v);
+
+/* The mean over a box around (u, v): `du` repeats long, `dv` of the texture's height across
+ * (filter.c). */
+dp_texel dp_texture_filtered(const dp_texture *texture, float u, float v, float du, float dv);
 
 /* Length of one repeat on a line `px` wide, px. */
 static inline float dp_texture_period(const dp_texture *texture, float px) {

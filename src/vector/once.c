@@ -53,7 +53,8 @@ bool dp_lines_once(const dp_frame *frame, dp_lines *from, dp_lines *to, dp_pool 
     for (uint32_t i = 0; ok && i < c.part_count; i++) put_part(&c, i, from, to);
     to->count = ok ? c.part_count : 0;
     to->chained = to->inks_hidden = false;
-    to->stylizes = from->stylizes, to->lies_outside = from->lies_outside;
+    to->stylizes = from->stylizes, to->lies_outside = from->lies_outside, to->lit = from->lit;
+    to->patterned = from->patterned;
     to->silhouette_width = from->silhouette_width;
     to->paper = from->paper, to->surface = from->surface;
     to->hidden_look = from->hidden_look;

@@ -194,8 +194,9 @@ static void draw(const golden *g, uint32_t threads, uint8_t *rgba, uint32_t widt
     dp_style style = g->style;
     made = (model){.corners = 0};
     if (g->make) g->make(&made);
-    if (g->texture) assert_int_equal(dp_texture_named(g->texture, 0, NULL, &texture, NULL), DP_OK);
-    style.stroke.texture = texture;
+    const char *const name = g->texture ? g->texture : g->pattern;
+    if (name) assert_int_equal(dp_texture_named(name, 0, NULL, &texture, NULL), DP_OK);
+    *(g->pattern ? &style.pattern.texture : &style.stroke.texture) = texture;
     assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
     if (draw_with(g, context, g->make ? &made : NULL, &camera, &style, &target, &diag))
         fail_msg("%s: %s", g->name, diag.message);

@@ -36,6 +36,7 @@ typedef struct golden {
     golden_camera camera;
     dp_clip clip;
     const char *texture; /* of strokes, by name */
+    const char *pattern; /* on lines, by name */
     uint32_t triangles;  /* of a generated model; 0: its own */
     uint32_t samples;
     golden_reading reading;

@@ -34,6 +34,7 @@ for shape in $("$reference" make --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
     same "$shape, by adjacency, cleaned" "$work/$shape.ply" --edges adjacency --ink strokes
     same "$shape, extruded" "$work/$shape.ply" --edges adjacency --width 12 --stroke charcoal --detail exact
     same "$shape, extruded as printed" "$work/$shape.ply" --edges adjacency --method paper --width 12 --stroke dots
+    same "$shape, patterns on quads" "$work/$shape.ply" --ink quads --pattern checks --line-light toon --width 12
     # repeats are seeded by the number of a chain, which a point more or less may change
     [ "$shape" = terrain ] || same "$shape, by hand" "$work/$shape.ply" --stroke pencil --repeats 2
 done

@@ -186,6 +186,20 @@ static void every_look(void **state) {
             }
 }
 
+static void every_pattern(void **state) {
+    (void)state;
+    if (!COUNTS) skip();
+    dp_texture *texture = NULL;
+    assert_int_equal(dp_texture_named("rope", 0, &own, &texture, NULL), DP_OK);
+    for (int between = DP_BETWEEN_PLANE; between <= DP_BETWEEN_STENCIL; between++)
+        for (int ink = DP_INK_STROKES; ink <= DP_INK_QUADS; ink++)
+            draw("patterns", &(dp_style){.ink = (dp_ink)ink,
+                                         .between = (dp_between)between,
+                                         .pattern = {.texture = texture},
+                                         .line_light = {.lighting = DP_LINE_LIGHT_TOON}});
+    dp_texture_destroy(texture);
+}
+
 static void every_shading(void **state) {
     (void)state;
     if (!COUNTS) skip();
@@ -293,6 +307,7 @@ int main(void) {
         cmocka_unit_test(the_count_sees_a_malloc),
         cmocka_unit_test(lines_and_quads),
         cmocka_unit_test(every_look),
+        cmocka_unit_test(every_pattern),
         cmocka_unit_test(every_shading),
         cmocka_unit_test(adjacency_edge_maps_and_a_mirror),
         cmocka_unit_test(streamed),

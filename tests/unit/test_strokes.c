@@ -465,7 +465,7 @@ static void test_strokes_out_of_range_are_refused(void **state) {
     (void)state;
     const dp_stroke_style bad[] = {{.repeats = 9},       {.taper = -1},    {.jitter = 65},
                                    {.depth = 1.5f},      {.light = -0.1f}, {.scale = -1},
-                                   {.u = (dp_stroke_u)2}};
+                                   {.u = (dp_stroke_u)3}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         dp_style out;
         dp_diag diag;
