@@ -1,5 +1,5 @@
 #!/bin/bash
-# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors or film [MODEL]... or agree, steady, noise or
+# figures.sh PROGRAM accuracy [ORACLE-OPTIONS]... or times or vectors or film [MODEL]... or xray, or agree, steady, noise or
 # whole [MODEL]...: the tables of figures in README.md and docs/: accuracy by the independent oracle (options:
 # tests/accuracy/oracle.py --help), times of frames, FRAMES=20 of each model, what drawings as vectors hold and cost
 # or how many frames of films are drawn a second, the best of RUNS=7 runs, or how well drawings of one shape agree (scripts/agreement.sh).
@@ -104,14 +104,23 @@ rate() {
         "$program" "$@" --turn 360 --frames 120 --size 640x480 --format rgba -o /dev/null --quiet --stats=json
     done | sed -n 's/.*"frames_per_second": \([0-9.]*\).*/\1/p' | sort -n | tail -n 1 | xargs printf '%.0f'
 }
+# Processor time of one of its frames in ms, with its share of reading and fitting: that of the best run.
+effort() {
+    local run all=
+    for ((run = 0; run < ${RUNS:-7}; run++)); do
+        all+="$( { TIMEFORMAT='%U %S'; time "$program" "$@" --turn 360 --frames 120 --size 640x480 --format rgba \
+            -o /dev/null --quiet 2>/dev/null; } 2>&1)"$'\n'
+    done
+    awk 'NF { t = 1000 * ($1 + $2) / 120; if (!n++ || t < least) least = t } END { printf "%.1f", least }' <<<"$all"
+}
 film() {
-    printf '| %s | %s | %s | %s |\n' "$(basename "${1%.*}")" "$(rate "$1")" "$(rate "$1" --jobs 1)" \
-        "$(rate "$1" --jobs 1 --threads 1)"
+    printf '| %s | %s | %s | %s | %s |\n' "$(basename "${1%.*}")" "$(rate "$1")" "$(rate "$1" --jobs 1)" \
+        "$(rate "$1" --jobs 1 --threads 1)" "$(effort "$1")"
 }
 if [ "$what" = film ]; then
     [ $# -gt 0 ] || mapfile -t list < <(models gear:34000 terrain:200000)
-    echo '| model | side by side | one after the other, as many threads | one thread |'
-    echo '|---|---|---|---|'
+    echo '| model | side by side | one after the other, as many threads | one thread | processor time of a frame, ms |'
+    echo '|---|---|---|---|---|'
     for file in "${@:-${list[@]}}"; do film "$file"; done
     exit
 fi
@@ -120,6 +129,26 @@ if [ "$what" = vectors ]; then
     echo '| model | paths | with --join-classes | and hidden | left out: on others | dropped | less travel | SVG, kB | SVG/PNG | --hidden/PNG |'
     echo '|---|---|---|---|---|---|---|---|---|---|'
     for file in "${@:-${list[@]}}"; do vectors "$file"; done
+    exit
+fi
+# Least ms of a frame of four nested spheres, opaque and as an x-ray in turns, so that both meet the same machine.
+if [ "$what" = xray ]; then
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    "$program" make sphere --triangles 14000 -o "$work/one.obj" --quiet
+    awk -f scripts/place.awk "$work/one.obj" SCALE=0.8 "$work/one.obj" SCALE=0.6 "$work/one.obj" \
+        SCALE=0.4 "$work/one.obj" >"$work/four.obj"
+    echo '| look | opaque, ms | x-ray, ms | ratio |'
+    echo '|---|---|---|---|'
+    for look in flat gooch; do
+        for ((i = 0; i < ${RUNS:-7}; i++)); do
+            for opacity in 0 0.4; do
+                "$program" bench "$work/four.obj" --size 1680x1050 --style $look --xray $opacity "$@" |
+                    sed 's/.*"frame_ms_min": \([0-9.]*\).*/'$opacity' \1/'
+            done
+        done | awk -v look=$look '{ if (!($1 in least) || $2 < least[$1]) least[$1] = $2 }
+            END { printf "| %s | %.1f | %.1f | %.2f |\n", look, least["0"], least["0.4"], least["0.4"] / least["0"] }'
+    done
     exit
 fi
 echo '| model | triangles | frame, ms (median) | least | file to PNG, s |'

@@ -40,13 +40,10 @@ static void note_nearest(const dp_scene_desc *scene, const char *wanted, clips_t
     }
 }
 
-/* Does a first animation play, where none is named? */
-static bool is_played(const tool_settings *s) { return s->has_time || film_wanted(s); }
-
 int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally) {
     const dp_scene_desc *const scene = dp_scene_of(source);
     dp_diag diag = {0};
-    if (!scene || (!s->animation && !is_played(s))) return 0;
+    if (!scene || (!s->animation && !s->has_time)) return 0;
     tally->clips += scene->clip_count;
     if (s->animation && is_rest(s->animation)) return 0;
     const uint32_t clip = s->animation ? find_clip(scene, s->animation) : scene->clip_count > 0;
@@ -56,7 +53,7 @@ int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally) {
     return dp_scene_play(source, clip, &diag) ? report_model(s, &diag) : 0;
 }
 
-/* Does something else than an animation take --time? */
+/* Does something else than an animation take --time? Films say themselves that nothing moves. */
 static bool is_moved_otherwise(const tool_settings *s) {
     return s->has_deform || s->morph || film_wanted(s);
 }
@@ -80,7 +77,7 @@ static int tell_missing(const tool_settings *s, const clips_tally *tally) {
 int clips_check(const tool_settings *s, const clips_tally *tally) {
     if (tally->playing) return 0;
     if (s->animation && !is_rest(s->animation)) return tell_missing(s, tally);
-    if (s->has_time && !s->quiet && !is_moved_otherwise(s))
+    if (option_given(s, "time") && !s->quiet && !is_moved_otherwise(s))
         warn_of_model(s, s->animation ? "--time changes nothing: no animation plays"
                                       : "--time changes nothing: there is no animation in it");
     return 0;

@@ -36,6 +36,7 @@ typedef struct film {
     film_plan plan;
     drawing drawing;
     measured model;
+    dp_extent beside;              /* of a mirror; see() */
     dp_camera cameras[SHEET_MOST]; /* of frame 0, before it is deepened */
     uint32_t *frames;              /* [count] what is drawn */
     uint32_t count, jobs, threads;
@@ -100,13 +101,18 @@ static int see(film *f) {
     const tool_settings *const s = f->s;
     drawing *const d = &f->drawing;
     dp_source *seen = NULL, *turned = NULL;
-    int code = film_seen_make(&f->plan, d->source, false, &seen, &f->polygons);
+    dp_style style = {0};
+    int code = film_seen_make(&f->plan, d->source, false, NULL, &seen, &f->polygons);
     if (!code) code = measure_model(s, seen, &f->model);
     if (!code) warn_coarse(s, &f->model.extent);
     if (!code) film_plan_centre(s, &f->model.extent, &f->plan);
     if (!code && f->plan.turn != 0) {
+        measured mirrored = f->model;
+        look_mirror(s, &mirrored, &style);
+        f->beside = mirrored.beside;
         f->model.aspect = 0; /* it is to be fitted again */
-        code = film_seen_make(&f->plan, d->source, true, &turned, NULL);
+        code = film_seen_make(&f->plan, d->source, true, s->has_mirror ? &f->beside : NULL, &turned,
+                              NULL);
     }
     if (!code) code = drawing_prepare(s, d, turned ? turned : seen, &f->model);
     for (int k = 0; k < d->plan.view_count && !code; k++) f->cameras[k] = d->plan.views[k].camera;
@@ -172,8 +178,13 @@ static bool is_opaque(const tool_settings *s) {
 }
 
 static void warn_formats(const film *f) {
-    if (!f->s->quiet && !is_opaque(f->s) && files_have(f->s, FORMAT_MP4))
+    const tool_settings *const s = f->s;
+    if (s->quiet) return;
+    if (!is_opaque(s) && files_have(s, FORMAT_MP4))
         warn("MP4 has no transparency: its paper is white; .webm, .gif and .apng have some");
+    if (f->plan.fps > 50 && files_have(s, FORMAT_GIF))
+        warn("players show GIFs of more than 50 frames a second slowly; give --fps 50, or write a "
+             ".webm");
 }
 
 static int ready(void *user) {

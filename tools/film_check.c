@@ -30,6 +30,8 @@ bool film_wanted(const tool_settings *s) {
            (s->has_time && s->time[0] != s->time[1]) || has_film_output(s);
 }
 
+void film_settle(tool_settings *s) { s->has_time |= film_wanted(s) && !s->has_turn && !s->path; }
+
 /* ---- outputs ---- */
 
 /* A picture's name in a film: a sequence would do, or a film's ending. */

@@ -19,14 +19,19 @@ typedef struct seen {
     double rotation[3][3];
     float *positions; /* of a turned batch, [room][3] */
     size_t room;
+    const dp_extent *beside; /* a mirror's box, that turns with the model; or NULL */
+    bool beside_due;         /* it comes next */
+    float corners[8][3];     /* of it */
 } seen;
 
 static uint32_t frame_of(const seen *w) {
-    return (uint32_t)((uint64_t)w->at * w->plan->count / w->looks);
+    const uint64_t last = w->plan->count - 1;
+    return w->looks > 1 ? (uint32_t)(w->at * last / (w->looks - 1)) : 0;
 }
 
 static dp_result begin_look(seen *w, uint32_t at, dp_diag *diag) {
     w->at = at;
+    w->beside_due = w->beside != NULL;
     if (w->turned) film_turn_back(w->plan, frame_of(w), w->rotation);
     const dp_result result = dp_source_set_time(w->source, film_time(w->plan, frame_of(w)), diag);
     return result ? result : dp_source_rewind(w->source, diag);
@@ -57,10 +62,38 @@ static bool turn_batch(seen *w, dp_batch *b) {
     return true;
 }
 
+/* The box as six faces. */
+static void hand_out_box(seen *w, dp_batch *b) {
+    static const uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    static const uint32_t firsts[7] = {0, 4, 8, 12, 16, 20, 24};
+    const dp_extent *const e = w->beside;
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            w->corners[i][k] =
+                (float)((i >> k & 1 ? e->exact_max[k] : e->exact_min[k]) - w->plan->centre[k]);
+    *b = (dp_batch){.positions = w->corners[0],
+                    .position_stride = sizeof w->corners[0],
+                    .vertex_count = 8,
+                    .indices = faces[0],
+                    .corner_count = 24,
+                    .firsts = firsts,
+                    .polygon_count = 6};
+    memcpy(b->origin, w->plan->centre, sizeof b->origin);
+}
+
+/* What comes next of the model, or of its mirror, at the look's time. */
+static dp_result next_of_look(seen *w, dp_batch *batch, dp_diag *diag) {
+    const dp_result result = w->beside_due ? DP_OK : dp_source_next(w->source, batch, diag);
+    if (w->beside_due) hand_out_box(w, batch);
+    w->beside_due = false;
+    return result;
+}
+
 static dp_result seen_next(void *user, dp_batch *batch, dp_diag *diag) {
     seen *const w = user;
     for (;;) {
-        dp_result result = dp_source_next(w->source, batch, diag);
+        dp_result result = next_of_look(w, batch, diag);
         if (!result && !batch->polygon_count && w->at + 1 < w->looks) {
             result = begin_look(w, w->at + 1, diag);
             if (!result) continue;
@@ -92,13 +125,13 @@ static dp_result count_looks(seen *w, uint64_t *polygons, dp_diag *diag) {
     return result;
 }
 
-int film_seen_make(const film_plan *plan, dp_source *source, bool turned, dp_source **out,
-                   uint64_t *polygons) {
+int film_seen_make(const film_plan *plan, dp_source *source, bool turned, const dp_extent *beside,
+                   dp_source **out, uint64_t *polygons) {
     dp_diag diag = {0};
     seen *const w = calloc(1, sizeof *w);
     *out = NULL;
     if (!w) return wrong_usage("out of memory for a film"), EXIT_FAILED;
-    *w = (seen){.source = source, .plan = plan, .turned = turned};
+    *w = (seen){.source = source, .plan = plan, .turned = turned, .beside = beside};
     dp_source_callbacks callbacks = {
         .user = w, .next = seen_next, .rewind = seen_rewind, .destroy = seen_destroy};
     callbacks.up_assumed = !dp_source_up(source, callbacks.up);

@@ -100,7 +100,7 @@ static bool has_morph(const tool_settings *s) { return s->morph != NULL; }
 /* Only breathing begins at rest. */
 static bool is_deformed(const tool_settings *s) {
     return s->command == COMMAND_BENCH || s->deform.kind != DP_DEFORM_BREATHE ||
-           (s->has_time && (s->time[0] != 0 || s->time[1] != 0));
+           (s->has_time && (s->time[0] != 0 || film_wanted(s)));
 }
 
 static bool is_terrain(const tool_settings *s) { return !strcmp(s->model, "terrain"); }

@@ -345,7 +345,7 @@ const option option_table[] = {
 
     {"animation", 0, "NAME|N|none", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(animation), 0, 0, 0,
      "The animation that plays, by its name or number (\"drypoint info\" lists them); before its start and past its end "
-     "it stands still. Of several models each plays its own. Default: none, and with --time, or in a film, the first."},
+     "it stands still. Of several models each plays its own. Default: none, and with --time, or in a film whose camera stands, the first."},
     {"time", 0, "T or T0:T1", OPTION_TIME, GROUP_MOTION, PICTURE | INFO, AT(time), AT(has_time), 0, 0,
      "Seconds at which a model that moves is drawn; of a film, from and to: of N frames, frame 0 is at T0, and frame k at "
      "T0 + (T1 - T0) k / N, so that a film of one round loops. Default: 0; of a film, from 0 on as long as it lasts."},

@@ -2,6 +2,7 @@
  *
  * The first word may be a command; without one the program draws. Options may come anywhere, as
  * --name value, --name=value or -o value; -- ends them; - is a model or output. */
+#include "film.h"
 #include "models.h"
 #include "options.h"
 #include "presets.h"
@@ -188,7 +189,9 @@ bool options_parse(int argc, char **argv, tool_settings *settings) {
     if (settings->question && w.at < w.argc) settings->topic = w.argv[w.at]; /* --help camera */
     if (settings->completions) settings->question = QUESTION_COMPLETIONS;
     if (settings->question) return true;
-    if (!models_settle(settings) || !options_check(settings)) return false;
+    if (!models_settle(settings)) return false;
+    film_settle(settings);
+    if (!options_check(settings)) return false;
     options_warn(settings);
     return true;
 }

@@ -115,8 +115,9 @@ bool output_number(const char *pattern, uint32_t number, char *path, size_t size
 }
 
 bool output_possible(const char *path) {
-    char directory[PATH_MAX];
+    char directory[PATH_MAX], first[PATH_MAX];
     struct stat status;
+    if (output_is_sequence(path) && output_number(path, 0, first, sizeof first)) path = first;
     if (output_in_place(path)) return true;
     const int length = (int)(output_name(path) - path);
     snprintf(directory, sizeof directory, "%.*s", length ? length : 1, length ? path : ".");

@@ -27,7 +27,7 @@ bool output_fill(const char *pattern, const char *stem, char *path, size_t size)
 bool output_is_sequence(const char *path);
 /* Puts it there, as output_fill does. */
 bool output_number(const char *pattern, uint32_t number, char *path, size_t size);
-/* Can a file be made there? A message on stderr if not; the writing itself may still fail. */
+/* Can a file be made there, or the first of a sequence? A message on stderr if not; the writing itself may still fail. */
 bool output_possible(const char *path);
 
 #endif

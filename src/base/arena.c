@@ -1,5 +1,5 @@
-/* Memory in blocks, from which pieces are taken one after the other; large ones have a block of their
- * own, which does not end the block in use. Invariant: pieces never move. */
+/* Memory in blocks, from which pieces are taken one after the other; large ones have a block of
+ * their own, which does not end the block in use. Invariant: pieces never move. */
 #include "base/arena.h"
 
 #include "base/hostile.h"

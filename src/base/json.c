@@ -1,8 +1,8 @@
 /* Parses JSON strictly: one value, no comments, no trailing commas, no NaN.
  *
- * Values that are not complete yet lie on a stack; when an array or object ends, its items are copied
- * from there into the arena, one after the other. Invariant: no byte is read beyond the text, and the
- * program's stack grows by one small frame for each of at most DEEPEST levels.
+ * Values that are not complete yet lie on a stack; when an array or object ends, its items are
+ * copied from there into the arena, one after the other. Invariant: no byte is read beyond the
+ * text, and the program's stack grows by one small frame for each of at most DEEPEST levels.
  *
  * Not handled: other encodings than UTF-8, numbers of more digits than a double has (they are
  * rounded). */
@@ -75,7 +75,8 @@ static bool read_word(parser *p, const char *word) {
 
 /* ------- numbers ------- */
 
-/* digits * 10^exponent. Powers up to 10^22 are exact, so numbers of a few digits are rounded once. */
+/* digits * 10^exponent. Powers up to 10^22 are exact, so numbers of a few digits are rounded
+ * once. */
 static double scale(double digits, int64_t exponent) {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,

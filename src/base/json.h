@@ -30,9 +30,9 @@ typedef struct dp_json {
     } as;
 } dp_json;
 
-/* Parses a whole text, which must outlive the tree: strings without escapes lie in it. A byte order mark
- * is skipped. DP_ERR_FORMAT with the line, DP_ERR_LIMIT for more than 256 levels or 2^28 values,
- * DP_ERR_MEMORY. */
+/* Parses a whole text, which must outlive the tree: strings without escapes lie in it. A byte
+ * order mark is skipped. DP_ERR_FORMAT with the line, DP_ERR_LIMIT for more than 256 levels or
+ * 2^28 values, DP_ERR_MEMORY. */
 dp_result dp_json_parse(const char *text, size_t size, dp_arena *arena, const dp_json **out,
                         dp_diag *diag);
 

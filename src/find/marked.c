@@ -74,6 +74,7 @@ static void add(dp_finder *w, dp_marked_edge mark) {
     const uint8_t flag = polygons->edge_flags[dp_first_corner(polygons, mark.polygon) + mark.edge];
     const dp_line line = flag == DP_EDGE_SECTION ? DP_LINE_SECTION : DP_LINE_HATCHING;
     dp_spine spine;
+    if (w->finds_hidden && line == DP_LINE_HATCHING) return; /* it belongs to what is seen */
     if (!(dp_polygon_style(f, mark.polygon)->lines >> line & 1) || !spine_of(f, mark, &spine))
         return;
     const dp_candidate candidate = {

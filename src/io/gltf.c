@@ -1,11 +1,12 @@
-/* glTF 2.0 (Khronos, ISO/IEC 12113): .gltf with its buffers in data: URIs or in files beside it, and .glb.
+/* glTF 2.0 (Khronos, ISO/IEC 12113): .gltf with its buffers in data: URIs or in files beside it,
+ * and .glb.
  *
- * The file is read whole, its JSON parsed, and what is drawn of it made into tables of a scene, which
- * dp_source_from_scene copies. Nothing in the file is trusted: numbers of objects and bytes are checked
- * where they are used, and messages name the object, by its number from 0 on.
+ * The file is read whole, its JSON parsed, and what is drawn of it made into tables of a scene,
+ * which dp_source_from_scene copies. Nothing in the file is trusted: numbers of objects and
+ * bytes are checked where they are used, and messages name the object, by its number from 0 on.
  *
- * Not handled: glTF 1.0, and meshes that are compressed (Draco, meshopt): DP_ERR_UNSUPPORTED, so that
- * Assimp may try; materials but for their colours; cameras and lights. */
+ * Not handled: glTF 1.0, and meshes that are compressed (Draco, meshopt): DP_ERR_UNSUPPORTED, so
+ * that Assimp may try; materials but for their colours; cameras and lights. */
 #include "io/gltf.h"
 
 #include "io/readers.h"

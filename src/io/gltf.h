@@ -55,8 +55,8 @@ void dp_gltf_at(dp_gltf *g, const char *format, ...) DP_PRINTF(2, 3);
 /* Notes what is not drawn, unless there is a remark already. */
 void dp_gltf_remark(dp_gltf *g, const char *format, ...) DP_PRINTF(2, 3);
 
-/* Each finds a member of an object. False: it is not what it must be, and the reader has failed. One
- * that is absent is what `to` is set to: NULL, `fallback`, 0. */
+/* Each finds a member of an object. False: it is not what it must be, and the reader has failed.
+ * One that is absent is what `to` is set to: NULL, `fallback`, 0. */
 bool dp_gltf_member(dp_gltf *g, const dp_json *object, const char *name, dp_json_kind kind,
                     const dp_json **to);
 bool dp_gltf_uint(dp_gltf *g, const dp_json *object, const char *name, uint32_t fallback,

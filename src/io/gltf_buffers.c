@@ -1,5 +1,6 @@
-/* The bytes of a glTF file: a .glb file's chunk, data: URIs, and files beside it, each read when it is first
- * asked for. Invariant: no view reaches beyond its buffer, nor beyond what the buffer says it has. */
+/* The bytes of a glTF file: a .glb file's chunk, data: URIs, and files beside it, each read when
+ * it is first asked for. Invariant: no view reaches beyond its buffer, nor beyond what the
+ * buffer says it has. */
 #include "io/gltf.h"
 
 #include "io/beside.h"

@@ -1,7 +1,7 @@
 /* Animations of glTF (3.11): clips of a scene.
  *
- * A sampler with fewer values than times has as many keys as there are values for; channels without a
- * node, and those that move what extensions add, are left out. */
+ * A sampler with fewer values than times has as many keys as there are values for; channels
+ * without a node, and those that move what extensions add, are left out. */
 #include "io/gltf.h"
 
 #include <string.h>

@@ -1,11 +1,11 @@
 /* Meshes of glTF: each primitive of triangles becomes a mesh of a scene.
  *
- * Of an indexed primitive only the vertices between the smallest and the largest index are taken, as
- * many files keep the vertices of all primitives in one accessor. Colours are as in the file, without
- * a conversion; vertices' are multiplied by the material's.
+ * Of an indexed primitive only the vertices between the smallest and the largest index are
+ * taken, as many files keep the vertices of all primitives in one accessor. Colours are as in
+ * the file, without a conversion; vertices' are multiplied by the material's.
  *
- * Not handled: points and lines (they are left out), textures (that there are some is noted), texture
- * transforms. */
+ * Not handled: points and lines (they are left out), textures (that there are some is noted),
+ * texture transforms. */
 #include "io/gltf.h"
 
 #include "io/color.h"

@@ -1,5 +1,5 @@
-/* Nodes of glTF, skins, and the instances of the scene that is drawn: the default one, or the first, or all
- * that have no parent.
+/* Nodes of glTF, skins, and the instances of the scene that is drawn: the default one, or the
+ * first, or all that have no parent.
  *
  * Not handled: cameras, lights. */
 #include "io/gltf.h"

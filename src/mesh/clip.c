@@ -48,7 +48,7 @@ typedef struct clipper {
     double origin[3], shift[3]; /* the first batch's; what moves the batch's positions to it */
     bool begun, ended, any_kept, any_read, moved, has_normals, has_texcoords, has_colors,
         has_groups;
-    double low[3], high[3]; /* box of the vertices that are kept */
+    double low[3], high[3]; /* box of what is kept */
     uint32_t plane;         /* that is filled */
     uint16_t group;
 } clipper;
@@ -99,6 +99,13 @@ static void place(const clipper *c, const float *from, float to[3]) {
     for (int k = 0; k < 3; k++) to[k] = c->moved ? (float)((double)from[k] + c->shift[k]) : from[k];
 }
 
+static void widen_box(clipper *c, const float p[3]) {
+    for (int k = 0; k < 3; k++) {
+        c->low[k] = dp_min(c->low[k], (double)p[k]);
+        c->high[k] = dp_max(c->high[k], (double)p[k]);
+    }
+}
+
 static where find_where(clipper *c, const float p[3]) {
     where at = {0, 0, !(isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]))};
     for (uint32_t k = 0; k < c->cutting.plane_count && !at.bad; k++) {
@@ -106,10 +113,7 @@ static where find_where(clipper *c, const float p[3]) {
         at.beyond |= (uint8_t)((d > 0) << k);
         at.on |= (uint8_t)((d == 0) << k);
     }
-    for (int k = 0; k < 3 && !at.bad && !at.beyond; k++) {
-        c->low[k] = dp_min(c->low[k], (double)p[k]);
-        c->high[k] = dp_max(c->high[k], (double)p[k]);
-    }
+    if (!at.bad && !at.beyond) widen_box(c, p);
     return at;
 }
 
@@ -137,18 +141,21 @@ static uint32_t vertex_of(const dp_batch *b, size_t corner) {
 }
 
 /* What becomes of a polygon. */
-typedef enum fate { KEPT, CUT } fate;
+typedef enum fate { KEPT, CUT, DROPPED } fate;
 
 static fate fate_of(const clipper *c, const dp_batch *b, span s) {
-    uint32_t beyond = 0, touches = 0, last = vertex_of(b, s.first + (s.n ? s.n - 1 : 0));
+    uint32_t beyond = 0, all = UINT32_MAX, touches = 0,
+             last = vertex_of(b, s.first + (s.n ? s.n - 1 : 0));
     if (s.n < 3) return KEPT;
     for (size_t i = 0; i < s.n; i++) {
         const uint32_t v = vertex_of(b, s.first + i);
         if (v >= b->vertex_count || last >= b->vertex_count || c->where[v].bad) return KEPT;
         beyond |= c->where[v].beyond;
+        all &= c->where[v].beyond;
         touches |= c->where[v].on & c->where[last].on;
         last = v;
     }
+    if (all && beyond == all) return DROPPED; /* no plane crosses it */
     return beyond || touches ? CUT : KEPT;
 }
 
@@ -164,16 +171,19 @@ static bool reserve_kept(clipper *c, const dp_batch *b) {
            RESERVE(c, groups, groups_cap, b->polygon_count);
 }
 
+static void copy_numbers(uint32_t *to, const uint32_t *from, span s) {
+    if (from) memcpy(to, from + s.first, s.n * sizeof *to);
+}
+
 static void keep(clipper *c, const dp_batch *b, size_t polygon, span s) {
     c->firsts[c->kept] = (uint32_t)c->kept_corners;
     c->groups[c->kept++] = b->groups ? b->groups[polygon] : 0;
-    for (size_t i = s.first; i < s.first + s.n; i++) {
-        const size_t to = c->kept_corners++;
-        c->indices[to] = vertex_of(b, i);
-        c->flags[to] = b->edge_flags ? b->edge_flags[i] : DP_EDGE_NORMAL;
-        c->normal_indices[to] = b->normals.indices ? b->normals.indices[i] : 0;
-        c->texcoord_indices[to] = b->texcoords.indices ? b->texcoords.indices[i] : 0;
-    }
+    const size_t to = c->kept_corners;
+    for (size_t i = 0; i < s.n; i++) c->indices[to + i] = vertex_of(b, s.first + i);
+    if (b->edge_flags) memcpy(c->flags + to, b->edge_flags + s.first, s.n);
+    copy_numbers(c->normal_indices + to, b->normals.indices, s);
+    copy_numbers(c->texcoord_indices + to, b->texcoords.indices, s);
+    c->kept_corners += s.n;
     c->firsts[c->kept] = (uint32_t)c->kept_corners;
 }
 
@@ -239,15 +249,14 @@ static bool take_batch(clipper *c, dp_batch *b) {
     bool changes = false;
     if (!find_all_where(c, b)) return false;
     for (size_t i = 0; i < b->polygon_count && !changes; i++)
-        changes = fate_of(c, b, corners_of(b, i)) == CUT;
+        changes = fate_of(c, b, corners_of(b, i)) != KEPT;
     if (!changes) return true;
     if (!reserve_kept(c, b)) return false;
     for (size_t i = 0; i < b->polygon_count; i++) {
         const span s = corners_of(b, i);
-        if (fate_of(c, b, s) == KEPT)
-            keep(c, b, i, s);
-        else if (!cut(c, b, i, s))
-            return false;
+        const fate f = fate_of(c, b, s);
+        if (f == KEPT) keep(c, b, i, s);
+        if (f == CUT && !cut(c, b, i, s)) return false;
     }
     hand_on_kept(c, b);
     return true;
@@ -391,6 +400,8 @@ static dp_result finish(clipper *c, dp_batch *out, dp_diag *diag) {
     c->ended = true;
     *out = (dp_batch){0};
     dp_clip_settle_touching(&c->cutting);
+    for (size_t i = 0; i < 3 * c->cutting.made.triangles; i++)
+        widen_box(c, c->cutting.made.positions + 3 * i);
     if (!rank_groups(c)) return out_of_memory(diag);
     for (uint32_t k = 0; k < c->cutting.plane_count; k++)
         if (!make_section(c, k)) return out_of_memory(diag);

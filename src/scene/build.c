@@ -1,5 +1,5 @@
-/* The one batch of all instances of a scene. Indices, groups, texture coordinates and colours are made
- * once; positions and normals have room, and are written by each pose. */
+/* The one batch of all instances of a scene. Indices, groups, texture coordinates and colours
+ * are made once; positions and normals have room, and are written by each pose. */
 #include "scene/scene.h"
 
 #include "base/hostile.h"

@@ -1,5 +1,5 @@
-/* Do the tables of a scene agree with each other? What the arrays hold (indices, weights, keys) is looked
- * at where it is used, and never trusted. */
+/* Do the tables of a scene agree with each other? What the arrays hold (indices, weights, keys)
+ * is looked at where it is used, and never trusted. */
 #include "scene/scene.h"
 
 #include "base/diag.h"

@@ -1,8 +1,8 @@
 /* Copies the tables of a scene, with defaults filled in.
  *
- * Meshes become tight and uniform: every corner is used and has an index; attributes without indices
- * have a value for each vertex; weights are not negative and finite. Keys of channels ascend and are
- * finite. */
+ * Meshes become tight and uniform: every corner is used and has an index; attributes without
+ * indices have a value for each vertex; weights are not negative and finite. Keys of channels
+ * ascend and are finite. */
 #include "scene/scene.h"
 
 #include <math.h>

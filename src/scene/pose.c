@@ -1,10 +1,11 @@
-/* The pose of a scene at a time: its nodes' transforms, its joints, and the weights of morph targets.
+/* The pose of a scene at a time: its nodes' transforms, its joints, and the weights of morph
+ * targets.
  *
- * A node's transform to world space is kept from pose to pose, with the number of the pose in which it
- * became another. So instances that did not move are not placed again.
+ * A node's transform to world space is kept from pose to pose, with the number of the pose in
+ * which it became another. So instances that did not move are not placed again.
  *
- * A mirrored instance has its corners reversed, so that fronts stay fronts. A skinned one is mirrored
- * where most of it follows joints that mirror. */
+ * A mirrored instance has its corners reversed, so that fronts stay fronts. A skinned one is
+ * mirrored where most of it follows joints that mirror. */
 #include "scene/scene.h"
 
 #include "scene/sample.h"

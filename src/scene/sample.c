@@ -1,5 +1,5 @@
-/* Samples channels: steps, lines, arcs, Hermite splines (glTF 2.0, appendix C). Invariant: keys ascend
- * and are finite (copy.c). */
+/* Samples channels: steps, lines, arcs, Hermite splines (glTF 2.0, appendix C). Invariant: keys
+ * ascend and are finite (copy.c). */
 #include "scene/sample.h"
 
 #include "base/elementary.h"

@@ -4,8 +4,8 @@
 
 #include <drypoint/scene.h>
 
-/* Writes the channel's `width` values at `time`, as glTF 2.0, appendix C, has them. False: there are no
- * keys, and nothing is written. Rotations have any length. */
+/* Writes the channel's `width` values at `time`, as glTF 2.0, appendix C, has them. False: there
+ * are no keys, and nothing is written. Rotations have any length. */
 bool dp_channel_sample(const dp_scene_channel *channel, double time, double *to);
 
 #endif

@@ -77,8 +77,8 @@ void dp_scene_turn(dp_scene *scene, dp_placed *placed);
 void dp_scene_settle(dp_scene *scene);
 /* Sets the batch's spacing. farthest: scratch, [mesh_count] (build.c). */
 void dp_scene_note_spacing(dp_scene *scene, double *farthest);
-/* Makes what a pose takes: room for matrices and weights. *circle: 1 + number of a node that is its own
- * ancestor, which makes the scene useless; 0: none. False: memory is out (pose.c). */
+/* Makes what a pose takes: room for matrices and weights. *circle: 1 + number of a node that is
+ * its own ancestor, which makes the scene useless; 0: none. False: memory is out (pose.c). */
 bool dp_scene_ready(dp_scene *scene, uint32_t *circle);
 /* Moves nodes, joints and weights to scene->time, and marks instances that change (pose.c). */
 void dp_scene_move(dp_scene *scene);

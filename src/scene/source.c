@@ -1,4 +1,5 @@
-/* A scene as a polygon source: one stable batch, posed when it is read for the first time at a time.
+/* A scene as a polygon source: one stable batch, posed when it is read for the first time at a
+ * time.
  *
  * Invariant: once it is made, no memory is taken or given back. */
 #include "scene/scene.h"

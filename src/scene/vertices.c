@@ -1,10 +1,11 @@
 /* Places the vertices of a scene: morph targets, then joints or the node's transform.
  *
- * All in double precision, about the batch's origin, in blocks that different threads may take: a vertex
- * depends on nothing but the pose. Normals are turned by the cofactors of the same matrix that moves
- * their vertex (the inverse transpose, up to its length), so that they stay at right angles to the
- * surface where it is scaled unevenly; of a skin, by those of the vertex's own mean of matrices, as if
- * its weights were the same all around. A normal of length 0 stays one. */
+ * All in double precision, about the batch's origin, in blocks that different threads may take:
+ * a vertex depends on nothing but the pose. Normals are turned by the cofactors of the same
+ * matrix that moves their vertex (the inverse transpose, up to its length), so that they stay at
+ * right angles to the surface where it is scaled unevenly; of a skin, by those of the vertex's
+ * own mean of matrices, as if its weights were the same all around. A normal of length 0 stays
+ * one. */
 #include "scene/scene.h"
 
 #include <math.h>
@@ -39,8 +40,8 @@ static void find_turn(const dp_affine *matrix, double turn[3][3]) {
             for (int c = 0; c < 3; c++) turn[r][c] = -turn[r][c];
 }
 
-/* Where a scale is very small or large: by a power of two, which changes no direction, so that floats hold
- * the products. */
+/* Where a scale is very small or large: by a power of two, which changes no direction, so that
+ * floats hold the products. */
 static void tame(double turn[3][3]) {
     double most = 0;
     int exponent;

@@ -66,7 +66,7 @@ wrong_deformations() {
     printf 'v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n' >point.obj
     run 1 point.obj --deform wave -o out.png
     printf 'v 1 2 3\n' >empty.obj
-    bad empty.obj 'there are no polygons'
+    bad empty.obj 'points but no polygons'
     run 1 empty.obj --deform wave -o out.png
     one_line
     printf 'v nan 2 3\nv 1 2 3\nv 1 2 4\nf 1 2 3\n' >torn.obj

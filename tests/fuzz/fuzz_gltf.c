@@ -1,5 +1,5 @@
-/* Fuzzes the reader of glTF and the scenes that it makes: poses at odd times, small pictures. A file that
- * names others gets the file itself. */
+/* Fuzzes the reader of glTF and the scenes that it makes: poses at odd times, small pictures. A
+ * file that names others gets the file itself. */
 #include "reader.h"
 
 #include <drypoint/drypoint.h>

@@ -80,6 +80,8 @@ static void open_source(const golden *g, const model *made, opened *o) {
     if (g->shape) assert_int_equal(dp_source_from_shape(&shape, &o->reader.shape, NULL), DP_OK);
     if (o->reader.heavy) assert_non_null(o->reader.padding = calloc(PADDING, 3 * sizeof(float)));
     assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &o->source, NULL), DP_OK);
+    if (g->clip.plane_count)
+        assert_int_equal(dp_source_clip(o->source, &g->clip, NULL, &o->source, NULL), DP_OK);
 }
 
 static void close_source(opened *o) {

@@ -34,6 +34,7 @@ typedef struct golden {
     model_maker *make; /* a hand-made one */
     dp_style style;
     golden_camera camera;
+    dp_clip clip;
     const char *texture; /* of strokes, by name */
     uint32_t triangles;  /* of a generated model; 0: its own */
     uint32_t samples;

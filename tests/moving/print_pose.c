@@ -1,6 +1,6 @@
-/* print_pose MODEL CLIP TIME...: the polygons of a scene at these times, for gltf.py. For each time: the
- * number of corners, as uint64, then of each corner, in the polygons' order, x, y, z and the normal
- * (0 where there is none), as doubles. CLIP 0: at rest. */
+/* print_pose MODEL CLIP TIME...: the polygons of a scene at these times, for gltf.py. For each
+ * time: the number of corners, as uint64, then of each corner, in the polygons' order, x, y, z
+ * and the normal (0 where there is none), as doubles. CLIP 0: at rest. */
 #include <drypoint/drypoint.h>
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* io/gltf: containers, what is read, and what bad files are told. How scenes move is tested in tests/moving and
- * test_scene.c. */
+/* io/gltf: containers, what is read, and what bad files are told. How scenes move is tested in
+ * tests/moving and test_scene.c. */
 #include "reading.h"
 
 #include <drypoint/scene.h>

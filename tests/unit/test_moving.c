@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, FRAMES = 6 };
+enum { WIDTH = 240, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, FRAMES = 6 };
 
 /* ------- an allocator that counts ------- */
 
@@ -207,7 +207,7 @@ static void moved_is_drawn_as_still(void **state) {
     (void)state;
     for (int kind = 0; kind < 3; kind++) {
         const dp_deform deform = {.kind = (dp_deform_kind)kind};
-        mesh gear = shape_mesh("gear", 3000);
+        mesh gear = shape_mesh("gear", 1500);
         dp_source *const source = deformed(arrays_of(&gear), &deform); /* one stable batch */
         for (size_t k = 0; k < LOOKS; k += kind ? 3 : 1)
             assert_drawn_alike(source, &looks[k].style, looks[k].name);
@@ -319,9 +319,9 @@ static dp_source *counted_deform(dp_source *inner, const dp_deform *deform) {
 
 static void deforming_takes_no_memory(void **state) {
     (void)state;
-    static const char *const names[] = {"gear", "torus", "terrain"};
-    for (size_t n = 0; n < 3; n++) {
-        mesh m = shape_mesh(names[n], 4000);
+    static const char *const names[] = {"gear", "terrain"};
+    for (size_t n = 0; n < 2; n++) {
+        mesh m = shape_mesh(names[n], 2000);
         dp_source *const source = counted_deform(arrays_of(&m), NULL);
         for (size_t k = 0; k < LOOKS; k++)
             assert_nothing_is_taken(looks[k].name, &looks[k].style, source);
@@ -332,7 +332,7 @@ static void deforming_takes_no_memory(void **state) {
 
 static void batches_and_morphs_take_no_memory(void **state) {
     (void)state;
-    dp_source *source = counted_deform(shape("terrain", 140000), NULL); /* several batches */
+    dp_source *source = counted_deform(shape("terrain", 70000), NULL); /* several batches */
     assert_nothing_is_taken("batches", &looks[0].style, source);
     dp_source_destroy(source);
     mesh m = shape_mesh("gear", 3000);
@@ -423,7 +423,7 @@ static void polygons_may_be_others_in_each_frame(void **state) {
     static picture one, other;
     (void)state;
     stage_play play = {.part = shape_mesh("cube", 300)};
-    static const uint64_t finer[] = {80, 1280, 20480};
+    static const uint64_t finer[] = {80, 720, 5000};
     for (int k = 0; k < 3; k++) play.levels[k] = shape_mesh("sphere", finer[k]);
     play.moved = calloc(play.part.batch.vertex_count, 3 * sizeof(float));
     const dp_source_callbacks callbacks = {

@@ -372,7 +372,11 @@ static void edge_flags_keep_edges_from_drawing(void **state) {
     static const float upper[3][3] = {{-50, -40, 0}, {50, 40, 0}, {-50, 40, 30}};
     (void)state;
     for (int i = 0; i < VARIANTS; i++) {
-        for (uint8_t flag = 0; flag < 2; flag++) {
+        static const uint8_t flags[] = {DP_EDGE_NEVER, DP_EDGE_NORMAL,   DP_EDGE_DIAGONAL,
+                                        DP_EDGE_FACE,  DP_EDGE_FACE + 1, 255};
+        for (size_t k = 0; k < sizeof flags; k++) { /* what is unknown is normal */
+            const uint8_t flag = flags[k];
+            const bool draws = flag == DP_EDGE_NORMAL || flag > DP_EDGE_FACE;
             const dp_style style = style_of(&variants[i], DP_VALLEY, 100, 181, 3);
             scene *fold = new_scene();
             scene_polygon(fold, 3, lower);
@@ -380,8 +384,9 @@ static void edge_flags_keep_edges_from_drawing(void **state) {
             fold->flags[2] = fold->flags[3] = flag;
             draw_flat(fold, &style);
             const double ink = scene_ink(&shown, -10, -10, 10, 10);
-            if (flag == 0 && ink > 0.01) fail_msg("%s: the diagonal draws", variants[i].name);
-            if (flag == 1 && ink < 5) fail_msg("%s: the fold does not draw", variants[i].name);
+            if (!draws && ink > 0.01) fail_msg("%s: edge flag %d draws", variants[i].name, flag);
+            if (draws && ink < 5)
+                fail_msg("%s: edge flag %d does not draw", variants[i].name, flag);
             free(fold);
         }
     }

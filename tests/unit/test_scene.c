@@ -176,6 +176,24 @@ static void polygons_of_all_kinds_lie_in_one_batch(void **state) {
     dp_source_destroy(source);
 }
 
+static void instances_beyond_the_last_group_share_it(void **state) {
+    (void)state;
+    enum { MANY = 65540 };
+    small *const s = new_small();
+    dp_scene_instance *const instances = calloc(MANY, sizeof *instances);
+    for (uint32_t i = 0; i < MANY; i++) instances[i] = (dp_scene_instance){.node = 2, .mesh = 1};
+    instances[MANY - 1].node = 0;
+    s->desc.instances = instances, s->desc.instance_count = MANY;
+    dp_source *const source = source_of(&s->desc);
+    const dp_batch batch = read_all(source);
+    assert_int_equal(batch.polygon_count, 2 * MANY);
+    assert_int_equal(batch.groups[2 * MANY - 1], 65535);
+    assert_int_equal(batch.groups[2 * 65534], 65534);
+    assert_string_equal(dp_source_group_name(source, 65535), "hand/plate");
+    dp_source_destroy(source);
+    free(instances);
+}
+
 static void far_scenes_have_an_origin(void **state) {
     (void)state;
     small *const s = new_small();
@@ -487,21 +505,25 @@ static void frames_allocate_nothing(void **state) {
     play(source, 1);
     dp_context *context;
     static uint8_t rgba[BYTES], first[BYTES];
-    const dp_context_desc desc = {.allocator = &allocator, .threads = 1};
+    meter drawing = {0};
+    const dp_allocator beside = {meter_alloc, meter_realloc, meter_free, &drawing};
+    const dp_context_desc desc = {.allocator = &beside, .threads = 1};
     assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
+    const long made = m.calls;
     const double order[] = {0, 1, 0.5, 0.25, 0.75, 0, 1, 0.5, 0.25, 0.75, 0};
     long calls = 0;
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
         assert_int_equal(dp_source_set_time(source, order[i], NULL), DP_OK);
         assert_int_equal(draw(context, source, rgba, NULL), DP_OK);
         if (i == 4)
-            calls = m.calls; /* each picture was drawn once: its lists are as long as ever */
+            calls = drawing.calls; /* each picture was drawn once: its lists are as long as ever */
         if (i == 0) memcpy(first, rgba, BYTES);
     }
     assert_memory_equal(rgba, first, BYTES);
-    assert_int_equal(m.calls, calls);
+    assert_int_equal(drawing.calls, calls);
     dp_context_destroy(context);
     assert_same_with_threads(source, first);
+    assert_int_equal(m.calls, made); /* a pose takes no memory at all */
     dp_source_destroy(source);
     assert_int_equal(m.alive, 0);
     free((void *)s->mesh.joints), free((void *)s->mesh.weights);
@@ -514,6 +536,7 @@ int main(void) {
         cmocka_unit_test(tables_are_copied_and_filled_in),
         cmocka_unit_test(mirrored_instances_keep_their_fronts),
         cmocka_unit_test(polygons_of_all_kinds_lie_in_one_batch),
+        cmocka_unit_test(instances_beyond_the_last_group_share_it),
         cmocka_unit_test(far_scenes_have_an_origin),
         cmocka_unit_test(channels_are_sampled),
         cmocka_unit_test(steps_hold_and_splines_bend),

@@ -521,6 +521,19 @@ static void hatching_fills_the_face(void **state) {
     }
 }
 
+/* A slice in which no vertex lies. */
+static void a_slice_has_two_faces(void **state) {
+    (void)state;
+    const dp_clip clip = {.planes = {{{0, 0, 1}, 0.5}, {{0, 0, -1}, -0.25}}, .plane_count = 2};
+    box(new_scene(), -3, -2, -4, 3, 2, 4);
+    read_clipped(source_of(&shown), &clip);
+    near(face_area(ANY_GROUP, dp_v3(0, 0, 1), 0.5), 24, 1e-6);
+    near(face_area(ANY_GROUP, dp_v3(0, 0, -1), -0.25), 24, 1e-6);
+    near(line_length(ANY_GROUP, DP_EDGE_SECTION), 40, 1e-6);
+    const double spacing = sqrt(36 + 16 + 0.0625) / 60;
+    near(line_length(ANY_GROUP, DP_EDGE_HATCHING), 48 / spacing, 0.02);
+}
+
 static void attributes_are_interpolated(void **state) {
     (void)state;
     static const float positions[] = {0, 0, -1, 4, 0, -1, 0, 0, 3},
@@ -621,6 +634,30 @@ static void a_section_is_drawn(void **state) {
     assert_int_equal(dp_draw(context, source, &camera, &bare, &target, NULL), DP_OK);
     assert_true(drawn(context, DP_LINE_SECTION) == 0);
     assert_true(drawn(context, DP_LINE_HATCHING) > 0);
+    dp_context_destroy(context);
+    dp_source_destroy(source);
+}
+
+/* Behind what hides a face its outline is a hidden line; hatching is none. */
+static void hidden_faces_are_not_hatched(void **state) {
+    (void)state;
+    static picture out;
+    const dp_clip clip = {.planes = {{{0, 0, -1}, 0}}, .plane_count = 1, .hatch_spacing = 10};
+    box(new_scene(), -40, -30, -20, 40, 30, 20);
+    box(&shown, -10, -10, -20, 10, 10, 40);
+    dp_source *const source = clipped(source_of(&shown), &clip);
+    dp_context *const context = new_context(2);
+    const dp_camera camera = scene_flat_camera();
+    const dp_style style = {.hidden.look = DP_HIDDEN_DASHED};
+    const dp_target target = {.width = SCENE_WIDTH, .height = SCENE_HEIGHT, .rgba = out.rgba};
+    assert_int_equal(dp_draw(context, source, &camera, &style, &target, NULL), DP_OK);
+    size_t count, hidden = 0;
+    const dp_segment *const s = dp_segments(context, &count);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(s[i].line != DP_LINE_HATCHING);
+        hidden += s[i].line == DP_LINE_SECTION && s[i].level == 1;
+    }
+    assert_true(hidden >= 4);
     dp_context_destroy(context);
     dp_source_destroy(source);
 }
@@ -734,9 +771,11 @@ int main(void) {
         cmocka_unit_test(wrong_clips_are_refused),
         cmocka_unit_test(needles_are_filled_once),
         cmocka_unit_test(hatching_fills_the_face),
+        cmocka_unit_test(a_slice_has_two_faces),
         cmocka_unit_test(attributes_are_interpolated),
         cmocka_unit_test(origins_are_kept),
         cmocka_unit_test(a_section_is_drawn),
+        cmocka_unit_test(hidden_faces_are_not_hatched),
         cmocka_unit_test(what_sections_exclude_is_told),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(later_readings_allocate_nothing),
