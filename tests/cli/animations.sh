@@ -2,7 +2,7 @@
 # and whether every animated model of Debian's assimp-testmodels moves.
 # shellcheck shell=bash disable=SC2034,SC2086,SC2154
 
-animations_tests="animations_play animations_by_name no_animation animations_of_several animations_informed
+animations_tests="animations_play animations_in_films animations_by_name no_animation animations_of_several animations_informed
     test_models_move"
 
 # sliding [NAME [Y]]: an X file of a square that slides from x = 0 to 10 in 2 s; animations "Slide" and, back, "Return".
@@ -54,6 +54,18 @@ animations_play() {
         run 0 sliding.x $view --time 1 --threads $threads -o $threads.png
         cmp -s later.png $threads.png || fail "$threads threads differ"
     done
+}
+# A film plays the first animation as long as it lasts; what else moves takes --time without a warning.
+animations_in_films() {
+    sliding
+    run 0 sliding.x $small -q --fps 2 -o 'frame-%d.png'
+    [ "$(ls frame-*.png | wc -l)" = 4 ] || fail "not 4 frames: $(ls)"
+    run 0 sliding.x $small -q --fps 2 --animation Return -o 'back-%d.png'
+    [ "$(ls back-*.png | wc -l)" = 2 ] || fail "not 2 frames: $(ls)"
+    run 2 sliding.x $small --fps 2 --animation none -o 'none-%d.png'
+    says err 'how long is the film?'
+    run 0 shape:gear $small --deform wave --time 1 -o out.png
+    silent err
 }
 animations_by_name() {
     sliding
