@@ -29,7 +29,7 @@ static const entry entries[] = {
     {"bracket", "a bearing bracket with a fillet and three holes", dp_build_bracket, 16},
     {"stairs", "ten steps: ridges and valleys in turn, all of 90 degrees", dp_build_stairs, 1},
     {"boxes", "two boxes that cross without sharing a vertex: intersections", dp_build_boxes, 1},
-    {"flag", "a cloth beside its pole, to be waved", dp_build_flag, 32},
+    {"flag", "a cloth on its pole, to be waved", dp_build_flag, 32},
     {"torso", "a smooth body from hip to neck, to breathe", dp_build_torso, 24},
     {"terrain", "an open sheet of hills with a border; the seed changes it", dp_build_terrain, 256},
 };

@@ -3,7 +3,7 @@
 
 #include "base/vec.h"
 
-/* ---- flag: a cloth of 3 by 2 beside a round pole along y ---- */
+/* ---- flag: a cloth of 3 by 2 in a round pole along y ---- */
 
 static const double POLE = 0.035, FLY = 3, HOIST = 2;   /* radius; the cloth's sides */
 static const double POLE_LOW = -0.55, POLE_HIGH = 2.08; /* the cloth's low edge is y = 0 */
@@ -11,25 +11,32 @@ static const double POLE_LOW = -0.55, POLE_HIGH = 2.08; /* the cloth's low edge 
 static void cloth_point(const dp_model *model, const dp_sheet *sheet, uint32_t i, uint32_t j,
                         double p[3]) {
     (void)model;
-    p[0] = POLE + FLY * i / sheet->nu;
+    p[0] = FLY * i / sheet->nu;
     p[1] = HOIST * j / sheet->nv;
     p[2] = 0;
 }
 
-static void pole_curve(const dp_model *model, int top, uint32_t i, double p[3]) {
-    dp_turn(i, 4 * model->n[0], &p[0], &p[2]);
-    p[0] *= POLE;
+/* A point (x, z) of the disc of radius 1, turned by half a cell, so that the cloth goes through the
+ * middle of the pole's faces. */
+static void pole_point(const dp_model *model, int top, double x, double z, double p[3]) {
+    double c, s;
+    dp_turn(1, 8 * model->n[0], &c, &s);
+    p[0] = POLE * (x * c - z * s);
     p[1] = top ? POLE_HIGH : POLE_LOW;
-    p[2] *= -POLE;
+    p[2] = -(POLE * (x * s + z * c));
+}
+
+static void pole_curve(const dp_model *model, int top, uint32_t i, double p[3]) {
+    double x, z;
+    dp_turn(i, 4 * model->n[0], &x, &z);
+    pole_point(model, top, x, z, p);
 }
 
 static void pole_end_point(const dp_model *model, const dp_sheet *sheet, uint32_t i, uint32_t j,
                            double p[3]) {
-    (void)model;
-    dp_disc(i, j, sheet->nu, &p[0], &p[2]);
-    p[0] *= POLE;
-    p[1] = sheet->from ? POLE_HIGH : POLE_LOW;
-    p[2] *= -POLE;
+    double x, z;
+    dp_disc(i, j, sheet->nu, &x, &z);
+    pole_point(model, sheet->from, x, z, p);
 }
 
 /* The two ends of something that goes round in 4 n cells. */
@@ -50,8 +57,8 @@ void dp_build_flag(dp_model *model) {
     dp_model_add(model, 3 * n, 2 * n)->point = cloth_point;
     dp_model_loft(model, pole_curve, 0, 1, 4 * around, n);
     add_ends(model, around, pole_end_point);
-    model->extent = FLY + 2 * POLE;
-    model->centre[0] = FLY / 2;
+    model->extent = FLY + POLE;
+    model->centre[0] = (FLY - POLE) / 2;
     model->centre[1] = (POLE_LOW + POLE_HIGH) / 2;
 }
 
