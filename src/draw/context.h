@@ -101,6 +101,13 @@ enum { DP_PICTURE_MOST = 32768 /* px, either side */ };
 /* The target with its defaults filled in; DP_ERR_ARGUMENT, DP_ERR_LIMIT. */
 dp_result dp_check_target(const dp_target *target, dp_target *out, dp_diag *diag);
 
+/* Does any texture need the centre of the picture? (draw.c) */
+bool dp_needs_centre(const dp_frame *frame);
+
+/* Reads the source, unless it is to be streamed: *streams (gather.c). Tells progress up to DP_GATHERED. */
+dp_result dp_gather_picture(dp_context *context, dp_source *source, bool *streams, dp_diag *diag);
+static const double DP_GATHERED = 0.05;
+
 /* Tells how far the picture is, 0 to 1, or below 0 where that is not known; DP_ERR_CANCELLED when
  * it is to stop. What is told must not fall (dp_context_desc). */
 dp_result dp_tell_progress(dp_context *context, double fraction, dp_diag *diag);

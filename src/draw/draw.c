@@ -154,8 +154,8 @@ static void shade_tile(void *arg, uint32_t index, uint32_t worker) {
 }
 
 /* Progress when a stage is over; what is read in parts ends at DP_STREAMED instead. */
-static const double GATHERED = 0.05, TRANSFORMED = 0.06, PAIRED = 0.08, BINNED = 0.1, FOUND = 0.8,
-                    SHADED = 0.85, XRAYED = 0.93;
+static const double TRANSFORMED = 0.06, PAIRED = 0.08, BINNED = 0.1, FOUND = 0.8, SHADED = 0.85,
+                    XRAYED = 0.93;
 
 /* A part of a long loop, so that progress can be told between the parts. */
 typedef struct part {
@@ -227,7 +227,7 @@ static void lap(dp_stats *stats, dp_stage stage, double *since) {
 }
 
 /* Does any texture need the centre of the picture? */
-static bool needs_centre(const dp_frame *f) {
+bool dp_needs_centre(const dp_frame *f) {
     for (uint32_t i = 0; i < f->style_count; i++) {
         const dp_style *const s = &f->styles[i];
         if (s->pattern.texture || (s->stroke.texture && s->stroke.u != DP_STROKE_ARC)) return true;
@@ -266,42 +266,6 @@ static bool find_adjacency(dp_context *c) {
     return true;
 }
 
-/* Everything but plain lines over one colour looks at all polygons at once. */
-static bool may_stream(const dp_context *c) {
-    const dp_style *const style = &c->frame.styles[0];
-    return style->ink == DP_INK_STROKES && c->frame.style_count == 1 && !c->frame.hidden &&
-           style->edges != DP_EDGES_ADJACENCY && !c->shade.active && !style->smooth &&
-           !needs_centre(&c->frame) && !(style->stroke.light > 0) && !style->line_light.lighting;
-}
-
-static dp_result tell_gathered(void *arg, double done, dp_diag *diag) {
-    return dp_tell_progress(arg, GATHERED * done, diag);
-}
-
-/* Whether to stream is decided by the source's size where it tells, else while it is gathered. */
-static dp_result gather(dp_context *c, dp_source *source, bool *streams, dp_diag *diag) {
-    const dp_style *const style = &c->frame.styles[0];
-    const bool may = may_stream(c), rewindable = dp_source_rewindable(source);
-    *streams = may && (dp_stream_is_large(source, c->limit) || (!rewindable && style->passes == 1));
-    if (*streams) return DP_OK;
-    c->polygons.limit = may ? c->limit : 0;
-    c->polygons.tell = tell_gathered, c->polygons.tell_arg = c;
-    const dp_result result =
-        dp_gather(source, &c->polygons, &c->memory, &c->frame.polygons, &c->stats, diag);
-    if (!result || !c->polygons.is_beyond) return result;
-    if (!rewindable)
-        return dp_fail(
-            diag, DP_ERR_LIMIT,
-            "the model takes more than %zu MB and can be read only once: allow more memory, draw "
-            "it with one pass, or from a file",
-            c->limit >> 20);
-    dp_polygon_store_free(&c->polygons, &c->memory);
-    c->stats = (dp_stats){0};
-    c->share_from = dp_max(c->share_from, c->told); /* progress goes on from there */
-    *streams = true;
-    return DP_OK;
-}
-
 static dp_result report(void *arg, double done, dp_diag *diag) {
     return dp_tell_progress(arg, done, diag);
 }
@@ -330,7 +294,7 @@ static dp_result place_vertices(dp_context *c, dp_diag *diag) {
     dp_result result = dp_tell_progress(c, TRANSFORMED, diag);
     if (!result && f->styles[0].edges == DP_EDGES_ADJACENCY)
         result = find_adjacency(c) ? dp_tell_progress(c, PAIRED, diag) : out_of_memory(diag);
-    if (!result && needs_centre(f)) dp_find_centre(f);
+    if (!result && dp_needs_centre(f)) dp_find_centre(f);
     return result;
 }
 
@@ -364,7 +328,7 @@ static void expect_motion(dp_context *c, bool moves) {
 static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_diag *diag) {
     dp_frame *const f = &c->frame;
     bool streams;
-    dp_result result = gather(c, source, &streams, diag);
+    dp_result result = dp_gather_picture(c, source, &streams, diag);
     if (result) return result;
     if (streams) return stream_lines(c, source, since, diag);
     if (f->styles[0].smooth && f->polygons.mark_count)
@@ -383,7 +347,7 @@ static dp_result find_lines(dp_context *c, dp_source *source, double *since, dp_
         c->shade.gbuffer.normals = &c->normals.packed;
     }
     lap(&c->stats, DP_STAGE_GATHER, since);
-    if ((result = dp_tell_progress(c, GATHERED, diag))) return result;
+    if ((result = dp_tell_progress(c, DP_GATHERED, diag))) return result;
     if ((result = place_vertices(c, diag))) return result;
     lap(&c->stats, DP_STAGE_VERTICES, since);
     if (!dp_bin_polygons(f, margin_of(f), c->bin_workers) || !dp_bin_marks(f))

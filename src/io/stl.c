@@ -283,7 +283,8 @@ static bool is_little_endian(void) {
 
 static void offer_records(stl *self, dp_source *source) {
     if (!self->binary || !dp_stream_rewindable(self->stream) || !is_little_endian()) return;
-    source->records = (dp_records){.count = self->announced,
+    source->records = (dp_records){.user = self,
+                                   .count = self->announced,
                                    .size = RECORD,
                                    .corners = CORNERS_AT,
                                    .read = stl_records,

@@ -145,7 +145,7 @@ static void look_at_block(void *arg, uint32_t index, uint32_t worker) {
     const uint32_t count = left < BLOCK ? (uint32_t)left : BLOCK;
     const uint32_t run = s->reaches ? RUN : BLOCK;
     if (s->result) return;
-    s->result = r->read(j->source->callbacks.user, first, count, s->buffer, &s->diag);
+    s->result = r->read(r->user, first, count, s->buffer, &s->diag);
     if (s->result) return;
     const uint8_t *const records = s->buffer + r->corners;
     for (uint32_t i = 0; i < count; i += run)
@@ -176,7 +176,7 @@ static dp_result sample(const dp_source *source, dp_reach *reach, uint8_t *buffe
     const uint64_t step = r->count / SAMPLES;
     if (!reach || step < DP_TUNED(16, 2) * RUN) return DP_OK;
     for (uint64_t i = 0; i + RUN <= r->count; i += step) {
-        const dp_result result = r->read(source->callbacks.user, i, RUN, buffer, diag);
+        const dp_result result = r->read(r->user, i, RUN, buffer, diag);
         if (result) return result;
         reach_for_all(reach, buffer + r->corners, RUN, r->size);
     }

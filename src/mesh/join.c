@@ -223,7 +223,7 @@ static dp_result scene_records(void *user, uint64_t first, uint32_t count, uint8
         const uint64_t left = p->first + r->count - first;
         const uint32_t n = left < count ? (uint32_t)left : count;
         if (!n) continue;
-        const dp_result result = r->read(p->source->callbacks.user, first - p->first, n, to, diag);
+        const dp_result result = r->read(r->user, first - p->first, n, to, diag);
         if (result) return name_failure(p, result, diag);
         first += n, count -= n, to += n * r->size;
     }
@@ -243,6 +243,7 @@ static void offer_records(scene *s, dp_source *source) {
     }
     source->records = *like;
     source->records.count = count;
+    source->records.user = s;
     source->records.read = scene_records;
 }
 

@@ -205,6 +205,8 @@ double dp_source_duration(const dp_source *source) {
     return duration > 0 && isfinite(duration) ? duration : 0;
 }
 
+const dp_records *dp_source_records(const dp_source *source) { return &source->records; }
+
 void dp_source_lend(dp_source *source, dp_threads *threads) {
     if (source->lend) source->lend(source->callbacks.user, threads);
 }

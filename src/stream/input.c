@@ -8,7 +8,8 @@
 #include "stream/input.h"
 
 #include "base/diag.h"
-#include "mesh/source.h"
+#include "mesh/batch.h"
+#include "mesh/records.h"
 
 #include <string.h>
 
@@ -21,7 +22,7 @@ static const dp_array arrays[] = {DP_ARRAY(dp_input, corners, corners_cap),
                                   DP_ARRAY(dp_input, polygons, polygons_cap)};
 
 uint64_t dp_input_known(const dp_source *source) {
-    return source->records.read ? source->records.count : 0;
+    return dp_source_records(source)->read ? dp_source_records(source)->count : 0;
 }
 
 dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
@@ -30,7 +31,7 @@ dp_result dp_input_open(dp_input *input, dp_source *source, uint32_t chunks,
         (dp_input){.source = source, .memory = memory, .stats = stats, .part = chunks * DP_CHUNK};
     const dp_result begun = dp_source_begun(source, diag);
     if (begun) return begun;
-    if (source->records.read) return DP_OK;
+    if (dp_source_records(source)->read) return DP_OK;
     if (dp_reserve(memory, &input->corners, &input->corners_cap, input->part,
                    sizeof *input->corners) &&
         dp_reserve(memory, &input->flags, &input->flags_cap, input->part, sizeof *input->flags) &&
@@ -170,7 +171,7 @@ static dp_result next_of_batches(dp_input *input, dp_diag *diag) {
 /* ------- parts ------- */
 
 dp_result dp_input_next(dp_input *input, dp_diag *diag) {
-    const dp_records *const r = &input->source->records;
+    const dp_records *const r = dp_source_records(input->source);
     input->first += input->count;
     input->count = 0;
     if (input->first >= UINT32_MAX - 2 - input->part)
@@ -184,12 +185,14 @@ dp_result dp_input_next(dp_input *input, dp_diag *diag) {
 }
 
 size_t dp_input_buffer_size(const dp_input *input) {
-    return input->source->records.read ? input->source->records.size * DP_CHUNK : 1;
+    return dp_source_records(input->source)->read
+               ? dp_source_records(input->source)->size * DP_CHUNK
+               : 1;
 }
 
 dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer, dp_triangles *out,
                          dp_diag *diag) {
-    const dp_records *const r = &input->source->records;
+    const dp_records *const r = dp_source_records(input->source);
     const uint32_t first = index * DP_CHUNK;
     const uint32_t count = input->count - first < DP_CHUNK ? input->count - first : DP_CHUNK;
     if (!r->read) {
@@ -198,10 +201,10 @@ dp_result dp_input_chunk(const dp_input *input, uint32_t index, uint8_t *buffer,
         return DP_OK;
     }
     *out = (dp_triangles){buffer + r->corners, r->size, count, NULL};
-    return r->read(input->source->callbacks.user, input->first + first, count, buffer, diag);
+    return r->read(r->user, input->first + first, count, buffer, diag);
 }
 
 double dp_input_fraction(const dp_input *input) {
-    const dp_records *const r = &input->source->records;
+    const dp_records *const r = dp_source_records(input->source);
     return r->read && r->count ? (double)(input->first + input->count) / (double)r->count : -1;
 }
