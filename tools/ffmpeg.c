@@ -117,6 +117,7 @@ static void become(const char *program, command *c, int frames, int target, int 
     signal(SIGPIPE, SIG_DFL);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
     if (dup2(frames, STDIN_FILENO) < 0 || dup2(target, STDOUT_FILENO) < 0 ||
         dup2(words, STDERR_FILENO) < 0)
         _exit(126);

@@ -89,6 +89,7 @@ static void work(const crew *c, int orders, int results, int words) {
     const film_jobs *const jobs = c->jobs;
     dup2(words, STDERR_FILENO);
     signal(SIGINT, SIG_IGN); /* the program sees to it that jobs end */
+    signal(SIGHUP, SIG_IGN);
     const int begun = jobs->begin(jobs->user);
     for (result r = {0}; get(orders, &r.order, sizeof r.order); r = (result){0}) {
         r.frame.number = jobs->frames[r.order.frame];

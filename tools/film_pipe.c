@@ -220,6 +220,17 @@ void film_pipe_abandon(film_pipe *p) {
     if (p->path) forget(p);
 }
 
+/* Gives the whole file its name. An encoder that says that all went well must have written one. */
+static int put_in_place(film_pipe *p) {
+    struct stat made;
+    if (!p->temporary) return 0;
+    if (p->format != FORMAT_RGBA && !stat(p->temporary, &made) && made.st_size == 0) {
+        wrong_usage("%s: ffmpeg wrote nothing: is the one on PATH whole?", spoken(p->path));
+        return EXIT_FAILED;
+    }
+    return rename(p->temporary, p->final) ? fail(p, errno) : 0;
+}
+
 int film_pipe_finish(film_pipe *p) {
     int status = 0, code = 0;
     const int closed = close(p->descriptor);
@@ -231,8 +242,8 @@ int film_pipe_finish(film_pipe *p) {
         code = report_ffmpeg(p, status);
     else if (closed)
         code = fail(p, error);
-    else if (p->temporary && rename(p->temporary, p->final))
-        code = fail(p, errno);
+    else
+        code = put_in_place(p);
     if (code) return code;
     free(p->temporary);
     p->temporary = NULL;

@@ -99,6 +99,7 @@ void options_man(FILE *out) {
     man_heading(out, ".SH", "examples");
     man_examples(out);
     fputs(".SH EXIT STATUS\n0: done. 1: failed; one line on standard error says where and why. "
-          "2: wrong usage. 130: interrupted; an old output file is left as it was.\n",
+          "2: wrong usage. 130 (SIGINT), 143 (SIGTERM), 129 (SIGHUP): interrupted; an old output "
+          "file is left as it was.\n",
           out);
 }

@@ -44,7 +44,7 @@ static void on_signal(int number) {
 }
 
 void interrupt_install(void) {
-    static const int numbers[] = {SIGINT, SIGTERM};
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP}; /* HUP: the terminal is gone */
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
         struct sigaction old, action;
         memset(&action, 0, sizeof action);

@@ -14,7 +14,7 @@ void progress_end(void);
 /* Removes the bar from the terminal, so that something else can be printed. */
 void progress_clear(void);
 
-/* From now on SIGINT and SIGTERM end the program with 130 and 143: at once, or, between hold and
+/* From now on SIGINT, SIGTERM and SIGHUP end the program with 130, 143 and 129: at once, or, between hold and
  * release (an output file is being written), after progress_report has told the writer to stop. */
 void interrupt_install(void);
 void interrupt_hold(void);

@@ -201,8 +201,9 @@ DP_API bool dp_source_rewindable(const dp_source *source);
 
 /* Moves the source to a time, s, and to its start: what is drawn from then on is how it is at that
  * time (scene.h, deform.h, dp_source_callbacks; those that do not move stay as they are). Times
- * before 0 and after the end are allowed. A new source is at time 0. DP_ERR_ARGUMENT for a time that
- * is not finite; whatever the source fails with. */
+ * before 0 and after the end are allowed. A new source is at time 0. Call it before the first reading
+ * of a source that can be read only once. DP_ERR_ARGUMENT for a time that is not finite; whatever the
+ * source fails with, also when it is rewound: set a time again, then, before it is read. */
 DP_API dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag);
 /* How long the source moves, s: from 0 to this; 0 where it does not, or without an end. */
 DP_API double dp_source_duration(const dp_source *source);

@@ -95,7 +95,7 @@ static dp_result move_batch(moved *m, dp_batch *batch, bool stable, dp_diag *dia
         return out_of_memory(n, diag);
     if (n) move_vertices(m, batch, m->desc.partner ? &other : NULL);
     m->handed_out += n;
-    batch->positions = n ? m->positions[0] : NULL;
+    if (n) batch->positions = m->positions[0]; /* else all its indices are out of range */
     batch->position_stride = sizeof *m->positions;
     batch->normals = (dp_attribute){0};
     if (m->desc.normals && n) batch->normals = (dp_attribute){.values = m->normals[0], .count = n};

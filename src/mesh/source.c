@@ -183,12 +183,7 @@ dp_result dp_source_begun(dp_source *source, dp_diag *diag) {
     return dp_source_rewindable(source) && !source->holds ? dp_source_rewind(source, diag) : DP_OK;
 }
 
-dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag) {
-    dp_diag unused;
-    if (!diag) diag = &unused;
-    if (!source || !isfinite(time))
-        return dp_fail(diag, DP_ERR_ARGUMENT,
-                       "dp_source_set_time: source is NULL, or the time is not finite");
+static dp_result move_to(dp_source *source, double time, dp_diag *diag) {
     if (!source->callbacks.set_time) return DP_OK;
     source->holds = false;
     source->moves = true;
@@ -197,6 +192,19 @@ dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag) {
     if (result && diag->result != result)
         dp_fail(diag, result, "the polygon source cannot be moved to %g s", time);
     return result;
+}
+
+/* It is rewound after a failure, too: what was borrowed from a source within may be gone. */
+dp_result dp_source_set_time(dp_source *source, double time, dp_diag *diag) {
+    dp_diag unused;
+    if (!diag) diag = &unused;
+    if (!source || !isfinite(time))
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "dp_source_set_time: source is NULL, or the time is not finite");
+    const dp_result result = move_to(source, time, diag);
+    if (!dp_source_rewindable(source)) return result;
+    const dp_result rewound = dp_source_rewind(source, result ? &unused : diag);
+    return result ? result : rewound;
 }
 
 double dp_source_duration(const dp_source *source) {

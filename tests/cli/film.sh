@@ -349,6 +349,10 @@ ffmpeg_fails() {
     printf 'kill -9 $$\n' | fake_ffmpeg
     PATH=$PWD/bin:$PATH run 1 $film_cube --turn 360 --frames 50 -o out.mp4
     says err 'was ended by a signal'
+    printf 'cat >/dev/null\n' | fake_ffmpeg
+    PATH=$PWD/bin:$PATH run 1 $film_cube --turn 360 --frames 5 -o out.mp4
+    one_line
+    says err 'out.mp4: ffmpeg wrote nothing'
     printf 'head -c 1000 >/dev/null\n' | fake_ffmpeg
     PATH=$PWD/bin:$PATH run 1 $film_cube --turn 360 --frames 50 -o out.mp4
     says err 'ended before the film did'
@@ -365,7 +369,9 @@ ffmpeg_is_slow() {
     silent err
     [ "$(cat ./-out.mp4)" = 'a film' ] || fail "$(cat ./-out.mp4)"
     [ "$(wc -c <frames)" = $((64 * 48 * 4 * 50)) ] || fail "$(wc -c <frames) bytes of frames"
-    printf 'while head -c 4096 | grep -qc .; do sleep 0.01; done\n' | fake_ffmpeg # it reads slowly
+    # it reads slowly
+    printf 'while head -c 4096 | grep -qc .; do sleep 0.01; done\nfor last; do :; done\necho "a film" >"${last#file:}"\n' |
+        fake_ffmpeg
     PATH=$PWD/bin:$PATH run 0 $film_cube --turn 360 --frames 20 -o out.mp4 -q
     no_temporary
 }
@@ -374,10 +380,11 @@ interrupted_films() {
     local signal
     echo old >out.mp4
     printf 'echo $$ >pid\nexec sleep 60\n' | fake_ffmpeg
-    for signal in INT TERM; do
+    for signal in INT TERM HUP; do
         PATH=$PWD/bin:$PATH interrupt $signal 0.7 $film_cube --turn 360 --frames 2000 -o out.mp4
-        case $signal:$code in INT:130 | TERM:143) ;; *) fail "SIG$signal: exit code $code" ;; esac
+        case $signal:$code in INT:130 | TERM:143 | HUP:129) ;; *) fail "SIG$signal: exit code $code" ;; esac
         [ "$(cat out.mp4)" = old ] || fail "the old file is gone"
+        no_temporary
         kill -0 "$(cat pid)" 2>/dev/null && fail "ffmpeg is left after SIG$signal"
     done
     # ffmpeg has all frames, and does not end
@@ -416,7 +423,8 @@ films_that_fail() {
 } 2>/dev/null # the shell tells who was killed
 film_progress() {
     script -qec true /dev/null >seen 2>&1 </dev/null || return # no such program, or no terminals here
-    printf 'while head -c 65536 | grep -qc .; do sleep 0.05; done\n' | fake_ffmpeg
+    printf 'while head -c 65536 | grep -qc .; do sleep 0.05; done\nfor last; do :; done\necho "a film" >"${last#file:}"\n' |
+        fake_ffmpeg
     PATH=$PWD/bin:$PATH script -qec "$program $film_cube --turn 360 --frames 200 -o out.mp4" /dev/null >seen </dev/null
     grep -q 'drawing \[.* left' seen || fail "no progress bar with the time left"
     [ "$(tail -c 4 seen | od -An -c | tr -d ' \n')" = '\r033[K' ] || fail "the bar is not cleared"

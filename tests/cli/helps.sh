@@ -28,7 +28,7 @@ first_screen() {
 # Every topic that the first screen names is one, and every option is in one of them.
 topics() {
     run 0 --help
-    sed -n '/Topics:/,$p' out | tr -d '\n.' | sed 's/.*Topics://; s/, or the name.*//' | tr -s ', ' '\n' | grep . >words
+    sed -n '/Topics:/,$p' out | tr -d . | tr -s '\n ' ' ' | sed 's/.*Topics://; s/, or the name.*//' | tr -s ', ' '\n' | grep . >words
     for word in picture page camera lines paths strokes surface method program models shapes info make bench all; do
         grep -qx "$word" words || fail "$word is no topic: $(tr '\n' ' ' <words)"
     done
