@@ -572,6 +572,7 @@ static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap)
                                   DP_ARRAY(dp_emergence, drawn, drawn_cap),
                                   DP_ARRAY(dp_emergence, drawn_of, drawn_of_cap),
                                   DP_ARRAY(dp_emergence, emerging_of, emerging_of_cap),
+                                  DP_ARRAY(dp_emergence, served, served_cap),
                                   DP_ARRAY(dp_emergence, lookouts.x, lookouts.x_cap),
                                   DP_ARRAY(dp_emergence, lookouts.y, lookouts.y_cap),
                                   DP_ARRAY(dp_emergence, lookouts.d, lookouts.d_cap),

@@ -17,6 +17,14 @@ bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
     return true;
 }
 
+bool dp_note_served(dp_finder *w, uint32_t polygon, uint32_t edge) {
+    if (!DP_TILE_RESERVE(&w->tile, w, emergence.served, emergence.served_cap,
+                         w->emergence.served_count + 1u))
+        return false;
+    w->emergence.served[w->emergence.served_count++] = (dp_unpaired_edge){polygon, edge, 0, false};
+    return true;
+}
+
 static void mark(uint32_t *of, uint32_t polygon, uint32_t edge) {
     if (edge < BITS) of[polygon] |= (uint32_t)1 << edge;
 }
@@ -31,13 +39,15 @@ bool dp_mark_drawn(dp_finder *w) {
     memset(own->emerging_of, 0, count * sizeof *own->emerging_of);
     for (uint32_t i = 0; i < own->drawn_count; i++)
         mark(own->drawn_of, own->drawn[i].polygon, own->drawn[i].edge);
+    for (uint32_t i = 0; i < own->served_count; i++)
+        mark(own->emerging_of, own->served[i].polygon, own->served[i].edge);
     return true;
 }
 
 /* Marks an edge as the partner has it, if it has. */
 static void mark_partner(dp_finder *w, dp_unpaired_edge e) {
     const dp_tile_polygon *const p = &w->tile.polygons[e.polygon],
-                                *const q = &w->tile.polygons[e.partner - 1];
+                                 *const q = &w->tile.polygons[e.partner - 1];
     const dp_vertex *const u = w->tile.points + p->point, *const v = w->tile.points + q->point;
     if ((p->flags | q->flags) & DP_POLYGON_CLIPPED) return;
     const uint32_t a = u[e.edge].key, b = u[(e.edge + 1) % p->points].key;

@@ -27,8 +27,8 @@ static double drawn(dp_context *context, dp_line line) {
     double sum = 0;
     for (size_t i = 0; i < count; i++)
         if (s[i].line == line)
-            sum += hypot((double)s[i].b[0] - (double)s[i].a[0],
-                         (double)s[i].b[1] - (double)s[i].a[1]);
+            sum +=
+                hypot((double)s[i].b[0] - (double)s[i].a[0], (double)s[i].b[1] - (double)s[i].a[1]);
     return sum;
 }
 
@@ -85,8 +85,8 @@ static int count_gaps(const picture *p) {
         for (int x = 1; x + 1 < SCENE_WIDTH; x++) {
             const float *const d = p->depth + y * SCENE_WIDTH + x;
             if (isinf(*d)) continue;
-            const bool is_border = isinf(d[-1]) || isinf(d[1]) || isinf(d[-SCENE_WIDTH]) ||
-                                   isinf(d[SCENE_WIDTH]);
+            const bool is_border =
+                isinf(d[-1]) || isinf(d[1]) || isinf(d[-SCENE_WIDTH]) || isinf(d[SCENE_WIDTH]);
             gaps += is_border && !is_outlined(p, x, y);
         }
     return gaps;
