@@ -325,6 +325,12 @@ static bool store_color(const option *o, const char *value, dp_color *to) {
 
 enum { WIDEST = 100 /* mm */ };
 
+/* A width for all classes is twice as large as hatching's (widths.c). */
+static tool_length class_width(tool_length width, int line, unsigned set) {
+    width.halved = line == DP_LINE_HATCHING && set == DP_ALL_LINES;
+    return width;
+}
+
 /* One value in [text, end) for the classes of `set`. */
 static bool store_one(const option *o, const char *text, const char *end, unsigned set,
                       tool_settings *settings) {
@@ -350,7 +356,7 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
     for (int line = 0; line < DP_LINE_COUNT; line++) {
         if (!(set >> line & 1)) continue;
         if (o->kind == OPTION_WIDTHS)
-            settings->width_of[line] = width;
+            settings->width_of[line] = class_width(width, line, set);
         else
             settings->style.line[line].color = color;
     }

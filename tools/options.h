@@ -76,6 +76,7 @@ typedef enum length_unit { LENGTH_NONE = 0, LENGTH_PX, LENGTH_MM, LENGTH_SHARE }
 typedef struct tool_length {
     double value;
     length_unit unit;
+    bool halved; /* half of it is meant: of hatching, where a width is for all classes */
 } tool_length;
 
 /* --page: name, and size in mm as it was named; width 0: not given, below 0: none. */

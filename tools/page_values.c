@@ -32,7 +32,7 @@ bool read_length(const char *text, const char *end, tool_length *length) {
     const unit *const found = unit_at_end(text, end), *const u = found ? found : &pixels;
     double number;
     if (!read_number(text, end - strlen(u->name), &number)) return false;
-    *length = (tool_length){number * u->factor, u->kind};
+    *length = (tool_length){.value = number * u->factor, .unit = u->kind};
     return true;
 }
 

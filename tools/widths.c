@@ -6,6 +6,7 @@
  *
  *     a picture        shares of its smaller side, so that a thumbnail and a poster look alike
  *     a page           0.5 and 0.25 mm: line group 0.5 of ISO 128-2
+ *     --width W        W, and W / 2 for hatching, which is a tone: as wide as outlines it would be black
  *     a sheet          0.5 mm: in drawings by ISO 128-2 outlines and edges are wide lines, and hidden
  *                      ones narrow
  *
@@ -38,9 +39,10 @@ static double smaller_side(const page_plan *plan) { return fmin(plan->width, pla
 float page_length(const page_plan *plan, const tool_length *length) {
     if (length->unit == LENGTH_NONE) return 0;
     if (!(length->value > 0)) return -1;
-    return (float)(length->unit == LENGTH_MM      ? length->value / plan->mm_per_px
-                   : length->unit == LENGTH_SHARE ? length->value * smaller_side(plan)
-                                                  : length->value);
+    const double value = length->halved ? length->value / 2 : length->value;
+    return (float)(length->unit == LENGTH_MM      ? value / plan->mm_per_px
+                   : length->unit == LENGTH_SHARE ? value * smaller_side(plan)
+                                                  : value);
 }
 
 /* px, of a class whose width is not given. */
@@ -94,7 +96,8 @@ typedef struct limits {
 static bool put_width(const page_plan *plan, double px, const tool_length *given, float *to,
                       limits *met) {
     const bool shared = given->unit == LENGTH_SHARE;
-    met->thin |= given->unit == LENGTH_MM && px > (double)page_length(plan, given) + 1e-3;
+    met->thin |=
+        given->unit == LENGTH_MM && !given->halved && px > (double)page_length(plan, given) + 1e-3;
     met->thick |= shared && px > thickest;
     *to = (float)(shared ? fmin(px, thickest) : px);
     return (double)*to <= thickest ||

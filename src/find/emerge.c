@@ -265,32 +265,12 @@ static void behold(dp_finder *w, uint32_t point, uint32_t index, uint32_t sides)
         if (is_near || !(beyond > 0)) keep_furthest(w, b, side, index, d, rounding);
     }
     if (here.edge == UINT32_MAX) return;
-    if (p->id < w->tile.polygons[b->first.polygon].id) b->first = here;
-    b->is_drawn |= here.edge < 32 && w->emergence.drawn_of[index] >> here.edge & 1;
+    if (p->id < w->tile.polygons[b->first.polygon].id && dp_emerges(w, here)) b->first = here;
+    b->is_drawn |= dp_is_drawn(w, here);
 }
 
 void dp_behold(dp_finder *w, uint32_t lookout, uint32_t index, uint32_t sides) {
     behold(w, w->emergence.lookouts.point[lookout], index, sides);
-}
-
-bool dp_note_drawn(dp_finder *w, uint32_t polygon, uint32_t edge) {
-    if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn, emergence.drawn_cap,
-                         w->emergence.drawn_count + 1u))
-        return false;
-    w->emergence.drawn[w->emergence.drawn_count++] = (dp_unpaired_edge){polygon, edge, 0, false};
-    return true;
-}
-
-static bool find_drawn(dp_finder *w) {
-    if (!DP_TILE_RESERVE(&w->tile, w, emergence.drawn_of, emergence.drawn_of_cap,
-                         w->tile.polygon_count))
-        return false;
-    memset(w->emergence.drawn_of, 0, w->tile.polygon_count * sizeof *w->emergence.drawn_of);
-    for (uint32_t i = 0; i < w->emergence.drawn_count; i++) {
-        const dp_unpaired_edge e = w->emergence.drawn[i];
-        if (e.edge < 32) w->emergence.drawn_of[e.polygon] |= (uint32_t)1 << e.edge;
-    }
-    return true;
 }
 
 /* An edge's own polygon lies on its own side, even where it is too thin to cover a place there. */
@@ -355,11 +335,12 @@ static void judge_fold(const dp_finder *w, const emerging *e, finding *f) {
 }
 
 /* Which of the polygons that have an edge here makes the line: of those that are seen, else of all,
- * the one that comes first in the source. */
+ * the one that comes first in the source. It must be looked at here, or nobody would. */
 static dp_unpaired_edge find_owner(const dp_finder *w, const dp_beheld *b) {
     const dp_unpaired_edge *const sides = b->nearest;
     const dp_tile_polygon *const polygons = w->tile.polygons;
-    const bool left = sides[0].edge != UINT32_MAX, right = sides[1].edge != UINT32_MAX;
+    const bool left = sides[0].edge != UINT32_MAX && dp_emerges(w, sides[0]),
+               right = sides[1].edge != UINT32_MAX && dp_emerges(w, sides[1]);
     if (left && right) return sides[polygons[sides[1].polygon].id < polygons[sides[0].polygon].id];
     return left ? sides[0] : right ? sides[1] : b->first;
 }
@@ -387,24 +368,35 @@ static bool has_same_sides(const finding *a, const finding *b) {
            a->owner.polygon == b->owner.polygon && a->owner.edge == b->owner.edge;
 }
 
-/* The polygon furthest behind an edge on a side; where all lies beyond a crack, the nearest one. */
-static uint32_t furthest_on(const dp_beheld *b, bool right) {
-    return b->furthest[right] != UINT32_MAX ? b->furthest[right] : b->nearest[right].polygon;
-}
-
-/* A back face counts as nearer than a front face only where back faces are seen (fan.c). */
-static bool trusts_winding(const dp_finder *w, const emerging *e, const dp_beheld *b, bool right) {
-    const dp_tile_polygon *const near = &w->tile.polygons[b->nearest[right].polygon],
-                                 *const far = &w->tile.polygons[furthest_on(b, right)];
-    return dp_may_be_folded(near) && far->flags & DP_POLYGON_FRONT &&
+/* Of what lies on one side, the nearest and the furthest: does a front face lie behind a back face? That
+ * counts as nearer than a front face only where back faces are seen (fan.c). */
+static bool is_wrong_way(const dp_finder *w, const emerging *e, uint32_t near, uint32_t far,
+                         bool right) {
+    return !(w->tile.polygons[near].flags & DP_POLYGON_FRONT) &&
+           w->tile.polygons[far].flags & DP_POLYGON_FRONT &&
            !(w->tile.sees_backs && dp_shows_back_beside(w, &e->spine, right));
 }
 
-/* Do all polygons on that side face away, where no back face is seen? */
-static bool are_hidden_backs(const dp_finder *w, const dp_beheld *b, bool right) {
-    const uint32_t near = w->tile.polygons[b->nearest[right].polygon].flags,
-                   far = w->tile.polygons[furthest_on(b, right)].flags;
-    return !w->tile.sees_backs && !w->finds_hidden && !((near | far) & DP_POLYGON_FRONT);
+/* Do both face away, where no back face is seen? */
+static bool are_hidden_backs(const dp_finder *w, uint32_t near, uint32_t far) {
+    const uint32_t flags = w->tile.polygons[near].flags | w->tile.polygons[far].flags;
+    return !w->tile.sees_backs && !w->finds_hidden && !(flags & DP_POLYGON_FRONT);
+}
+
+/* Nothing lies on the other side: an outline, with the nearest polygon and the one furthest behind it,
+ * if any does not lie beyond a crack. */
+static void see_outline(const dp_finder *w, const emerging *e, const dp_beheld *b, bool right,
+                        finding *f) {
+    const uint32_t near = f->sides[right], own = e->unpaired.polygon;
+    f->behind = b->furthest[right];
+    /* a partner seen edge-on, or nearly, covers nothing, but it is there */
+    const bool is_thin = f->behind == near && e->unpaired.partner;
+    if (is_thin) f->behind = near == own ? e->unpaired.partner - 1 : own;
+    const uint32_t far = f->behind == UINT32_MAX ? near : f->behind;
+    if ((is_thin || dp_may_be_folded(&w->tile.polygons[near])) &&
+        is_wrong_way(w, e, near, far, right))
+        f->behind = near, f->sides[right] = far;
+    if (are_hidden_backs(w, near, far)) *f = NOTHING;
 }
 
 /* Does nothing lie at the point but the two polygons of an edge that are trusted? The table has left
@@ -434,16 +426,11 @@ static bool judge(const dp_finder *w, const emerging *e, uint32_t k, const findi
     for (int i = 0; i < 2; i++) here.sides[i] = b->nearest[i].polygon;
     const bool left = here.sides[0] != UINT32_MAX, right = here.sides[1] != UINT32_MAX;
     here.owner = find_owner(w, b);
-    if (left != right) here.behind = b->furthest[right];
-    /* a partner seen edge-on covers nothing, but it is there */
-    if (left != right && here.behind == here.sides[right] && e->unpaired.partner)
-        here.behind = here.behind == own ? e->unpaired.partner - 1 : own;
-    if (left != right && trusts_winding(w, e, b, right))
-        here.behind = here.sides[right], here.sides[right] = furthest_on(b, right);
+    if (left != right) see_outline(w, e, b, right, &here);
     /* else a sheet seen edge-on: both its borders are one line */
     if (!left && !right) here.sides[0] = own, here.owner = e->unpaired;
     if (here.sides[0] == here.sides[1] || b->is_drawn || b->is_hidden ||
-        !is_own_edge(w, e, here.owner) || (left != right && are_hidden_backs(w, b, right)))
+        !is_own_edge(w, e, here.owner))
         here = NOTHING;
     if (is_plain_pair(b)) here = judge_pair(w, e);
     /* as the table would have it, so that tiles agree */
@@ -558,6 +545,7 @@ static bool place_all(dp_finder *w, uint32_t *edges, uint32_t *points) {
         e->first = *points;
         e->step = e->spine.n <= SHORT ? 2 : 1;
         if (!place_points(w, e, points)) return false;
+        dp_mark_emerging(w, e->unpaired);
         ++*edges;
     }
     return true;
@@ -565,8 +553,10 @@ static bool place_all(dp_finder *w, uint32_t *edges, uint32_t *points) {
 
 void dp_find_emergent(dp_finder *w) {
     uint32_t edges, points;
-    if (!w->emergence.unpaired_count || !place_all(w, &edges, &points) || !points) return;
-    if (!sort_points(w, points) || !find_drawn(w)) return;
+    if (!w->emergence.unpaired_count || !dp_mark_drawn(w) || !place_all(w, &edges, &points) ||
+        !points)
+        return;
+    if (!sort_points(w, points)) return;
     behold_own(w, points);
     dp_find_kernels_for(w->tile.frame->lanes)->look(w);
     w->tile.stats.edges_emergent += edges;
@@ -581,6 +571,8 @@ static const dp_array arrays[] = {DP_ARRAY(dp_emergence, unpaired, unpaired_cap)
                                   DP_ARRAY(dp_emergence, beheld, beheld_cap),
                                   DP_ARRAY(dp_emergence, drawn, drawn_cap),
                                   DP_ARRAY(dp_emergence, drawn_of, drawn_of_cap),
+                                  DP_ARRAY(dp_emergence, emerging_of, emerging_of_cap),
+                                  DP_ARRAY(dp_emergence, served, served_cap),
                                   DP_ARRAY(dp_emergence, lookouts.x, lookouts.x_cap),
                                   DP_ARRAY(dp_emergence, lookouts.y, lookouts.y_cap),
                                   DP_ARRAY(dp_emergence, lookouts.d, lookouts.d_cap),

@@ -137,19 +137,30 @@ typedef struct dp_beheld {
 typedef struct dp_emergence {
     dp_lookouts lookouts;
     dp_unpaired_edge *unpaired;
-    dp_lookout *placed;      /* by point, like `beheld` */
-    dp_beheld *beheld;       /* by point */
-    dp_unpaired_edge *drawn; /* edges that the table has made lines of */
-    uint32_t *drawn_of;      /* by tile polygon: a bit for each of its first 32 edges among these */
+    dp_lookout *placed;       /* by point, like `beheld` */
+    dp_beheld *beheld;        /* by point */
+    dp_unpaired_edge *drawn;  /* edges that the table has made lines of */
+    dp_unpaired_edge *served; /* those that it has decided together with others (dp_note_served) */
+    uint32_t *drawn_of;    /* by tile polygon: a bit for each of its first 32 edges among these */
+    uint32_t *emerging_of; /* the same of those that are looked at here, or their partners are */
     struct dp_emerging *edges; /* those with sample points here (emerge.c) */
-    size_t unpaired_cap, edges_cap, placed_cap, beheld_cap, drawn_cap, drawn_of_cap;
-    uint32_t unpaired_count, drawn_count;
+    size_t unpaired_cap, edges_cap, placed_cap, beheld_cap, drawn_cap, drawn_of_cap,
+        emerging_of_cap, served_cap;
+    uint32_t unpaired_count, drawn_count, served_count;
 } dp_emergence;
 
 void dp_emergence_free(dp_emergence *emergence, const dp_allocator *memory);
 uint64_t dp_emergence_bytes(const dp_emergence *emergence);
 
 struct dp_finder;
+
+/* Which edges are drawn, and which emerge (emerging_marks.c): dp_mark_drawn clears the marks, and marks
+ * what dp_note_drawn was told. Edges that are neither, flat ones on which something stands, say, make
+ * no line. */
+bool dp_mark_drawn(struct dp_finder *finder);
+void dp_mark_emerging(struct dp_finder *finder, dp_unpaired_edge edge);
+bool dp_is_drawn(const struct dp_finder *finder, dp_unpaired_edge edge);
+bool dp_emerges(const struct dp_finder *finder, dp_unpaired_edge edge);
 
 /* Tells sample point `lookout` that tile polygon `index`, whose plane passes through it, covers
  * what lies to its left and right: `sides`, bits DP_LOOK_… (emerge.c). */

@@ -201,6 +201,17 @@ static void add_fold(dp_finder *w, const fan *f) {
             fold.normal);
 }
 
+/* All polygons of the edge are served by its line, whichever two it is made for. */
+static bool note_all(dp_finder *w, const dp_edge_entry *e) {
+    if (!dp_note_served(w, e->a, e->edge_a)) return false;
+    if (e->b != UINT32_MAX && !dp_note_served(w, e->b, e->edge_b)) return false;
+    for (uint32_t i = e->more; i; i = w->table.meetings[i - 1].next) {
+        const dp_half_edge at = dp_half_edge_of(w, w->table.meetings[i - 1].number);
+        if (!dp_note_served(w, at.polygon, at.edge)) return false;
+    }
+    return true;
+}
+
 void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
     const dp_polygons *const polygons = &w->tile.frame->polygons;
     fan f = {.owner = UINT32_MAX};
@@ -210,6 +221,7 @@ void dp_resolve_fan(dp_finder *w, const dp_edge_entry *e) {
                        dp_v3f(dp_vertex_position(polygons, f.vb)), &f.sight))
         return;
     find_sides(w, e, &f);
+    if (!note_all(w, e)) return;
     const bool left = f.sides[0].nearest.polygon != UINT32_MAX,
                right = f.sides[1].nearest.polygon != UINT32_MAX;
     if (left && right) {

@@ -35,5 +35,6 @@ uint64_t dp_finder_bytes(const dp_finder *finder) {
 void dp_finder_open(dp_finder *finder, uint32_t index) {
     dp_tile_open(&finder->tile, index);
     finder->lines.candidate_count = finder->lines.probe_count = 0;
-    finder->emergence.unpaired_count = finder->emergence.drawn_count = 0;
+    finder->emergence.unpaired_count = finder->emergence.drawn_count =
+        finder->emergence.served_count = 0;
 }

@@ -78,6 +78,9 @@ static inline uint32_t dp_seen_beside(const uint32_t sides[2], uint32_t polygon)
 
 /* Notes that a line is made along this edge of a tile polygon; false: out of memory (emerge.c). */
 bool dp_note_drawn(dp_finder *finder, uint32_t polygon, uint32_t edge);
+/* One that has been decided together with others, of more than two polygons, or wound alike (fan.c): it
+ * is drawn, or emerges, with them. */
+bool dp_note_served(dp_finder *finder, uint32_t polygon, uint32_t edge);
 
 /* Leaves the edge to emerge. */
 void dp_leave_to_emerge(dp_finder *finder, dp_unpaired_edge edge);

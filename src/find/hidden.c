@@ -228,7 +228,7 @@ static void collect_all(dp_finder *w, size_t first) {
 
 static void find_candidates(dp_finder *w) {
     w->lines.candidate_count = w->lines.probe_count = 0;
-    w->emergence.unpaired_count = w->emergence.drawn_count = 0;
+    w->emergence.unpaired_count = w->emergence.drawn_count = w->emergence.served_count = 0;
     dp_find_edges(w);
     dp_find_emergent(w);
     dp_find_crossings(w);

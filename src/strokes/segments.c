@@ -302,6 +302,8 @@ static void take_segment(const dp_frame *frame, const dp_piece *piece, const dp_
     stroke->b = take_end(frame, made, i, 1, segment->b, segment->world_b);
     for (int k = 0; k < 2; k++) take_line_end(frame, made, i, piece, k, segment);
     stroke->line = piece->line;
+    stroke->stops =
+        (uint8_t)((segment->end[0] == DP_END_HIDDEN) | (segment->end[1] == DP_END_HIDDEN) << 1);
     dp_take_look(frame, piece, segment, stroke);
     for (int k = 0; k < 2; k++) take_plane(made, i, k, piece, stroke->plane[k]);
     stroke->turn = turn_at(&frame->view, made, i, piece);

@@ -25,6 +25,12 @@ sections() {
     weights_of wide.txt >weights.txt
     says weights.txt "hatching 1.5 ridge 1.5 section 5 silhouette 3"
     says wide.txt "#ff0000ff"
+    run 0 shape:cube -q --clip 0,1,0 --width 4 -o trace=wide.txt
+    weights_of wide.txt >weights.txt
+    says weights.txt "hatching 2 ridge 4 section 4 silhouette 4"
+    run 0 shape:cube -q --clip 0,1,0 --width 4,hatching=3 -o trace=wide.txt
+    weights_of wide.txt >weights.txt
+    says weights.txt "hatching 3 ridge 4 section 4 silhouette 4"
     # lines lie at half the distance, so there are about twice as many
     run 0 shape:cube -q --clip 0,1,0 --section-spacing 2% --lines hatching -o trace=wide.txt
     run 0 shape:cube -q --clip 0,1,0 --section-spacing 1% --lines hatching -o trace=narrow.txt
