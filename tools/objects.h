@@ -39,6 +39,8 @@ bool object_check(const char *value);
 void object_split(const char *value, const char **names_end, const char **settings);
 /* Lays an object's settings over *s. True: it is to be hidden. */
 bool object_apply(const char *value, tool_settings *s);
+/* Is any surface to be see-through, the picture's or an object's? */
+bool xray_asked(const tool_settings *s);
 
 /* ------- what is drawn (objects.c) ------- */
 

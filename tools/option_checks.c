@@ -2,6 +2,7 @@
  * message. */
 #include "files.h"
 #include "film.h"
+#include "objects.h"
 #include "options.h"
 #include "report.h"
 
@@ -131,7 +132,7 @@ static bool check_motion(const tool_settings *s) {
 }
 
 static bool check_xray(const tool_settings *s) {
-    if (!(s->xray > 0 && s->xray < 1)) return true;
+    if (!xray_asked(s)) return true;
     if (s->edges == EDGES_ADJACENCY)
         return wrong_usage("an x-ray's lines are found in the tiles, without adjacency; leave out "
                            "--edges adjacency or --xray");
