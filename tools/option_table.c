@@ -113,7 +113,7 @@ const option option_table[] = {
     {"lines", 0, "CLASS,...|all|none", OPTION_LINES, GROUP_LINES, PICTURE, AT(style), 0, 0, 0,
      "Classes to draw: silhouette, ridge, valley, intersection, border, section, hatching. Default: all."},
     {"width", 0, "W or CLASS=W,...", OPTION_WIDTHS, GROUP_LINES, PICTURE, AT(width_of), 0, 0.5, 64,
-     "Whole width of the lines, of all classes or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
+     "Whole width of the lines, of all classes (sections' hatching: half of it) or of each: pixels, 0.5mm or 1pt (without --page and --dpi an inch is 96 "
      "pixels), or 0.2%, a share of the picture's smaller side. Default: outlines and borders 0.25%, the others half of "
      "it; on pages 0.5mm and 0.25mm, on sheets 0.5mm."},
     {"color", 0, "COLOR or CLASS=COLOR,...",
