@@ -238,7 +238,12 @@ int measure_model(const tool_settings *s, dp_source *source, measured *model) {
         return EXIT_FAILED;
     }
     if (extent->polygons > extent->not_finite + extent->bad_index) return 0;
-    if (!extent->polygons)
+    if (!extent->polygons && s->section.count)
+        wrong_usage(
+            "%s: the clip planes leave nothing of what is to be drawn; turn a normal round, or "
+            "move a plane",
+            name);
+    else if (!extent->polygons)
         wrong_usage(no_polygons, name);
     else
         wrong_usage(

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 /* ---- patterns ---- */
 
 /* One letter of UTF-8, at least a byte. */

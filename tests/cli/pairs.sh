@@ -189,25 +189,83 @@ pair() {
     diff -r one three >/dev/null || problem+=" $1+$2: three threads differ from one;"
 }
 
+# tell NAME: one line of TAP, by problem.
 passed=0 failed=0 number=0
+tell() {
+    number=$((number + 1))
+    if [ -z "$problem" ]; then
+        passed=$((passed + 1))
+        echo "ok $number - $1"
+    else
+        failed=$((failed + 1))
+        echo "not ok $number - $1"
+        echo "#$problem" | tr '\n' ' ' | sed 's/; /;\n# /g'
+        echo
+    fi
+}
+
+# ---- films of several features at once: a frame is the picture at its time ----
+
+whole=(
+    '--deform twist --clip 1,0,0 --explode 1 --object housing:xray=0.4 --object lid:color=red'
+    '--clip 0,1,0,1.6 --object lid:width=3 --pattern rope'
+    '--clip 0,1,0,1.6 --explode 1 --style gooch --hidden dashed --without core'
+    '--deform breathe --xray 0.4 --line-light toon --edges both'
+    '--morph ../longer.gltf --clip 0,0,1 --explode 0.5 --stroke charcoal'
+)
+frames_are_pictures() {
+    local view='--eye 6,5,9 --target 0,1,0 --size 96x72 -q --animation 1' options
+    for options in "${whole[@]}"; do
+        problem=
+        rm -rf film && mkdir film && cd film || exit 1
+        # shellcheck disable=SC2086
+        "$program" ../parts.gltf $view $options --time 0:1 --frames 4 -o f-%d.png -o f-%d.svg 2>err &&
+            "$program" ../parts.gltf $view $options --time 0.75 -o f.png -o f.svg 2>err &&
+            "$program" ../parts.gltf $view $options --time 0:1 --frames 4 --frame 3 -o alone-%d.png -o alone-%d.svg 2>err ||
+            problem=" $(head -n 1 err)"
+        cmp -s f-3.png f.png || problem+=" frame 3 is not the picture at its time;"
+        cmp -s f-3.svg f.svg || problem+=" frame 3 is not the drawing at its time;"
+        cmp -s f-3.png alone-3.png || problem+=" frame 3 alone is another;"
+        cmp -s f-0.png f-3.png && problem+=" nothing moves;"
+        cd ..
+        tell "film: $options"
+    done
+}
+# What a section takes away at one time is there at another, and may be named, left out or all that is drawn.
+objects_come_and_go() {
+    problem=
+    rm -rf gone && mkdir gone && cd gone || exit 1
+    local cut='--clip 0,1,0,1.8 --size 96x72 --eye 6,5,9 --target 0,1,0'
+    # shellcheck disable=SC2086
+    "$program" ../parts.gltf $cut --only lid --time 1:0 --frames 4 -q -o f-%d.png 2>err || problem+=" $(head -n 1 err);"
+    cmp -s f-0.png f-3.png && problem+=" the lid does not come;"
+    # shellcheck disable=SC2086
+    "$program" ../parts.gltf $cut --without lid --time 1:0 --frames 4 -o g-%d.png 2>err || problem+=" $(head -n 1 err);"
+    cmp -s g-0.png g-3.png || problem+=" the lid is not left out;"
+    # shellcheck disable=SC2086
+    "$program" ../parts.gltf $cut --only lid --time 1 -o no.png 2>err && problem+=" a picture of nothing;"
+    grep -q 'the clip planes leave nothing of what is to be drawn' err || problem+=" says: $(head -n 1 err);"
+    [ ! -e no.png ] || problem+=" no.png is there;"
+    cd ..
+    tell 'objects come and go'
+}
+if [[ film == *"$pattern"* ]]; then
+    frames_are_pictures
+    objects_come_and_go
+fi
+
+# ---- all pairs ----
+
 for a in "${!features[@]}"; do
     read -r first first_options <<<"${features[$a]}"
-    number=$((number + 1)) problem=
+    problem=
     for ((b = a; b < ${#features[@]}; b++)); do
         read -r second second_options <<<"${features[$b]}"
         case "$first+$second" in *"$pattern"*) ;; *) continue ;; esac
         [ "$a" = "$b" ] && second_options=
         pair "$first" "$second" "$first_options $second_options"
     done
-    if [ -z "$problem" ]; then
-        passed=$((passed + 1))
-        echo "ok $number - $first"
-    else
-        failed=$((failed + 1))
-        echo "not ok $number - $first"
-        echo "#$problem" | tr '\n' ' ' | sed 's/; /;\n# /g'
-        echo
-    fi
+    tell "$first"
 done
 echo "1..$number"
 echo "$passed passed, $failed failed"
