@@ -72,7 +72,7 @@ static dp_result draw_layer(dp_context *c, double from, double to, dp_diag *diag
     if (!result && any_failed(c)) result = out_of_memory(diag);
     if (result) return result;
     dp_xray_settle(&c->xray, &c->frame);
-    if (!c->xray.shaded || c->xray.count == c->xray_layer) return DP_OK;
+    if (!c->xray.shaded || c->xray.count <= c->xray_layer) return DP_OK;
     dp_shade_layer(c, c->xray_layer);
     return dp_shade_picture(c, from, to, diag);
 }
@@ -82,7 +82,7 @@ static dp_result draw_layers(dp_context *c, double from, double to, dp_diag *dia
     const double step = (to - from) / x->most;
     for (uint32_t k = c->xray_layer = 1; k < x->most; c->xray_layer = ++k) {
         const dp_result result = draw_layer(c, from + step * (k - 1), from + step * k, diag);
-        if (result || x->count == k) return result;
+        if (result || x->count <= k) return result; /* 0: the picture is empty */
     }
     const dp_result result = dp_for_tiles(c, count_lost, c, to - step, to, diag);
     return result || !any_failed(c) ? result : out_of_memory(diag);

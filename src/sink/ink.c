@@ -280,7 +280,8 @@ void dp_ink_plain(const dp_inking *k, dp_ink_worker *worker, uint32_t tile) {
         for (int i = 0; i < DP_LINE_COUNT; i++) {
             const dp_line line = dp_layers[i];
             const size_t *const from = first + layer_of(level, line);
-            ink_layer(&ink, worker->sorted + from[0], from[1] - from[0], line);
+            if (from[1] > from[0])
+                ink_layer(&ink, worker->sorted + from[0], from[1] - from[0], line);
         }
     }
     if (k->xray) dp_xray_put(frame, tile, ink.xray);
