@@ -143,6 +143,8 @@ static int aim(film *f, uint32_t number) {
     int code = 0;
     if (is_as_a_picture(f) && dp_source_extent(d->source, &extent, &diag))
         return report_model(f->s, &diag);
+    if (extent.polygons <= extent.not_finite + extent.bad_index) /* nothing is there now */
+        extent = f->model.extent;
     for (int k = 0; k < d->plan.view_count && !code; k++) {
         page_view *const v = &d->plan.views[k];
         v->camera = f->cameras[k];

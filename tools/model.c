@@ -168,15 +168,18 @@ static int reshape_model(const tool_settings *s, clips_tally *tally, dp_source *
 
 int open_model(const tool_settings *s, dp_source **out) {
     clips_tally tally = {0};
+    object_places places = {0};
     *out = NULL;
     int code =
         s->model_count > 1 ? open_scene(s, &tally, out) : open_one(s, s->models[0], &tally, out);
     if (!code) code = reshape_model(s, &tally, out);
     if (!code) code = clips_check(s, &tally);
-    /* where it is cut does not depend on the time */
+    /* where it is cut, and where parts go, does not depend on the time */
+    if (!code) code = objects_place(s, *out, &places);
     if (!code) code = open_section(s, out);
+    if (!code) code = objects_arrange(&places, out);
     if (!code) code = move_model(s, out);
-    if (!code && objects_asked(s)) code = objects_arrange(s, out);
+    objects_places_free(&places);
     if (!code) return 0;
     dp_source_destroy(*out);
     *out = NULL;
@@ -235,7 +238,12 @@ int measure_model(const tool_settings *s, dp_source *source, measured *model) {
         return EXIT_FAILED;
     }
     if (extent->polygons > extent->not_finite + extent->bad_index) return 0;
-    if (!extent->polygons)
+    if (!extent->polygons && s->section.count)
+        wrong_usage(
+            "%s: the clip planes leave nothing of what is to be drawn; turn a normal round, or "
+            "move a plane",
+            name);
+    else if (!extent->polygons)
         wrong_usage(no_polygons, name);
     else
         wrong_usage(

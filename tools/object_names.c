@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GROUPS_MOST = 65536 /* dp_batch.groups has 16 bits */ };
-
 /* ---- patterns ---- */
 
 /* One letter of UTF-8, at least a byte. */
@@ -73,12 +71,12 @@ bool object_names_fit(const char *name, const char *text, const char *end) {
 
 int object_list_read(const tool_settings *s, dp_source *source, object_list *list) {
     dp_diag diag = {0};
-    list->groups = calloc(GROUPS_MOST, sizeof *list->groups);
+    list->groups = calloc(OBJECTS_MOST, sizeof *list->groups);
     if (!list->groups) {
         wrong_usage("out of memory for the objects of a model");
         return EXIT_FAILED;
     }
-    if (!dp_source_groups(source, list->groups, GROUPS_MOST, &list->count, &diag)) return 0;
+    if (!dp_source_groups(source, list->groups, OBJECTS_MOST, &list->count, &diag)) return 0;
     report_model(s, &diag);
     return EXIT_FAILED;
 }

@@ -12,10 +12,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Options that an object may have of its own. A new one (xray, say) is added here, and copied to the
- * group's style by make_style and dp_draw_grouped. */
-static const char setting_words[] =
-    "color|width|lines|surface|hidden-color|hidden-width|ridge-angle|valley-angle|hide";
+/* Options that an object may have of its own. A new one is added here, and copied to the group's style
+ * by make_style and dp_draw_grouped. */
+static const char setting_words[] = "color|width|lines|surface|xray|section-color|hidden-color|"
+                                    "hidden-width|ridge-angle|valley-angle|"
+                                    "hide";
 static const char hide_word[] = "hide";
 
 enum { VALUE_MOST = 512, NAME_SHOWN = 40 };
@@ -141,4 +142,16 @@ bool object_apply(const char *value, tool_settings *s) {
     object_split(value, &end, &settings);
     (void)store_all(value, settings, s, &hide);
     return hide;
+}
+
+static bool is_seen_through(const tool_settings *s) { return s->xray > 0 && s->xray < 1; }
+
+bool xray_asked(const tool_settings *s) {
+    bool any = is_seen_through(s);
+    for (uint32_t k = 0; k < s->objects.count && !any; k++) {
+        tool_settings own = {0};
+        (void)object_apply(s->objects.items[k], &own);
+        any = is_seen_through(&own);
+    }
+    return any;
 }

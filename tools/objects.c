@@ -5,7 +5,8 @@
  *     --object NAME:color=...                  in which style: that of the picture, over which the object's own
  *                                              settings are laid in their order
  *
- * Names are looked for in the model once, before anything is drawn: one that fits nothing is an error. */
+ * Names are looked for in the model once, as it is at time 0 and before it is cut: one that fits nothing is an
+ * error. Then, too, it is found where parts go, so that these neither depend on the section nor on the time. */
 #include "objects.h"
 #include "colors.h"
 #include "page.h"
@@ -106,40 +107,46 @@ static bool changes_anything(const dp_placement *placements, uint32_t count) {
     return false;
 }
 
-static int arrange(const tool_settings *s, const object_list *list, dp_placement *placements,
-                   dp_source **source) {
-    dp_source *out;
-    dp_diag diag = {0};
-    if (list->count && !leave_out(s, *source, list, placements)) {
+static int place(const tool_settings *s, const dp_source *source, const object_list *list,
+                 object_places *places) {
+    if (!list->count) return 0;
+    places->at = calloc(list->count, sizeof *places->at);
+    places->count = list->count;
+    if (!places->at) {
+        wrong_usage("out of memory for the objects of a model");
+        return EXIT_FAILED;
+    }
+    if (!leave_out(s, source, list, places->at)) {
         wrong_usage("%s: nothing is left of it; leave out some of --only, --without and hide",
                     s->model);
         return EXIT_FAILED;
     }
-    const int code = s->has_explode ? explode(s, *source, list, placements) : 0;
-    if (code || !changes_anything(placements, list->count)) return code;
-    if (dp_source_arrange(*source, placements, list->count, NULL, &out, &diag))
+    return s->has_explode ? explode(s, source, list, places->at) : 0;
+}
+
+int objects_place(const tool_settings *s, dp_source *source, object_places *places) {
+    object_list list = {0};
+    if (!objects_asked(s)) return 0;
+    int code = object_list_read(s, source, &list);
+    if (!code && !all_known(s, source, &list)) code = EXIT_FAILED;
+    if (!code) code = place(s, source, &list, places);
+    object_list_free(&list);
+    return code;
+}
+
+int objects_arrange(const object_places *places, dp_source **source) {
+    dp_source *out;
+    dp_diag diag = {0};
+    if (!changes_anything(places->at, places->count)) return 0;
+    if (dp_source_arrange(*source, places->at, places->count, NULL, &out, &diag))
         return report_failure(NULL, &diag);
     *source = out;
     return 0;
 }
 
-int objects_arrange(const tool_settings *s, dp_source **source) {
-    object_list list = {0};
-    dp_placement *placements = NULL;
-    int code = object_list_read(s, *source, &list);
-    if (!code && !all_known(s, *source, &list)) code = EXIT_FAILED;
-    if (!code && list.count) placements = calloc(list.count, sizeof *placements);
-    if (!code && list.count && !placements) {
-        wrong_usage("out of memory for the objects of a model");
-        code = EXIT_FAILED;
-    }
-    if (!code) code = arrange(s, &list, placements, source);
-    free(placements);
-    object_list_free(&list);
-    if (!code) return 0;
-    dp_source_destroy(*source);
-    *source = NULL;
-    return code;
+void objects_places_free(object_places *places) {
+    free(places->at);
+    *places = (object_places){0};
 }
 
 /* ---- styles ---- */
@@ -167,12 +174,15 @@ static bool is_styled(const tool_settings *s, const char *name) {
     return any;
 }
 
+/* An object of which a section leaves nothing may be there at another time. */
 static uint32_t count_styles(const tool_settings *s, const dp_source *source,
                              const object_list *list) {
     uint32_t count = 0;
-    for (uint32_t g = 0; g < list->count; g++)
-        if (list->groups[g].polygons && is_styled(s, dp_source_group_name(source, g)))
-            count = g + 1;
+    for (uint32_t g = 0; g < OBJECTS_MOST; g++) {
+        const char *const name = dp_source_group_name(source, g);
+        const bool seen = g < list->count && list->groups[g].polygons;
+        if ((name || seen) && is_styled(s, name)) count = g + 1;
+    }
     return count;
 }
 

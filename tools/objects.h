@@ -21,6 +21,8 @@ typedef struct object_list {
     uint32_t count;
 } object_list;
 
+enum { OBJECTS_MOST = 65536 /* dp_batch.groups has 16 bits */ };
+
 /* Reads the source. 0, or the exit code after a message; call object_list_free in any case. */
 int object_list_read(const tool_settings *s, dp_source *source, object_list *list);
 void object_list_free(object_list *list);
@@ -39,14 +41,26 @@ bool object_check(const char *value);
 void object_split(const char *value, const char **names_end, const char **settings);
 /* Lays an object's settings over *s. True: it is to be hidden. */
 bool object_apply(const char *value, tool_settings *s);
+/* Is any surface to be see-through, the picture's or an object's? */
+bool xray_asked(const tool_settings *s);
 
 /* ------- what is drawn (objects.c) ------- */
 
 /* Must the groups be known to draw what the settings say? */
 bool objects_asked(const tool_settings *s);
+/* How groups of a model stand. Zero: as they are. */
+typedef struct object_places {
+    dp_placement *at; /* [count] */
+    uint32_t count;
+} object_places;
+
+/* Finds, of a whole model, which of its groups are left out and where the others go. 0, or the exit code
+ * after a message; call objects_places_free in any case. */
+int objects_place(const tool_settings *s, dp_source *source, object_places *places);
 /* Puts a source in the place of *source in which groups are left out or moved. 0, or the exit code after a
- * message; *source is destroyed then, and NULL. */
-int objects_arrange(const tool_settings *s, dp_source **source);
+ * message. */
+int objects_arrange(const object_places *places, dp_source **source);
+void objects_places_free(object_places *places);
 
 /* Styles by group, for dp_draw_grouped. Zero is none. */
 typedef struct object_styles {

@@ -2,6 +2,7 @@
  * message. */
 #include "files.h"
 #include "film.h"
+#include "objects.h"
 #include "options.h"
 #include "report.h"
 
@@ -113,6 +114,9 @@ static bool check_sheet(const tool_settings *s) {
         return wrong_usage("the views of a sheet have one scale; leave out --fov, --ortho and "
                            "--zoom, or give --scale");
     if (s->has_mirror) return wrong_usage("a sheet has no mirror; leave out --mirror");
+    if (!s->hidden && (s->edges == EDGES_ADJACENCY || s->ink == INK_QUADS))
+        return wrong_usage("a sheet draws hidden lines, and added polygons have none: add --hidden "
+                           "none, or leave out --ink quads and --edges adjacency");
     if (s->page.width < 0) return wrong_usage("a sheet is a page; leave out --page none");
     for (int k = 0; k < OUTPUT_SEGMENTS; k++)
         if (s->outputs[k])
@@ -131,12 +135,12 @@ static bool check_motion(const tool_settings *s) {
 }
 
 static bool check_xray(const tool_settings *s) {
-    if (!(s->xray > 0 && s->xray < 1)) return true;
+    if (!xray_asked(s)) return true;
     if (s->edges == EDGES_ADJACENCY)
         return wrong_usage("an x-ray's lines are found in the tiles, without adjacency; leave out "
-                           "--edges adjacency or --xray");
+                           "--edges adjacency or xray");
     if (s->ink && s->ink - 1 == DP_INK_QUADS)
-        return wrong_usage("an x-ray's lines are strokes; leave out --ink quads or --xray");
+        return wrong_usage("an x-ray's lines are strokes; leave out --ink quads or xray");
     return true;
 }
 

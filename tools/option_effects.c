@@ -5,6 +5,7 @@
  * option is told of by the first rule that it breaks. */
 #include "files.h"
 #include "film.h"
+#include "objects.h"
 #include "options.h"
 #include "report.h"
 
@@ -39,8 +40,7 @@ static bool has_outlines_or_creases(const tool_settings *s) {
 static bool has_hidden(const tool_settings *s) {
     return s->hidden ? s->hidden != HIDDEN_NONE : s->sheet.count > 0;
 }
-static bool has_xray(const tool_settings *s) { return s->xray > 0 && s->xray < 1; }
-static bool tells_levels(const tool_settings *s) { return !has_xray(s); }
+static bool tells_levels(const tool_settings *s) { return !xray_asked(s); }
 static bool has_title(const tool_settings *s) { return s->sheet.count || files_have_paths(s); }
 static bool has_ground(const tool_settings *s) {
     return files_have(s, DP_FORMAT_SVG) || files_have(s, DP_FORMAT_PDF) ||
@@ -146,7 +146,7 @@ static const rule drawing_rules[] = {
     {"levels|hidden-smooth|hidden-width|hidden-color", has_hidden,
      "hidden lines are not drawn; add --hidden dashed"},
     {"levels", tells_levels, "an x-ray's lines have as many levels as --xray-layers; leave it out"},
-    {"xray-layers", has_xray, "surfaces are opaque; add --xray 0.5, say"},
+    {"xray-layers", xray_asked, "surfaces are opaque; add --xray 0.5, say"},
 
     {"join|min-length|tolerance|join-classes|keep-coincident|optimize|ground", files_have_paths,
      "no vector file is written; add -o drawing.svg, say"},

@@ -290,9 +290,9 @@ const option option_table[] = {
 
     {"object", 0, "NAME,...:SETTING,...", OPTION_OBJECT, GROUP_OBJECTS, PICTURE, AT(objects), 0, 0, 0,
      "Give objects of the model (its groups, nodes, or models of a scene) a look of their own, as in "
-     "'bolt*:color=#c03020,width=2,ridge=1'. Settings are color, width, lines, surface, hidden-color, hidden-width, "
-     "ridge-angle and valley-angle, with the values of these options, and hide. May be given several times: a later one "
-     "changes what an earlier one said. In names * stands for any letters, ? for one; \\ takes its meaning from the "
+     "'bolt*:color=#c03020,width=2,ridge=1' and 'housing:xray=0.3'. Settings are color, width, lines, surface, xray, "
+     "section-color, hidden-color, hidden-width, ridge-angle and valley-angle, with the values of these options, and hide. "
+     "May be given several times: a later one changes what an earlier one said. In names * stands for any letters, ? for one; \\ takes its meaning from the "
      "next letter, as in \\, or \\*. A name is a whole one or a part between slashes: car/wheel, car or wheel of "
      "car/wheel/tyre."},
     {"only", 0, "NAME,...", OPTION_NAMES, GROUP_OBJECTS, PICTURE | INFO, AT(only), 0, 0, 0,

@@ -360,6 +360,9 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
         else
             settings->style.line[line].color = color;
     }
+    /* bold lines all over a section would fill it */
+    if (o->kind == OPTION_WIDTHS && set == DP_ALL_LINES)
+        settings->width_of[DP_LINE_HATCHING].value /= 2;
     return true;
 }
 

@@ -106,12 +106,14 @@ DP_API dp_result dp_draw(dp_context *context, dp_source *source, const dp_camera
  *
  *     lines, line, ridge_angle, valley_angle    which lines it has, their widths and colours
  *     hidden.line                               the same of its hidden lines
- *     surface, shade.model_colors               its colour, or the model's
+ *     surface, section, shade.model_colors      its colour, or the model's, and that of cut faces
+ *     xray                                      how opaque its surface is
  *     cull_back_faces
  *
  * and with DP_SHADING_PAPER no surface has a colour of its own. Everything else holds for the whole
  * picture and is that of `style`: paper, edges, ink, method, stroke, shading, edge map, mirror, look and
- * levels of hidden lines, detail, smoothing … A line has the style of its polygon
+ * levels of hidden lines,
+ * layers of x-rays, detail, smoothing … A line has the style of its polygon
  * (dp_segment.polygon): of two that share an edge or cross, the one that comes first in the source. A
  * mirror has `style`, and what is seen in it the groups' own.
  *

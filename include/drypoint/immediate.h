@@ -50,9 +50,9 @@ DP_API void dp_surface_color(dp_context *context, dp_color color);
 /* As dp_style.xray: 0 to 1; 0 and 1: opaque. */
 DP_API void dp_surface_opacity(dp_context *context, float opacity);
 
-/* Members that hold for the whole picture: method, between, between_offset, ink, passes, paper,
- * cull_back_faces, edge_table_off, xray_layers. Copied. Other members are ignored: they are state (above).
- * NULL: all defaults. */
+/* What holds for the whole picture: paper, ink, strokes, patterns and light on lines, hidden lines, xray_layers,
+ * the colour of sections, shading, edge map … Copied. lines, line, ridge_angle, valley_angle, surface and xray
+ * are ignored: they are state (above). NULL: all defaults. */
 DP_API void dp_set_style(dp_context *context, const dp_style *style);
 DP_API void dp_set_camera(dp_context *context, const dp_camera *camera);
 

@@ -20,6 +20,8 @@ static dp_style style_of_group(const dp_style *picture, const dp_style *own) {
     style.ridge_angle = own->ridge_angle;
     style.valley_angle = own->valley_angle;
     style.surface = own->surface;
+    style.section = own->section;
+    style.xray = own->xray;
     style.cull_back_faces = own->cull_back_faces;
     style.shade.model_colors = own->shade.model_colors;
     return style;

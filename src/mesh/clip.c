@@ -46,7 +46,7 @@ typedef struct clipper {
         groups_cap, ranks_cap;
     size_t kept_corners, kept, rank_count;
     double origin[3], shift[3]; /* the first batch's; what moves the batch's positions to it */
-    bool begun, ended, any_kept, any_read, moved, has_normals, has_texcoords, has_colors,
+    bool begun, ended, any_kept, any_read, moved, timed, has_normals, has_texcoords, has_colors,
         has_groups;
     double low[3], high[3]; /* box of what is kept */
     uint32_t plane;         /* that is filled */
@@ -406,7 +406,7 @@ static dp_result finish(clipper *c, dp_batch *out, dp_diag *diag) {
     for (uint32_t k = 0; k < c->cutting.plane_count; k++)
         if (!make_section(c, k)) return out_of_memory(diag);
     if (c->cutting.made.triangles) hand_on_made(c, out);
-    if (c->any_read && !c->any_kept && !c->cutting.made.triangles)
+    if (c->any_read && !c->any_kept && !c->cutting.made.triangles && !c->timed)
         return dp_fail(
             diag, DP_ERR_ARGUMENT,
             "the clip planes leave nothing of the model: what lies beyond a plane, on the "
@@ -461,6 +461,7 @@ static dp_result clipper_rewind(void *user, dp_diag *diag) {
 static dp_result clipper_set_time(void *user, double time, dp_diag *diag) {
     clipper *const c = user;
     begin_reading(c);
+    c->timed = true; /* there may be more of it at another time */
     return dp_source_set_time(c->inner, time, diag);
 }
 static double clipper_duration(void *user) { return dp_source_duration(((clipper *)user)->inner); }

@@ -21,6 +21,9 @@ sections() {
     run 0 shape:cube $small -q --clip 0,1,0 --lines silhouette,section -o trace=some.txt
     [ "$(layers_of some.txt)" = "silhouette section " ] || fail "some: $(layers_of some.txt)"
     # hatching is narrow, outlines of sections are wide; all can be said
+    run 0 shape:cube -q --clip 0,1,0 --width 4 -o trace=all.txt
+    grep -A9 'layer hatching' all.txt | grep -q 'width 2 ' || fail "hatching is not half as wide"
+    grep -A9 'layer section' all.txt | grep -q 'width 4 ' || fail "a section is not as wide as the others"
     run 0 shape:cube -q --clip 0,1,0 --width section=5 --color hatching=#F00 -o trace=wide.txt
     weights_of wide.txt >weights.txt
     says weights.txt "hatching 1.5 ridge 1.5 section 5 silhouette 3"

@@ -2,7 +2,7 @@
 # them and what does not.
 # shellcheck shell=bash disable=SC2034
 
-xray_tests="xrays opaque_xrays wrong_xrays xrays_in_vectors xrays_with_looks xrays_from_memory xrays_for_any_threads"
+xray_tests="xrays opaque_xrays wrong_xrays xrays_in_vectors xrays_with_looks xrays_from_memory xrays_for_any_threads xrays_of_objects"
 
 xrays() {
     run 0 shape:bracket $small -q --xray 0.5 -o out.png -o trace=out.txt --stats
@@ -78,4 +78,41 @@ xrays_for_any_threads() {
             cmp -s 1.png $threads.png || fail "$threads threads differ from one"
         done
     done
+}
+# A see-through box around an opaque one, and one beside it that hides nothing.
+xrays_of_objects() {
+    local look
+    awk 'function box(name, x, s) {
+        print "o " name
+        for (i = 0; i < 8; i++) print "v", x + s * (i % 2 - 0.5), s * (int(i / 2) % 2 - 0.5), s * (int(i / 4) - 0.5)
+        print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+        BEGIN { box("house", 0, 2); box("core", 0, 1); box("beside", 3, 1) }' >boxes.obj
+    run 0 boxes.obj $small -q -o plain.png
+    run 0 boxes.obj $small -q --object house:xray=1 -o opaque.png
+    cmp -s plain.png opaque.png || fail "xray=1 is not opaque"
+    run 0 boxes.obj $small -q --object house:xray=0.4 -o out.png -o out.svg -o out.json -o trace=out.txt
+    silent err
+    # the core's lines fade by one layer, which its own surface does not let through
+    says out.json '"color":"#666666ff"'
+    grep -q 'level 2' out.txt && fail "a line shows behind an opaque surface and a see-through one"
+    run 0 boxes.obj $small -q --xray 0.4 -o both.png -o trace=both.txt
+    grep -q 'level 2' both.txt || fail "no line shows through two surfaces"
+    run 0 boxes.obj $small -q --xray 0.4 --object core,beside:xray=1 -o other.png
+    cmp -s out.png other.png || fail "an x-ray with opaque objects is another than one of the housing"
+    for look in '--style gooch' '--style toon' '--style pencil' '--hidden dashed' '--xray-layers 2' '--edges both'; do
+        for threads in 1 3; do
+            run 0 boxes.obj $small $look --object house:xray=0.4 --threads $threads -o $threads.png
+            silent err
+        done
+        cmp -s 1.png 3.png || fail "$look: threads change the picture"
+        cmp -s 1.png plain.png && fail "$look: the picture is a plain one"
+    done
+    rm out.png
+    wrong boxes.obj -o out.png --object house:xray=1.5 -- '--object house:xray: 1.5 is out of range'
+    wrong boxes.obj -o out.png --object house:xray=0.5 --ink quads -- 'leave out --ink quads'
+    wrong boxes.obj -o out.png --object house:xray=0.5 --edges adjacency -- 'leave out --edges adjacency'
+    # cut faces of an object have a colour of its own
+    run 0 boxes.obj $small --clip 0,0,1 --section plain --lines none --object core:section-color=#f00 -o cut.png
+    run 0 boxes.obj $small --clip 0,0,1 --section plain --lines none -o bare.png
+    cmp -s cut.png bare.png && fail "an object's cut faces have no colour of their own"
 }

@@ -510,6 +510,17 @@ static void what_makes_no_sense_is_refused(void **state) {
     assert_int_equal(dp_style_resolve(&good, &once, NULL), DP_OK);
     assert_int_equal(dp_style_resolve(&once, &twice, NULL), DP_OK);
     assert_true(twice.stroke.texture == texture && twice.stroke.u == DP_STROKE_WORLD);
+    const dp_style all = {.pattern = {.texture = texture, .length = 30, .screen = true},
+                          .line_light = {.lighting = DP_LINE_LIGHT_TOON},
+                          .section = DP_RGB(1, 2, 3),
+                          .xray = 0.4f};
+    assert_int_equal(dp_style_resolve(&all, &once, NULL), DP_OK);
+    assert_int_equal(dp_style_resolve(&once, &twice, NULL), DP_OK);
+    assert_memory_equal(&once.pattern, &twice.pattern, sizeof once.pattern);
+    assert_memory_equal(&once.line_light, &twice.line_light, sizeof once.line_light);
+    assert_memory_equal(&once.stroke, &twice.stroke, sizeof once.stroke);
+    assert_true(twice.xray == 0.4f && twice.xray_layers == DP_LEVELS &&
+                twice.section == all.section);
     dp_texture_destroy(texture);
     dp_texture_destroy(other);
 }

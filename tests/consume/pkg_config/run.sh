@@ -14,5 +14,8 @@ fi
 $cc -std=c99 "$sources/triangle.c" -o triangle $(flags drypoint)
 ./triangle
 # shellcheck disable=SC2046
+$cc -std=c99 "$sources/moving.c" -o moving $(flags drypoint)
+./moving
+# shellcheck disable=SC2046
 $cc -std=c99 "$sources/files.c" -o files $(flags drypoint-io)
 ./files
