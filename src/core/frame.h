@@ -98,6 +98,13 @@ static inline const dp_style *dp_polygon_style(const dp_frame *frame, uint32_t p
     return &frame->styles[dp_style_number(frame, group)];
 }
 
+/* Has a section's face a colour of its own in any group? */
+static inline bool dp_colors_sections(const dp_frame *frame) {
+    bool any = false;
+    for (uint32_t i = 0; i < frame->style_count; i++) any |= frame->styles[i].section != 0;
+    return any && frame->polygons.has_diagonals;
+}
+
 /* The opacity of a polygon's surface. A mirror shows its own picture. */
 static inline float dp_opacity_of(const dp_frame *frame, uint32_t polygon) {
     const bool mirror =

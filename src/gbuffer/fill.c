@@ -190,11 +190,12 @@ static void put_texcoord(const dp_fill *f, const weights *at, size_t pixel) {
     if (sum > 0) f->g->u[pixel] = uv[0] / sum, f->g->v[pixel] = uv[1] / sum;
 }
 
-/* The colour is interpolated as it is encoded. */
-static void put_color(const dp_fill *f, const weights *at, size_t pixel) {
+/* The colour that a pixel of a polygon of the frame has instead of its group's: that of a section's
+ * face, or the model's, interpolated as it is encoded. */
+static void put_color(const dp_fill *f, uint32_t polygon, const weights *at, size_t pixel) {
     const dp_polygons *const p = &f->w->frame->polygons;
     float sum = 0, rgba[4] = {0, 0, 0, 0};
-    const dp_style *const style = &f->w->frame->styles[0];
+    const dp_style *const style = dp_polygon_style(f->w->frame, polygon);
     f->g->color[pixel] = 0;
     if (style->section && p->edge_flags && p->edge_flags[at->corner[0]] == DP_EDGE_FACE) {
         f->g->color[pixel] = style->section;
@@ -214,9 +215,9 @@ static void put_color(const dp_fill *f, const weights *at, size_t pixel) {
 }
 
 /* What is interpolated besides normals. */
-static void put_more(const dp_fill *f, const weights *at, size_t pixel) {
+static void put_more(const dp_fill *f, uint32_t polygon, const weights *at, size_t pixel) {
     if (f->g->textured) put_texcoord(f, at, pixel);
-    if (f->g->colored) put_color(f, at, pixel);
+    if (f->g->colored) put_color(f, polygon, at, pixel);
 }
 
 /* `collect` for a pixel whose polygon's points are not its three corners. */
@@ -231,7 +232,7 @@ static void collect_odd(const dp_fill *f, uint32_t x, size_t pixel, dp_fill_row 
         screen_weights(w, p, r->x[x], r->y_at[x], &at);
     if (!f->facets) sum_normals(f, &at, p->flags & DP_POLYGON_FRONT ? 1 : -1, normal);
     r->wx[x] = normal[0], r->wy[x] = normal[1], r->wz[x] = normal[2];
-    put_more(f, &at, pixel);
+    put_more(f, p->id, &at, pixel);
 }
 
 static void put_more_of_row(const dp_fill *f, const dp_fill_row *r, size_t pixel) {
@@ -239,7 +240,7 @@ static void put_more_of_row(const dp_fill *f, const dp_fill_row *r, size_t pixel
         const uint32_t x = (uint32_t)__builtin_ctzll(bits);
         const weights at = {{r->first[x], r->first[x] + 1, r->first[x] + 2},
                             {r->weight[0][x], r->weight[1][x], r->weight[2][x]}};
-        put_more(f, &at, pixel + x);
+        put_more(f, f->w->polygons[r->polygon[x]].id, &at, pixel + x);
     }
 }
 

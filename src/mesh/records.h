@@ -9,7 +9,7 @@ typedef struct dp_records {
     uint64_t count; /* triangles */
     size_t size;    /* bytes of a record */
     size_t corners; /* byte offset in a record of its 3 x 3 coordinates: float32, native order */
-    void *user; /* of read */
+    void *user;     /* of read */
     /* Copies records [first, first + count) to `to`. May be called from several threads at once. */
     dp_result (*read)(void *user, uint64_t first, uint32_t count, uint8_t *to, dp_diag *diag);
     /* As in dp_file_options; called from the thread that reads the source. NULL allowed. */

@@ -56,13 +56,6 @@ static void shade_one_group(const dp_tile *w, uint32_t x1, uint32_t y1) {
     }
 }
 
-/* Has a section's face a colour of its own in any group? */
-static bool colors_sections(const dp_frame *frame) {
-    bool any = false;
-    for (uint32_t i = 0; i < frame->style_count; i++) any |= frame->styles[i].section != 0;
-    return any && frame->polygons.has_diagonals;
-}
-
 static dp_color surface_of(const dp_frame *frame, uint32_t polygon) {
     const dp_style *const style = dp_polygon_style(frame, polygon);
     return style->section && dp_is_section_face(&frame->polygons, polygon) ? style->section
@@ -152,7 +145,7 @@ void dp_tile_surface(dp_tile *w) {
     const dp_target *const target = &w->frame->target;
     const span s = tile_span(w);
     const bool paints = target->rgba && !w->frame->painted_later,
-               groups = w->frame->style_count > 1 || colors_sections(w->frame);
+               groups = w->frame->style_count > 1 || dp_colors_sections(w->frame);
     clear_classes(w, s);
     clear_ink(w, s);
     if (paints && groups) shade_groups(w, s.x1, s.y1);

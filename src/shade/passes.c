@@ -123,16 +123,16 @@ static bool wants_texcoords(const dp_shade_store *s) {
            shade->object_space && s->frame->polygons.texcoords.values;
 }
 
-static bool wants_vertex_colors(const dp_shade_store *s) {
+static bool wants_own_colors(const dp_shade_store *s) {
     const dp_polygons *const p = &s->frame->polygons;
     return s->colored &&
            ((s->model_colors && p->colors && s->setup.shade.shading != DP_SHADING_PAPER) ||
-            (s->frame->styles[0].section && p->has_diagonals));
+            dp_colors_sections(s->frame));
 }
 
 bool dp_shade_gathered(dp_shade_store *s) {
     if (!s->active) return true;
-    if (!dp_gbuffer_begin(&s->gbuffer, s->frame, wants_texcoords(s), wants_vertex_colors(s)))
+    if (!dp_gbuffer_begin(&s->gbuffer, s->frame, wants_texcoords(s), wants_own_colors(s)))
         return false;
     s->gbuffer.polygon = NULL;
     return s->setup.shade.shading != DP_SHADING_PENCIL ||
@@ -206,15 +206,11 @@ static void paint_groups(const dp_shade_store *s, dp_shade_run *run) {
     }
 }
 
-static bool shows_model_colors(const dp_shade_store *s, uint16_t id) {
-    return s->frame->styles[dp_style_number(s->frame, id - 1u)].shade.model_colors;
-}
-
-/* Where the vertices have colours, these replace the group's. */
-static void paint_vertex_colors(const dp_shade_store *s, const uint32_t *color, dp_shade_run *run) {
+/* Where pixels have colours of their own, these replace the group's (gbuffer/fill.c). */
+static void paint_own_colors(const uint32_t *color, dp_shade_run *run) {
     for (uint32_t i = 0; i < run->n; i++) {
         float rgba[4];
-        if (!run->id[i] || !color[i] || !shows_model_colors(s, run->id[i])) continue;
+        if (!run->id[i] || !color[i]) continue;
         to_floats(color[i], rgba);
         run->color[0][i] = rgba[0], run->color[1][i] = rgba[1], run->color[2][i] = rgba[2];
         run->alpha[i] = rgba[3];
@@ -236,7 +232,7 @@ static void begin_run(const dp_shade_store *s, uint32_t y, uint32_t x0, uint32_t
     } else {
         paint_groups(s, run);
     }
-    if (g->colored) paint_vertex_colors(s, g->color + at, run);
+    if (g->colored) paint_own_colors(g->color + at, run);
 }
 
 static void end_run(const dp_shade_store *s, const dp_shade_run *run) {

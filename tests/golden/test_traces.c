@@ -51,13 +51,18 @@ static const golden whole[] = {
     {"planes", .make = make_long, .camera = {.flat = true, .direction = {0.05, 0.06, 1}}},
     {"groups", .make = make_touching, .reading = GOLDEN_IMMEDIATE, STEEP},
     {"adjacency", .make = make_touching, .style = {ADJACENCY}, STEEP},
-    {"section", "cube", .style = {COLORS}, .clip = {{{{0, 1, 0}, 0.25}}, 1, .hatch_spacing = 0.4}},
+    {"section", "cube", .style = {COLORS},
+     .clip = {.planes = {{{0, 1, 0}, 0.25}}, .plane_count = 1, .hatch_spacing = 0.4}},
     {"section-corner", "cube",
-     .clip = {{{{0, 1, 0}, 0.25}, {{1, 0, 1}, 0.5}}, 2, DP_SECTION_CROSSED, 30, 0.5}},
+     .clip = {.planes = {{{0, 1, 0}, 0.25}, {{1, 0, 1}, 0.5}},
+              .plane_count = 2,
+              .look = DP_SECTION_CROSSED,
+              .hatch_angle = 30,
+              .hatch_spacing = 0.5}},
     {"section-parts", .make = make_touching, STEEP,
-     .clip = {{{{0.5, 0.6, 1}, 0}}, 1, .hatch_spacing = 12}},
+     .clip = {.planes = {{{0.5, 0.6, 1}, 0}}, .plane_count = 1, .hatch_spacing = 12}},
     {"section-open", .make = make_open, .style = {COLORS}, STEEP,
-     .clip = {{{{1, 0, 0}, 5}}, 1, DP_SECTION_PLAIN}},
+     .clip = {.planes = {{{1, 0, 0}, 5}}, .plane_count = 1, .look = DP_SECTION_PLAIN}},
 };
 
 /* The picture's edge cuts these. */
