@@ -67,6 +67,8 @@ sections_in_files() {
     says sheet.svg hatching
 }
 sections_and_looks() {
+    run 0 shape:cube $small --clip 0,1,0 --edges map --section-angle 30 -o map.png
+    says err '--section-angle changes nothing: --edges map and none draw no such lines'
     local look
     for look in '--style gooch' '--preset technical' '--preset engraving' '--hidden dashed' '--stroke pencil' \
         '--mirror 0,1,0' '--edges adjacency' '--edges both' '--section crossed --section-color #FC0' '--samples 1'; do
