@@ -179,6 +179,14 @@ static const option *named_option(const char *name, unsigned commands) {
     return NULL;
 }
 
+/* The option that is called like a topic and belongs to another one: --path is not of paths. */
+static void help_namesake(FILE *out, tool_command command, const char *topic, option_group group) {
+    const option *const o = named_option(topic, 1u << command);
+    if (!o || o->group == group) return;
+    fputs("\nThe option of that name:\n", out);
+    help_option(out, o);
+}
+
 static bool unknown_topic(const char *topic) {
     char words[600], best[32];
     topic_words(words, sizeof words, "|");
@@ -205,6 +213,7 @@ static bool help_topic(FILE *out, tool_command command, const char *topic) {
             has_options((option_group)group, command)) {
             help_group(out, command, (option_group)group);
             if (command == COMMAND_DRAW) help_group_examples(out, (option_group)group);
+            help_namesake(out, command, topic, (option_group)group);
             return true;
         }
     const char *const name = topic + strspn(topic, "-");

@@ -85,6 +85,11 @@ topics() {
     grep -q -e '--hatch' out && fail "--hatch… is of the camera"
     run 0 --help cameras
     says out '--azimuth'
+    run 0 --help path
+    says out 'Paths:'
+    says out '--path FILE'
+    run 0 --help paths
+    grep -q -e '--path FILE' out && fail "--path is of paths"
     run 0 --help hidden-width
     says out '--hidden-width W'
     [ "$(grep -c -e '^  --' out)" = 1 ] || fail "not one option: $(cat out)"
