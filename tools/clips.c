@@ -65,7 +65,7 @@ static bool is_moved_otherwise(const tool_settings *s) {
 
 /* Nothing of the model moves. */
 static void warn_of_rest(const tool_settings *s) {
-    const bool lasts = s->frames || option_given(s, "time"); /* else that is an error of its own */
+    const bool lasts = s->frames || s->time[1] != s->time[0]; /* else that is an error of its own */
     if (film_wanted(s) && lasts && !s->has_turn && !s->path && !s->has_frame)
         warn_of_model(s, stands_twisted(s)
                              ? "all frames are alike: a twist stands still without a speed; add "
