@@ -7,6 +7,7 @@
 #include "models.h"
 #include "report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,9 +54,29 @@ int clips_play(const tool_settings *s, dp_source *source, clips_tally *tally) {
     return dp_scene_play(source, clip, &diag) ? report_model(s, &diag) : 0;
 }
 
-/* Does something else than an animation take --time? Films say themselves that nothing moves. */
+/* A twist without a speed. */
+static bool stands_twisted(const tool_settings *s) {
+    return s->has_deform && s->deform.kind == DP_DEFORM_TWIST && !(fabs(s->deform.speed) > 0);
+}
+/* Does something else than an animation take --time? */
 static bool is_moved_otherwise(const tool_settings *s) {
-    return s->has_deform || s->morph || film_wanted(s);
+    return (s->has_deform && !stands_twisted(s)) || s->morph;
+}
+
+/* Nothing of the model moves. */
+static void warn_of_rest(const tool_settings *s) {
+    const bool lasts = s->frames || s->time[1] != s->time[0]; /* else that is an error of its own */
+    if (film_wanted(s) && lasts && !s->has_turn && !s->path && !s->has_frame)
+        warn_of_model(s, stands_twisted(s)
+                             ? "all frames are alike: a twist stands still without a speed; add "
+                               "speed=1 to it, say"
+                             : "all frames are alike: nothing moves; add --turn 360, say");
+    else if (!film_wanted(s) && option_given(s, "time"))
+        warn_of_model(s, s->animation ? "--time changes nothing: no animation plays"
+                         : stands_twisted(s)
+                             ? "--time changes nothing: a twist stands still without a "
+                               "speed; add speed=1 to it, say"
+                             : "--time changes nothing: there is no animation in it");
 }
 
 static int tell_missing(const tool_settings *s, const clips_tally *tally) {
@@ -77,9 +98,7 @@ static int tell_missing(const tool_settings *s, const clips_tally *tally) {
 int clips_check(const tool_settings *s, const clips_tally *tally) {
     if (tally->playing) return 0;
     if (s->animation && !is_rest(s->animation)) return tell_missing(s, tally);
-    if (option_given(s, "time") && !s->quiet && !is_moved_otherwise(s))
-        warn_of_model(s, s->animation ? "--time changes nothing: no animation plays"
-                                      : "--time changes nothing: there is no animation in it");
+    if (!s->quiet && !is_moved_otherwise(s)) warn_of_rest(s);
     return 0;
 }
 

@@ -66,18 +66,24 @@ static bool store_direction(const option *o, const char *name, const char *text,
     return true;
 }
 
+static bool is_none_of(const option *o, const char *words, const char *word) {
+    char best[32];
+    nearest_word(words, word, best, sizeof best);
+    if (!is_slip(word, best))
+        return wrong_usage("--%s: \"%s\" is none of %s", o->name, word, words);
+    return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, word, words, best);
+}
+
 /* NAME=VALUE */
 static bool store_member(const option *o, const char *at, const char *end, dp_deform *to) {
-    char name[32], best[32];
+    char name[32];
     const char *const names = names_of[to->kind];
     const size_t length = strcspn(at, "=,");
     snprintf(name, sizeof name, "%.*s", (int)length, at);
     const member *const number = find(numbers, sizeof numbers / sizeof *numbers, name, to->kind);
     const member *const way =
         find(directions, sizeof directions / sizeof *directions, name, to->kind);
-    if (!number && !way)
-        return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, name, names,
-                           nearest_word(names, name, best, sizeof best));
+    if (!number && !way) return is_none_of(o, names, name);
     if (at[length] != '=')
         return wrong_usage("--%s: %s has no value; write %s=%s, say", o->name, name, name,
                            way ? "x" : "0.1");
@@ -89,14 +95,12 @@ static bool store_member(const option *o, const char *at, const char *end, dp_de
 }
 
 bool store_deform(const option *o, const char *value, dp_deform *to) {
-    char kind[32], best[32];
+    char kind[32];
     const char *at = value + strcspn(value, ":");
     *to = (dp_deform){0};
     snprintf(kind, sizeof kind, "%.*s", (int)(at - value), value);
     const int word = word_index(kind_words, kind);
-    if (!word)
-        return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, kind,
-                           kind_words, nearest_word(kind_words, kind, best, sizeof best));
+    if (!word) return is_none_of(o, kind_words, kind);
     to->kind = (dp_deform_kind)(word - 1);
     while (*at) {
         const char *const first = at + 1, *const end = first + strcspn(first, ",");

@@ -59,6 +59,9 @@ static bool no_setting(const char *value, const char *text) {
     char word[32], best[32];
     snprintf(word, sizeof word, "%.*s", (int)strcspn(text, "=,"), text);
     nearest_word(setting_words, word, best, sizeof best);
+    if (!is_slip(word, best))
+        return wrong_usage("--object %s: \"%s\" is no setting of an object; those are %s", value,
+                           word, setting_words);
     return wrong_usage("--object %s: \"%s\" is no setting of an object; did you mean %s%s?", value,
                        word, best, strcmp(best, hide_word) ? "=" : "");
 }

@@ -187,6 +187,8 @@ static const rule drawing_rules[] = {
      "nothing is cut open; add --clip 0,0,1, say"},
     {"section-angle|section-spacing", has_hatching,
      "faces have no lines; leave out --section plain or open"},
+    {"section-angle|section-spacing", finds_lines,
+     "--edges map and none draw no such lines; --edges both adds them"},
     {"section-color", has_faces, "there are no faces; leave out --section open"},
     {"mirror-size|mirror-fade|mirror-tint|mirror-tint-share", has_mirror,
      "there is no mirror; add --mirror 0,1,0, say"},

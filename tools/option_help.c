@@ -68,6 +68,12 @@ static void help_group(FILE *out, tool_command command, option_group group) {
         if (shown(o, command, group)) help_option(out, o);
 }
 
+static void help_group_examples(FILE *out, option_group group) {
+    fputs("\nExamples:\n", out);
+    for (const option_example *e = option_examples; e < option_examples + option_example_count; e++)
+        if (e->group == group) fprintf(out, "  %s\n      %s\n", e->command, e->about);
+}
+
 static void help_groups(FILE *out, tool_command command) {
     for (int group = 0; group < GROUP_HIDDEN; group++) {
         if (!has_options((option_group)group, command)) continue;
@@ -173,12 +179,24 @@ static const option *named_option(const char *name, unsigned commands) {
     return NULL;
 }
 
+/* The option that is called like a topic and belongs to another one: --path is not of paths. */
+static void help_namesake(FILE *out, tool_command command, const char *topic, option_group group) {
+    const option *const o = named_option(topic, 1u << command);
+    if (!o || o->group == group) return;
+    fputs("\nThe option of that name:\n", out);
+    help_option(out, o);
+}
+
 static bool unknown_topic(const char *topic) {
     char words[600], best[32];
     topic_words(words, sizeof words, "|");
     nearest_word(words, topic, best, sizeof best);
-    if (2 * spelling_distance(topic, best) <= strlen(best))
+    if (is_slip(topic, best))
         return wrong_usage("--help: \"%s\" is no topic; did you mean %s?", topic, best);
+    for (const option *o = option_table; o < option_table + option_count; o++)
+        if (o->group != GROUP_HIDDEN && spelling_distance(topic, o->name) <= 1)
+            return wrong_usage("--help: \"%s\" is no topic; did you mean --help %s?", topic,
+                               o->name);
     return wrong_usage("--help: \"%s\" is neither a topic nor an option; \"drypoint --help\" lists "
                        "topics",
                        topic);
@@ -192,8 +210,12 @@ static bool help_topic(FILE *out, tool_command command, const char *topic) {
             return help_command(out, (tool_command)other), true;
     for (int group = 0; group < GROUP_HIDDEN; group++)
         if (group_topics[group] && is_topic(topic, group_topics[group]) &&
-            has_options((option_group)group, command))
-            return help_group(out, command, (option_group)group), true;
+            has_options((option_group)group, command)) {
+            help_group(out, command, (option_group)group);
+            if (command == COMMAND_DRAW) help_group_examples(out, (option_group)group);
+            help_namesake(out, command, topic, (option_group)group);
+            return true;
+        }
     const char *const name = topic + strspn(topic, "-");
     const option *o = named_option(name, 1u << command);
     if (!o) o = named_option(name, ~0u);
@@ -213,8 +235,10 @@ static void first_screen(FILE *out) {
           "  drypoint part.stl -o part.png                           a drawing\n"
           "  drypoint part.stl -o part.svg --hidden dashed           paths, hidden ones too\n"
           "  drypoint part.stl -o part.png --preset technical        a look\n"
+          "  drypoint part.stl -o part.png --clip 1,0,0 --xray 0.4   cut open, see-through\n"
           "  drypoint part.stl --sheet front,top,iso -o part.pdf     views on a page\n"
-          "  drypoint gear.stl shaft.obj -o scene.png                two files, one scene\n"
+          "  drypoint gear.stl shaft.obj -o two.png --explode 1      a scene, pulled apart\n"
+          "  drypoint part.stl --turn 360 -o part.mp4                a film\n"
           "  drypoint 'parts/*.stl' -o '%s.png'                      a drawing for each\n"
           "\n\"drypoint --help TOPIC\" tells more. Topics:\n",
           out);

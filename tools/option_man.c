@@ -67,15 +67,20 @@ static void man_shapes(FILE *out) {
     }
 }
 
+static void man_example(FILE *out, const char *command, const char *about) {
+    fputs(".TP\n", out);
+    troff(out, command);
+    fputc('\n', out);
+    troff(out, about);
+    fputc('\n', out);
+}
+
 static void man_examples(FILE *out) {
     for (int k = 0; k < COMMAND_COUNT; k++)
-        for (const char *const *e = command_table[k].examples; *e; e += 2) {
-            fputs(".TP\n", out);
-            troff(out, e[0]);
-            fputc('\n', out);
-            troff(out, e[1]);
-            fputc('\n', out);
-        }
+        for (const char *const *e = command_table[k].examples; *e; e += 2)
+            man_example(out, e[0], e[1]);
+    for (size_t k = 0; k < option_example_count; k++)
+        man_example(out, option_examples[k].command, option_examples[k].about);
 }
 
 static void man_models(FILE *out) {

@@ -14,14 +14,26 @@
 const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
                                                 "id",       "trace",   "segments"};
 
-const char *const group_names[GROUP_COUNT] = {
-    "Picture", "Pages",   "Camera",  "Lines",    "Paths",
-    "Strokes", "Surface", "Objects", "Edge map", "How lines are found",
-    "Motion",  "Model",   "Program", NULL};
+const char *const group_names[GROUP_COUNT] = {"Picture",
+                                              "Pages",
+                                              "Camera",
+                                              "Lines",
+                                              "Paths",
+                                              "Strokes",
+                                              "Surface",
+                                              "Sections",
+                                              "Objects",
+                                              "Edge map",
+                                              "How lines are found",
+                                              "Motion",
+                                              "Films",
+                                              "Model",
+                                              "Program",
+                                              NULL};
 
 const char *const group_topics[GROUP_COUNT] = {
-    "picture", "page",     "camera", "lines",  "paths", "strokes", "surface",
-    "objects", "edge-map", "method", "motion", NULL,    "program", NULL};
+    "picture", "page",     "camera", "lines",  "paths", "strokes", "surface", "sections",
+    "objects", "edge-map", "method", "motion", "films", NULL,      "program", NULL};
 
 const char *const models_text[] = {
     "MODEL is a file (STL, PLY, OBJ, OFF, glTF; FBX, 3MF, COLLADA and more through Assimp), - for "
@@ -156,7 +168,7 @@ const option option_table[] = {
 
     {"xray", 0, "ALPHA", OPTION_NUMBER, GROUP_LINES, PICTURE, AT(xray), 0, 0, 1,
      "X-ray: surfaces are see-through, each of this opacity, and lines behind them shine through, fainter with each "
-     "surface above; 1: opaque. --hidden and its options say how those lines look. Default: off."},
+     "surface above; 1: opaque. --hidden and its options say how those lines look. Default: 0, which is off."},
     {"xray-layers", 0, "N", OPTION_COUNT, GROUP_LINES, PICTURE, AT(xray_layers), 0, 1, DP_LEVELS,
      "With --xray: how many surfaces are told apart in a pixel's sample; what lies deeper is not drawn. Default: 8."},
 
@@ -262,19 +274,19 @@ const option option_table[] = {
      "Where lines come from: found in each tile as they emerge, with nothing known about neighbours; by adjacency "
      "that is built once per model (Hermosilla and Vazquez 2010); the edge map (Nienhaus and Doellner 2003); emergent "
      "lines and the map; nowhere. Default: emergent; both with --edge-map."},
-    {"clip", 0, "NX,NY,NZ[,D]", OPTION_CLIP, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
+    {"clip", 0, "NX,NY,NZ[,D]", OPTION_CLIP, GROUP_SECTION, PICTURE, AT(section), 0, 0, 0,
      "Cut the model open, up to eight times: takes away what lies on the side that N points to, of the plane through "
      "all points whose product with N is D; without D, through the model's middle. N points to the eye, then: 0,0,1,2 "
      "takes away what lies above z = 2. What was cut through is filled and hatched."},
-    {"section", 0, "hatched|crossed|plain|open", OPTION_WORD, GROUP_SURFACE, PICTURE, AT(section.look), 0, 0, 0,
+    {"section", 0, "hatched|crossed|plain|open", OPTION_WORD, GROUP_SECTION, PICTURE, AT(section.look), 0, 0, 0,
      "With --clip: cut faces show parallel lines, crossed ones, only their colour; or are left open, so that one looks "
      "into the model. Default: hatched."},
-    {"section-angle", 0, "DEG", OPTION_NUMBER, GROUP_SURFACE, PICTURE, AT(section.angle), AT(section.has_angle), -360, 360,
+    {"section-angle", 0, "DEG", OPTION_NUMBER, GROUP_SECTION, PICTURE, AT(section.angle), AT(section.has_angle), -360, 360,
      "With --clip: the lines' angle to the horizontal. Parts beside each other have them at another angle or distance. "
      "Default: 45."},
-    {"section-spacing", 0, "D|N%", OPTION_SPACING, GROUP_SURFACE, PICTURE, AT(section), 0, 0, 0,
+    {"section-spacing", 0, "D|N%", OPTION_SPACING, GROUP_SECTION, PICTURE, AT(section), 0, 0, 0,
      "With --clip: distance of the lines in the model's units, or as a share of its size. Default: 1.7%."},
-    {"section-color", 0, "COLOR", OPTION_COLOR, GROUP_SURFACE, PICTURE, AT(style.section), 0, 0, 0,
+    {"section-color", 0, "COLOR", OPTION_COLOR, GROUP_SECTION, PICTURE, AT(style.section), 0, 0, 0,
      "With --clip: colour of cut faces. Default: that of the model's faces."},
     {"mirror", 0, "NX,NY,NZ[,D]", OPTION_PLANE, GROUP_SURFACE, PICTURE, AT(mirror), 0, 0, 0,
      "A square mirror in the plane through all points whose product with N is D; without D, where the model touches "
@@ -367,39 +379,38 @@ const option option_table[] = {
      "T0 + (T1 - T0) k / N, so that a film of one round loops. Default: 0; of a film, from 0 on as long as it lasts."},
     {"deform", 0, "KIND[:NAME=VALUE,...]", OPTION_DEFORM, GROUP_MOTION, PICTURE | INFO, AT(deform),
      AT(has_deform), 0, 0,
-     "Move the model's vertices: \"wave\", like a flag in the wind; \"breathe\": it swells and sinks, like "
-     "a chest; \"twist\": it is turned around its axis, further and further. amplitude=0.08: how far, as a "
-     "share of the model's length along its axis (wave), or of its girth (breathe); twist has angle=90, in "
-     "degrees. length=0.6: from crest to crest, or how far breathing reaches, as such a share. speed=1: "
-     "waves, breaths or swings in a second; twists stand still without. axis=x, y, z, -x ...: along which it "
-     "goes; default: the longest side. across=z: which way waves move. slant=0.5: how "
-     "much their crests lean. at=0.5: where breathing is deepest, "
-     "from 0 to 1 along the axis. Of several models all parts are one. --time says when; at 0 a chest is at "
-     "rest."},
+     "Move the model's vertices: wave, like a flag in the wind; breathe: it swells and sinks, like a chest; twist: it is "
+     "turned around its axis, further and further. Settings, with their defaults: amplitude=0.08: how far, as a share "
+     "of the model's length along its axis (wave), or of its girth (breathe); angle=90: how far a twist turns, in "
+     "degrees. length: from crest to crest (0.6), how far breathing reaches to either side (0.5), over what a twist "
+     "grows (1), as shares of that length. speed: waves (1), breaths (0.25) or swings (0: it stands) in a second. "
+     "axis=x, y, z, -x ...: along which it goes (the longest side). across=x ...: which way waves move (the shortest "
+     "side). slant=0: how much their crests lean. at=0.5: where breathing is deepest, from 0 to 1 along the axis. Of "
+     "several models all parts are one. --time says when; at 0 a chest is at rest."},
     {"morph", 0, "MODEL", OPTION_TEXT, GROUP_MOTION, PICTURE | INFO, AT(morph), 0, 0, 0,
      "Blend the model with another of the same polygons (with --blend), or let it become that within a "
      "second (with --time)."},
     {"blend", 0, "F", OPTION_NUMBER, GROUP_MOTION, PICTURE | INFO, AT(blend), AT(has_blend), -1000, 1000,
      "With --morph: 0 is the model, 1 the other; below and beyond, what tells them apart is exaggerated. "
      "Default: 0.5, or the seconds of --time."},
-    {"frames", 0, "N", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frames), 0, 1, 1000000,
+    {"frames", 0, "N", OPTION_COUNT, GROUP_FILM, DRAW, AT(frames), 0, 1, 1000000,
      "Draw a film of that many frames: to out-%04d.png (or .svg, trace=...: any output, where %04d is the frame's number, from 0 "
      "on), or to out.mp4, .webm, .gif or .apng, by ffmpeg, or as plain pixels to .rgba. Default: as many as --time, --path "
      "or the model's own motion last, or 120 with --turn."},
-    {"fps", 0, "F", OPTION_INSIDE, GROUP_MOTION, DRAW, AT(fps), 0, 0, 1001,
+    {"fps", 0, "F", OPTION_INSIDE, GROUP_FILM, DRAW, AT(fps), 0, 0, 1001,
      "Frames a second. Default: 25."},
-    {"turn", 0, "DEG", OPTION_NUMBER, GROUP_MOTION, DRAW, AT(turn), AT(has_turn), -36000, 36000,
+    {"turn", 0, "DEG", OPTION_NUMBER, GROUP_FILM, DRAW, AT(turn), AT(has_turn), -36000, 36000,
      "A film in which the camera walks round the model, or round --target, from where it stands, in the sense of --azimuth. Whole "
      "rounds (360) loop; any other turn ends with its last frame."},
-    {"path", 0, "FILE", OPTION_TEXT, GROUP_MOTION, DRAW, AT(path), 0, 0, 0,
+    {"path", 0, "FILE", OPTION_TEXT, GROUP_FILM, DRAW, AT(path), 0, 0, 0,
      "A film in which the camera goes smoothly through the views of a JSON file: {\"views\": [{\"time\": 0, \"eye\": [3, 2, 4], "
      "\"target\": [0, 0, 0], \"fov\": 35}, ...]}, with up where it is not the model's, and height instead of fov without "
      "perspective. The first view twice, at the end too, makes it loop."},
-    {"frame", 0, "K", OPTION_COUNT, GROUP_MOTION, DRAW, AT(frame), AT(has_frame), 0, 999999,
+    {"frame", 0, "K", OPTION_COUNT, GROUP_FILM, DRAW, AT(frame), AT(has_frame), 0, 999999,
      "Draw only this one of a film's frames, from 0 on, as a picture."},
-    {"resume", 0, NULL, OPTION_FLAG, GROUP_MOTION, DRAW, AT(resume), 0, 0, 0,
+    {"resume", 0, NULL, OPTION_FLAG, GROUP_FILM, DRAW, AT(resume), 0, 0, 0,
      "Draw only those frames whose files are not there yet."},
-    {"jobs", 0, "N", OPTION_COUNT, GROUP_MOTION, DRAW, AT(jobs), 0, 1, 256,
+    {"jobs", 0, "N", OPTION_COUNT, GROUP_FILM, DRAW, AT(jobs), 0, 1, 256,
      "Frames that are drawn side by side, in processes that share --threads. The film is the same for any number. Default: "
      "what is faster: one for each thread, or one after the other where frames are large."},
 

@@ -276,12 +276,16 @@ const char *nearest_word(const char *words, const char *word, char *best, size_t
     }
 }
 
+bool is_slip(const char *word, const char *best) {
+    return 2 * spelling_distance(word, best) <= strlen(best);
+}
+
 static bool store_word(const option *o, const char *value, int *to) {
     *to = word_index(o->argument, value);
     if (*to) return true;
     char best[32];
     nearest_word(o->argument, value, best, sizeof best);
-    if (2 * spelling_distance(value, best) > strlen(best))
+    if (!is_slip(value, best))
         return wrong_usage("--%s: \"%s\" is none of %s", o->name, value, o->argument);
     return wrong_usage("--%s: \"%s\" is none of %s; did you mean %s?", o->name, value, o->argument,
                        best);
@@ -360,9 +364,6 @@ static bool store_one(const option *o, const char *text, const char *end, unsign
         else
             settings->style.line[line].color = color;
     }
-    /* bold lines all over a section would fill it */
-    if (o->kind == OPTION_WIDTHS && set == DP_ALL_LINES)
-        settings->width_of[DP_LINE_HATCHING].value /= 2;
     return true;
 }
 

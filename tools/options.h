@@ -288,10 +288,12 @@ typedef enum option_group {
     GROUP_PATHS,
     GROUP_STROKES,
     GROUP_SURFACE,
+    GROUP_SECTION,
     GROUP_OBJECTS,
     GROUP_EDGE_MAP,
     GROUP_METHOD,
     GROUP_MOTION,
+    GROUP_FILM,
     GROUP_MODEL,
     GROUP_PROGRAM,
     GROUP_HIDDEN,
@@ -322,7 +324,15 @@ typedef struct command_text {
 extern const command_text command_table[COMMAND_COUNT];
 extern const char *const group_names[GROUP_COUNT];
 extern const char *const group_topics[GROUP_COUNT]; /* for --help; NULL: none */
-extern const char *const models_text[];             /* what MODEL can be; paragraphs, then NULL */
+
+/* What shows a group's options at work. */
+typedef struct option_example {
+    option_group group;
+    const char *command, *about;
+} option_example;
+extern const option_example option_examples[];
+extern const size_t option_example_count;
+extern const char *const models_text[]; /* what MODEL can be; paragraphs, then NULL */
 
 /* Fills *settings; models_free frees what it holds. False: the command line is wrong, and a message is on stderr. */
 bool options_parse(int argc, char **argv, tool_settings *settings);
@@ -351,6 +361,8 @@ bool read_length(const char *text, const char *end, tool_length *length);
 
 /* The word of `words` that is spelt most like `word`. */
 const char *nearest_word(const char *words, const char *word, char *best, size_t size);
+/* Is it spelt so much like `best` that this may have been meant? */
+bool is_slip(const char *word, const char *best);
 
 /* Do the settings say enough, and no two of them different things? A message on stderr if not. */
 bool options_check(const tool_settings *settings);

@@ -66,7 +66,8 @@ typedef struct dp_clip {
  * On success it owns `inner`, and the caller destroys only *out; on failure `inner` remains the
  * caller's. DP_ERR_ARGUMENT for a normal that is zero or not finite, too many planes, or numbers out
  * of range; DP_ERR_MEMORY. Reading it is DP_ERR_ARGUMENT, too, at the end of a model of which the
- * planes leave nothing; once its time was set it is empty then. */
+ * planes leave nothing; once its time was set it is empty then. Where they take nothing away,
+ * dp_source_remark says so. */
 DP_API dp_result dp_source_clip(dp_source *inner, const dp_clip *clip,
                                 const dp_allocator *allocator, dp_source **out, dp_diag *diag);
 

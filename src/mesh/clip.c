@@ -46,6 +46,7 @@ typedef struct clipper {
         groups_cap, ranks_cap;
     size_t kept_corners, kept, rank_count;
     double origin[3], shift[3]; /* the first batch's; what moves the batch's positions to it */
+    bool any_met;               /* a plane has met something, in any reading so far */
     bool begun, ended, any_kept, any_read, moved, timed, has_normals, has_texcoords, has_colors,
         has_groups;
     double low[3], high[3]; /* box of what is kept */
@@ -251,6 +252,7 @@ static bool take_batch(clipper *c, dp_batch *b) {
     for (size_t i = 0; i < b->polygon_count && !changes; i++)
         changes = fate_of(c, b, corners_of(b, i)) != KEPT;
     if (!changes) return true;
+    c->any_met = true;
     if (!reserve_kept(c, b)) return false;
     for (size_t i = 0; i < b->polygon_count; i++) {
         const span s = corners_of(b, i);
@@ -475,7 +477,12 @@ static const char *clipper_group_name(void *user, uint32_t group) {
 static uint32_t clipper_group_color(void *user, uint32_t group) {
     return dp_source_group_color(((clipper *)user)->inner, group);
 }
-static const char *clipper_remark(void *user) { return dp_source_remark(((clipper *)user)->inner); }
+static const char *clipper_remark(void *user) {
+    const clipper *const c = user;
+    const char *const inner = dp_source_remark(c->inner);
+    if (inner || !c->ended || !c->clip.plane_count || c->any_met) return inner;
+    return "the clip planes take nothing away: all of the model lies on the side that is kept";
+}
 static const char *clipper_color_remark(void *user) {
     return dp_source_color_remark(((clipper *)user)->inner);
 }

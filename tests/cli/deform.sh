@@ -6,11 +6,11 @@ deform_tests="deformed_models deformed_alike wrong_deformations deformed_scenes 
 
 deformed_models() {
     run 0 shape:torus $small -o still.png
-    for deform in wave breathe twist; do
-        run 0 shape:torus $small --deform $deform --time 1 -o $deform.png
+    for deform in wave breathe twist:speed=1; do
+        run 0 shape:torus $small --deform $deform --time 1 -o ${deform%:*}.png
         silent out
         silent err
-        cmp -s still.png $deform.png && fail "$deform changes nothing"
+        cmp -s still.png ${deform%:*}.png && fail "$deform changes nothing"
     done
     run 0 shape:torus $small --deform breathe -o out.png
     says err '--deform changes nothing: at time 0 what breathes is at rest; add --time 1'
@@ -34,6 +34,15 @@ deformed_alike() {
     run 0 shape:torus $small --deform twist:angle=90 --time 5 -o a.png
     run 0 shape:torus $small --deform twist -o b.png
     cmp -s a.png b.png || fail "a twist does not stand, or is not of 90 degrees"
+    silent err
+    run 0 shape:torus $small --deform twist --time 5 -o a.png
+    says err '--time changes nothing: a twist stands still without a speed; add speed=1 to it, say'
+    run 0 shape:torus $small --deform twist --frames 2 -o f-%d.png
+    says err 'all frames are alike: a twist stands still without a speed'
+    run 0 shape:torus $small --frames 2 -o f-%d.png
+    says err 'all frames are alike: nothing moves; add --turn 360, say'
+    run 0 shape:torus $small --deform twist --turn 90 --frames 2 -o f-%d.png
+    silent err
     run 0 shape:terrain:100000 $small --deform wave --threads 1 -o a.png
     run 0 shape:terrain:100000 $small --deform wave --threads 3 -o b.png
     cmp -s a.png b.png || fail "threads matter"
@@ -45,6 +54,7 @@ deformed_alike() {
 }
 wrong_deformations() {
     wrong shape:cube --deform wav -o out.png -- '"wav" is none of wave|breathe|twist; did you mean wave?'
+    wrong shape:cube --deform xyz -o out.png -- '"xyz" is none of wave|breathe|twist'
     wrong shape:cube --deform '' -o out.png -- 'is none of wave|breathe|twist'
     wrong shape:cube --deform wave:amplitud=1 -o out.png -- \
         '"amplitud" is none of amplitude|length|speed|axis|across|slant; did you mean amplitude?'

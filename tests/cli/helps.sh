@@ -1,7 +1,7 @@
 # Tests of what helps at the keyboard, for run.sh, which reads this file: --help and its topics, completions.
 # shellcheck shell=bash disable=SC2034,SC2086,SC2154
 
-helps_tests="first_screen topics wrong_topics versions bash_completion zsh_completion fish_completion"
+helps_tests="first_screen topics topic_examples wrong_topics versions bash_completion zsh_completion fish_completion"
 
 first_screen() {
     run 0 --help
@@ -22,14 +22,45 @@ first_screen() {
     run 0 make cube -o parts/a.stl
     sed -n 's/^  drypoint \(.*[^ ]\)   .*/\1/p' first >examples
     [ "$(wc -l <examples)" -ge 4 ] || fail "no examples"
-    while read -r example; do eval "run 0 $example -q" </dev/null; done <examples
+    for word in --clip --xray --explode --turn; do says examples "$word"; done
+    while read -r example; do run_example "$example"; done <examples
     is_png a.png
+}
+# run_example ARGS: runs an example of --help; films with two small frames, where there is ffmpeg.
+run_example() {
+    case $1 in
+    *.mp4 | *.gif*)
+        command -v ffmpeg >/dev/null || return
+        eval "run 0 ${1% --size*} --frames 2 --size 100x80 -q" </dev/null
+        ;;
+    *) eval "run 0 $1 -q" </dev/null ;;
+    esac
+}
+# Every topic of options has examples, all of which run without a warning.
+topic_examples() {
+    run 0 make bracket -o part.stl
+    run 0 make terrain -o scan.stl
+    promised_models
+    bending_bar | sed 's/"Bend"/"Walk"/' >walk.glb
+    sed 's/below/bolt 1/; s/above/housing/' engine.obj >named.obj
+    mv named.obj engine.obj
+    echo '{"views": [{"eye": [3, 2, 4], "target": [0, 0, 0]}, {"eye": [-3, 2, 4], "target": [0, 0, 0]}]}' >way.json
+    for topic in picture page camera lines paths strokes surface sections objects edge-map method motion films program; do
+        run 0 --help $topic
+        sed -n '/^Examples:/,$p' out | sed -n 's/^  drypoint //p' >examples
+        [ -s examples ] || fail "--help $topic has no examples"
+        [ "$(awk 'length > 80' examples | wc -l)" = 0 ] || fail "--help $topic: an example is longer than 80"
+        while read -r example; do
+            run_example "$example"
+            grep -q warning err && fail "$example: $(cat err)"
+        done <examples
+    done
 }
 # Every topic that the first screen names is one, and every option is in one of them.
 topics() {
     run 0 --help
     sed -n '/Topics:/,$p' out | tr -d . | tr -s '\n ' ' ' | sed 's/.*Topics://; s/, or the name.*//' | tr -s ', ' '\n' | grep . >words
-    for word in picture page camera lines paths strokes surface method program models shapes info make bench all; do
+    for word in picture page camera lines paths strokes surface sections objects motion films method program models shapes info make bench all; do
         grep -qx "$word" words || fail "$word is no topic: $(tr '\n' ' ' <words)"
     done
     : >each
@@ -54,6 +85,11 @@ topics() {
     grep -q -e '--hatch' out && fail "--hatch… is of the camera"
     run 0 --help cameras
     says out '--azimuth'
+    run 0 --help path
+    says out 'Paths:'
+    says out '--path FILE'
+    run 0 --help paths
+    grep -q -e '--path FILE' out && fail "--path is of paths"
     run 0 --help hidden-width
     says out '--hidden-width W'
     [ "$(grep -c -e '^  --' out)" = 1 ] || fail "not one option: $(cat out)"
@@ -72,6 +108,7 @@ wrong_topics() {
     wrong --help camra -- '--help: "camra" is no topic; did you mean camera?'
     wrong --help nosuch -- '--help: "nosuch" is neither a topic nor an option'
     wrong help linse -- 'did you mean lines?'
+    wrong --help x-ray -- '"x-ray" is no topic; did you mean --help xray?'
     wrong help xyzzyxyzzy -- 'neither a topic nor an option; "drypoint --help" lists topics'
 }
 versions() {

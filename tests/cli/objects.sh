@@ -213,6 +213,7 @@ wrong_objects() {
     done
     wrong row.obj --object left:colour=red -o out.png -- 'did you mean color=?'
     wrong row.obj --object left:color=red,widht=2 -o out.png -- '"widht" is no setting of an object; did you mean width=?'
+    wrong row.obj --object left:texture=red -o out.png -- '"texture" is no setting of an object; those are color|'
     wrong row.obj --object left:width=x -o out.png -- '--object left:width: "x" is not a width'
     wrong row.obj --object "left:color=$(head -c 3000 /dev/zero | tr '\0' 1)" -o out.png -- 'more than 512 letters'
     for option in --only --without; do

@@ -49,6 +49,14 @@ sections_that_miss() {
     run 0 shape:gear $small -q -o whole.png
     run 0 shape:gear $small -q --clip 0,0,1,99 --clip 1,0,0,99 -o missed.png
     cmp -s whole.png missed.png || fail "a plane that misses changes the picture"
+    run 0 shape:gear $small --clip 0,0,1,99 -o missed.png
+    says err 'warning: the clip planes take nothing away: all of the model lies on the side that is kept'
+    one_line
+    run 0 shape:gear $small --clip 0,0,1,99 --clip 1,0,0 -o met.png
+    silent err
+    # a film of what moves into the plane later says nothing
+    run 0 shape:flag $small --deform wave --clip 0,0,1,0.01 --time 0:1 --frames 2 -o f-%d.png
+    silent err
 }
 # Each part has its own hatching.
 sections_of_parts() {
@@ -68,6 +76,8 @@ sections_in_files() {
     says sheet.svg hatching
 }
 sections_and_looks() {
+    run 0 shape:cube $small --clip 0,1,0 --edges map --section-angle 30 -o map.png
+    says err '--section-angle changes nothing: --edges map and none draw no such lines'
     local look
     for look in '--style gooch' '--preset technical' '--preset engraving' '--hidden dashed' '--stroke pencil' \
         '--mirror 0,1,0' '--edges adjacency' '--edges both' '--section crossed --section-color #FC0' '--samples 1'; do

@@ -18,8 +18,7 @@ static dp_result make_scene(dp_source **out) {
     static const double times[] = {0, 1};
     static const float lifts[] = {0, 1.2f, 0, 0, 2, 0}, turns[] = {0, 0, 0, 1, 0, 1, 0, 0};
     const dp_scene_node nodes[] = {
-        {.name = "box"},
-        {.name = "lid", .translation = {0, 1.2, 0}, .scale = {1.1, 0.15, 1.1}}};
+        {.name = "box"}, {.name = "lid", .translation = {0, 1.2, 0}, .scale = {1.1, 0.15, 1.1}}};
     const dp_scene_mesh mesh = {.name = "cube",
                                 .batch = {.positions = corners[0],
                                           .vertex_count = 8,
@@ -28,16 +27,10 @@ static dp_result make_scene(dp_source **out) {
                                           .firsts = firsts,
                                           .polygon_count = 6}};
     const dp_scene_instance instances[] = {{.node = 1, .mesh = 1}, {.node = 2, .mesh = 1}};
-    const dp_scene_channel lift = {.node = 2,
-                                   .path = DP_SCENE_TRANSLATION,
-                                   .times = times,
-                                   .values = lifts,
-                                   .key_count = 2};
-    const dp_scene_channel turn = {.node = 2,
-                                   .path = DP_SCENE_ROTATION,
-                                   .times = times,
-                                   .values = turns,
-                                   .key_count = 2};
+    const dp_scene_channel lift = {
+        .node = 2, .path = DP_SCENE_TRANSLATION, .times = times, .values = lifts, .key_count = 2};
+    const dp_scene_channel turn = {
+        .node = 2, .path = DP_SCENE_ROTATION, .times = times, .values = turns, .key_count = 2};
     const dp_scene_clip clips[] = {{.name = "open", .channels = &lift, .channel_count = 1},
                                    {.name = "turn", .channels = &turn, .channel_count = 1}};
     const dp_scene_desc desc = {.nodes = nodes,
@@ -54,7 +47,8 @@ static dp_result make_scene(dp_source **out) {
 
 /* The same, twisted, and then cut in two. Each source owns the one that it is made of. */
 static dp_result make_model(dp_source **out) {
-    const dp_deform twist = {.kind = DP_DEFORM_TWIST, .amplitude = 30, .speed = 0.1, .axis = {0, 1, 0}};
+    const dp_deform twist = {
+        .kind = DP_DEFORM_TWIST, .amplitude = 30, .speed = 0.1, .axis = {0, 1, 0}};
     const dp_clip cut = {.planes = {{{0, 0, 1}, 0.3}}, .plane_count = 1};
     dp_source *scene = NULL, *twisted = NULL;
     dp_result result = make_scene(&scene);
@@ -67,7 +61,10 @@ static dp_result make_model(dp_source **out) {
 }
 
 static dp_result draw(dp_context *context, dp_source *model, double time, uint8_t *rgba) {
-    const dp_fit fit = {.min = {-1.5f, -1, -1.5f}, .max = {1.5f, 2.2f, 1.5f}, .direction = {1, 1, 3}, .aspect = 4 / 3.0};
+    const dp_fit fit = {.min = {-1.5f, -1, -1.5f},
+                        .max = {1.5f, 2.2f, 1.5f},
+                        .direction = {1, 1, 3},
+                        .aspect = 4 / 3.0};
     const dp_style style = {.surface = DP_RGB(240, 230, 210)};
     dp_style groups[1];
     const dp_target target = {.width = WIDTH, .height = HEIGHT, .rgba = rgba};

@@ -20,15 +20,16 @@ static float coordinate(uint8_t b) {
 }
 
 static dp_style style_of(const uint8_t *b, const dp_texture *texture) {
-    return (dp_style){.xray = b[0] & 1 ? (float)(1 + b[1]) / 256 : 0,
-                      .xray_layers = b[0] >> 1 & 3,
-                      .pattern = {.texture = b[0] & 8 ? texture : NULL},
-                      .line_light = {.lighting = b[0] & 16 ? DP_LINE_LIGHT_TOON : DP_LINE_LIGHT_OFF},
-                      .ink = (b[0] & 32) && !(b[0] & 1) ? DP_INK_QUADS : DP_INK_STROKES,
-                      .hidden = {.look = b[0] & 64 && !(b[0] & 32) ? DP_HIDDEN_DASHED : DP_HIDDEN_NONE},
-                      .shade = {.shading = (dp_shading)(b[2] % DP_SHADING_COUNT)},
-                      .section = b[3] & 1 ? DP_RGB(200, 100, 50) : 0,
-                      .detail = b[3] & 2 ? 1 : 0};
+    return (dp_style){
+        .xray = b[0] & 1 ? (float)(1 + b[1]) / 256 : 0,
+        .xray_layers = b[0] >> 1 & 3,
+        .pattern = {.texture = b[0] & 8 ? texture : NULL},
+        .line_light = {.lighting = b[0] & 16 ? DP_LINE_LIGHT_TOON : DP_LINE_LIGHT_OFF},
+        .ink = (b[0] & 32) && !(b[0] & 1) ? DP_INK_QUADS : DP_INK_STROKES,
+        .hidden = {.look = b[0] & 64 && !(b[0] & 32) ? DP_HIDDEN_DASHED : DP_HIDDEN_NONE},
+        .shade = {.shading = (dp_shading)(b[2] % DP_SHADING_COUNT)},
+        .section = b[3] & 1 ? DP_RGB(200, 100, 50) : 0,
+        .detail = b[3] & 2 ? 1 : 0};
 }
 
 /* Puts a new source in the place of *source if it could be made of it. */
@@ -51,9 +52,10 @@ static void clip(const uint8_t *b, dp_source **source) {
                     .look = (dp_section_look)(b[0] >> 1 & 3),
                     .hatch_spacing = (double)b[1] / 32};
     for (int k = 0; k < 2; k++)
-        desc.planes[k] = (dp_clip_plane){.normal = {coordinate(b[2 + 4 * k]), coordinate(b[3 + 4 * k]),
-                                                    coordinate(b[4 + 4 * k])},
-                                         .offset = coordinate(b[5 + 4 * k])};
+        desc.planes[k] =
+            (dp_clip_plane){.normal = {coordinate(b[2 + 4 * k]), coordinate(b[3 + 4 * k]),
+                                       coordinate(b[4 + 4 * k])},
+                            .offset = coordinate(b[5 + 4 * k])};
     dp_source *out = NULL;
     dp_diag diag = {0};
     wrap(source, dp_source_clip(*source, &desc, NULL, &out, &diag), out, &diag);
@@ -129,10 +131,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                           &texture, NULL))
         abort();
     for (int k = 0; k < 3; k++) switch (w[k] % 4) {
-        case 0: deform(w + 3, &source); break;
-        case 1: clip(w + 6, &source); break;
-        case 2: arrange(w + 16, &source); break;
-        default: break;
+        case 0:
+            deform(w + 3, &source);
+            break;
+        case 1:
+            clip(w + 6, &source);
+            break;
+        case 2:
+            arrange(w + 16, &source);
+            break;
+        default:
+            break;
         }
     const dp_style style = style_of(data, texture);
     try_source(source, &style);

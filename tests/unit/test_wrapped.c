@@ -158,12 +158,18 @@ static dp_result wrap(const chain *c, int depth, dp_source *inner, dp_source **o
     static const dp_deform wave = {.amplitude = 0.05}, own = {.vertices = lean, .normals = true};
     static const char *const names[] = {"part"};
     switch (c->wrapper[depth]) {
-    case CLIP: return dp_source_clip(inner, &clip, &memory, out, diag);
-    case ARRANGE: return dp_source_arrange(inner, places, 2, &memory, out, diag);
-    case WAVE: return dp_source_deform(inner, &wave, &memory, out, diag);
-    case OWN: return dp_source_deform(inner, &own, &memory, out, diag);
-    case MORPH: return morph(c, depth, inner, out, diag);
-    default: return dp_source_join(&inner, names, 1, &memory, out, diag);
+    case CLIP:
+        return dp_source_clip(inner, &clip, &memory, out, diag);
+    case ARRANGE:
+        return dp_source_arrange(inner, places, 2, &memory, out, diag);
+    case WAVE:
+        return dp_source_deform(inner, &wave, &memory, out, diag);
+    case OWN:
+        return dp_source_deform(inner, &own, &memory, out, diag);
+    case MORPH:
+        return morph(c, depth, inner, out, diag);
+    default:
+        return dp_source_join(&inner, names, 1, &memory, out, diag);
     }
 }
 
@@ -269,7 +275,7 @@ static void check_failing(const chain *c) {
     assert_int_equal(diag.result, DP_ERR_IO);
     if (!strstr(diag.message, "the boxes are stuck")) fail_chain(c, "says: %s", diag.message);
     (void)dp_source_next(bad, &batch, &diag); /* whatever comes: nothing that is gone */
-    dp_result result = DP_ERR_IO; /* each of a morph's sources fails once */
+    dp_result result = DP_ERR_IO;             /* each of a morph's sources fails once */
     for (int k = 0; k < 8 && result; k++) result = dp_source_set_time(bad, 0.4, &diag);
     assert_int_equal(result, DP_OK);
     assert_int_equal(dp_source_set_time(good, 0.4, &diag), DP_OK);
@@ -338,7 +344,8 @@ static void fail_everywhere(const chain *c, const look *l) {
     static uint8_t expected[BYTES];
     (void)draw_failing(c, l, 1, 0, expected);
     for (uint32_t threads = 1; threads <= (c->depth == 1 ? 3 : 1); threads += 2)
-        for (long at = 1; !draw_failing(c, l, threads, at, expected); at++) {}
+        for (long at = 1; !draw_failing(c, l, threads, at, expected); at++) {
+        }
 }
 
 static const look plain = {.style = {0}};
