@@ -202,9 +202,10 @@ run_phase() {
     asan)
         # The hostile phase runs determinism under the same sanitizers, in tiles where more goes wrong; it is the
         # slowest of all programs, and every mode's pictures are drawn here once by the golden ones.
-        # Counted bytes are the same counts as under gcc.
+        # Counted bytes are the same counts as under gcc. Pairs of features are thousands of pictures; sources in
+        # sources (test_wrapped, fuzz.wrapped) and each feature's own tests are drawn here.
         phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy' \
-            -E 'unit.test_(determinism|stats_bytes)'
+            -E 'unit.test_(determinism|stats_bytes)|cli.pairs'
         ;;
     tsan) # failing allocations are the same in any thread
         phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context|stream$' -E context_memory

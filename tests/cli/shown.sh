@@ -40,6 +40,7 @@ shown_models() {
     cp walk.glb dancer.gltf
     cp walk.glb part.glb
     cp walk.glb engine.glb
+    cp engine.obj machine.obj
     cat >way.json <<END
 {"views": [{"time": 0, "eye": [3, 2, 4], "target": [0, 0, 0]}, {"time": 0.1, "eye": [-3, 2, 4], "target": [0, 0, 0]}]}
 END

@@ -44,7 +44,8 @@ static void deform(const uint8_t *b, dp_source **source) {
                             .axis = {b[2] & 1, b[2] >> 1 & 1, b[2] >> 2 & 1}};
     dp_source *out = NULL;
     dp_diag diag = {0};
-    wrap(source, dp_source_deform(*source, &desc, NULL, &out, &diag), out, &diag);
+    const dp_result result = dp_source_deform(*source, &desc, NULL, &out, &diag);
+    wrap(source, result, out, &diag);
 }
 
 static void clip(const uint8_t *b, dp_source **source) {
@@ -58,7 +59,8 @@ static void clip(const uint8_t *b, dp_source **source) {
                             .offset = coordinate(b[5 + 4 * k])};
     dp_source *out = NULL;
     dp_diag diag = {0};
-    wrap(source, dp_source_clip(*source, &desc, NULL, &out, &diag), out, &diag);
+    const dp_result result = dp_source_clip(*source, &desc, NULL, &out, &diag);
+    wrap(source, result, out, &diag);
 }
 
 static void arrange(const uint8_t *b, dp_source **source) {
@@ -67,7 +69,8 @@ static void arrange(const uint8_t *b, dp_source **source) {
         places[g] = (dp_placement){.hidden = b[0] >> g & 1, .offset = {coordinate(b[1 + g]), 0, 1}};
     dp_source *out = NULL;
     dp_diag diag = {0};
-    wrap(source, dp_source_arrange(*source, places, GROUPS, NULL, &out, &diag), out, &diag);
+    const dp_result result = dp_source_arrange(*source, places, GROUPS, NULL, &out, &diag);
+    wrap(source, result, out, &diag);
 }
 
 /* Polygons of one reading; UINT64_MAX: it fails. */
