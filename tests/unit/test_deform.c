@@ -1,5 +1,8 @@
 /* Deformed and blended sources: where vertices come to lie, in batches of any kind, with any number of
- * threads, and far from zero. */
+ * threads, and far from zero.
+ *
+ * Above 600 lines: deformers and morphs are asked the same of the same models, as one wrapper moves both
+ * (mesh/moved.c). */
 #include "mesh/source.h"
 
 #include <drypoint/drypoint.h>

@@ -1,5 +1,8 @@
 /* mesh/clip: models cut open. Faces are compared with what is known of the solid: areas, and random
- * points that must be covered once where they lie inside and never elsewhere. */
+ * points that must be covered once where they lie inside and never elsewhere.
+ *
+ * Above 600 lines: all tests read sections by the same reader and measures, which are a quarter of it. How
+ * sections are drawn is in test_section_draw.c. */
 #include "base/hostile.h"
 #include "base/vec.h"
 #include "mesh/source.h"
@@ -579,108 +582,6 @@ static void origins_are_kept(void **state) {
     near(face_area(ANY_GROUP, dp_v3(0, 0, 1), -3e6 + 0.25), 8, 1e-6);
 }
 
-/* ------- drawing ------- */
-
-static dp_context *new_context(uint32_t threads) {
-    const dp_context_desc desc = {.threads = threads};
-    dp_context *context;
-    assert_int_equal(dp_context_create(&desc, &context, NULL), DP_OK);
-    return context;
-}
-
-/* The length of all visible segments of a class, px. */
-static double drawn(dp_context *context, dp_line line) {
-    size_t count;
-    const dp_segment *const s = dp_segments(context, &count);
-    double sum = 0;
-    for (size_t i = 0; i < count; i++)
-        if (s[i].line == line && !s[i].level)
-            sum += dp_hypot((double)s[i].b[0] - (double)s[i].a[0],
-                            (double)s[i].b[1] - (double)s[i].a[1]);
-    return sum;
-}
-
-/* A cube from above, cut: the outline of the face is a section, no crease, crossing or border. */
-static void a_section_is_drawn(void **state) {
-    (void)state;
-    static picture out;
-    const dp_clip clip = {.planes = {{{0, 0, 1}, 0}}, .plane_count = 1, .hatch_spacing = 10};
-    box(new_scene(), -40, -30, -20, 40, 30, 20);
-    dp_source *const source = clipped(source_of(&shown), &clip);
-    dp_context *const context = new_context(2);
-    const dp_camera camera = scene_flat_camera();
-    const dp_style style = {.line[DP_LINE_SECTION].color = DP_RGB(255, 0, 0),
-                            .section = DP_RGB(0, 200, 0),
-                            .line[DP_LINE_HATCHING].color = DP_RGB(0, 0, 255)};
-    const dp_target target = {.width = SCENE_WIDTH,
-                              .height = SCENE_HEIGHT,
-                              .rgba = out.rgba,
-                              .line_class = out.line_class};
-    dp_diag diag = {0};
-    if (dp_draw(context, source, &camera, &style, &target, &diag)) fail_msg("%s", diag.message);
-    near(drawn(context, DP_LINE_SECTION), 2 * (80 + 60), 0.01);
-    near(drawn(context, DP_LINE_HATCHING), 80 * 60 / 10.0, 0.05);
-    for (int line = DP_LINE_RIDGE; line < DP_LINE_SECTION; line++)
-        assert_true(drawn(context, (dp_line)line) == 0);
-    dp_stats stats;
-    dp_stats_of(context, &stats);
-    assert_int_equal(stats.dropped, 0);
-    const uint8_t *const middle =
-        out.rgba + 4 * (SCENE_WIDTH * (SCENE_HEIGHT / 2) + SCENE_WIDTH / 2 + 5);
-    assert_int_equal(middle[0], 0);
-    assert_int_equal(middle[1], 200);
-    /* not asked for, not drawn */
-    const dp_style bare = {.lines = DP_SILHOUETTE | DP_HATCHING};
-    assert_int_equal(dp_draw(context, source, &camera, &bare, &target, NULL), DP_OK);
-    assert_true(drawn(context, DP_LINE_SECTION) == 0);
-    assert_true(drawn(context, DP_LINE_HATCHING) > 0);
-    dp_context_destroy(context);
-    dp_source_destroy(source);
-}
-
-/* Behind what hides a face its outline is a hidden line; hatching is none. */
-static void hidden_faces_are_not_hatched(void **state) {
-    (void)state;
-    static picture out;
-    const dp_clip clip = {.planes = {{{0, 0, -1}, 0}}, .plane_count = 1, .hatch_spacing = 10};
-    box(new_scene(), -40, -30, -20, 40, 30, 20);
-    box(&shown, -10, -10, -20, 10, 10, 40);
-    dp_source *const source = clipped(source_of(&shown), &clip);
-    dp_context *const context = new_context(2);
-    const dp_camera camera = scene_flat_camera();
-    const dp_style style = {.hidden.look = DP_HIDDEN_DASHED};
-    const dp_target target = {.width = SCENE_WIDTH, .height = SCENE_HEIGHT, .rgba = out.rgba};
-    assert_int_equal(dp_draw(context, source, &camera, &style, &target, NULL), DP_OK);
-    size_t count, hidden = 0;
-    const dp_segment *const s = dp_segments(context, &count);
-    for (size_t i = 0; i < count; i++) {
-        assert_true(s[i].line != DP_LINE_HATCHING);
-        hidden += s[i].line == DP_LINE_SECTION && s[i].level == 1;
-    }
-    assert_true(hidden >= 4);
-    dp_context_destroy(context);
-    dp_source_destroy(source);
-}
-
-static void what_sections_exclude_is_told(void **state) {
-    (void)state;
-    static picture out;
-    box(new_scene(), -40, -30, -20, 40, 30, 20);
-    dp_source *const source = clipped(source_of(&shown), &half_z);
-    dp_context *const context = new_context(1);
-    const dp_camera camera = scene_flat_camera();
-    const dp_target target = {.width = SCENE_WIDTH, .height = SCENE_HEIGHT, .rgba = out.rgba};
-    const dp_style smooth = {.smooth = DP_SMOOTH_SURFACE};
-    dp_diag diag = {0};
-    assert_int_equal(dp_draw(context, source, &camera, &smooth, &target, &diag),
-                     DP_ERR_UNSUPPORTED);
-    assert_non_null(strstr(diag.message, "sections"));
-    const dp_style usual = {0};
-    assert_int_equal(dp_draw(context, source, &camera, &usual, &target, &diag), DP_OK);
-    dp_context_destroy(context);
-    dp_source_destroy(source);
-}
-
 /* ------- memory ------- */
 
 typedef struct meter {
@@ -774,9 +675,6 @@ int main(void) {
         cmocka_unit_test(a_slice_has_two_faces),
         cmocka_unit_test(attributes_are_interpolated),
         cmocka_unit_test(origins_are_kept),
-        cmocka_unit_test(a_section_is_drawn),
-        cmocka_unit_test(hidden_faces_are_not_hatched),
-        cmocka_unit_test(what_sections_exclude_is_told),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(later_readings_allocate_nothing),
     };
