@@ -25,6 +25,7 @@ sink     base mesh texture core raster strokes
 vector   base mesh texture core strokes sink
 stream   base mesh core features raster find
 draw     base mesh texture core features raster find printed strokes gbuffer shade sink stream vector
+gl       base mesh texture core features strokes gbuffer shade draw
 '
 find . -name '*.[ch]' -o -name '*.inc' | sed 's|^\./||' | sort | xargs awk -v rules="$rules" '
 BEGIN {

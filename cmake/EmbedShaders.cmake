@@ -1,0 +1,15 @@
+# Writes the shaders in DIRECTORY into the C file OUTPUT, as src/gl/program.h declares them:
+#   cmake -DDIRECTORY=src/gl/shaders -DOUTPUT=shaders.c -P cmake/EmbedShaders.cmake
+file(GLOB files "${DIRECTORY}/*")
+list(SORT files)
+set(text "/* Made by cmake/EmbedShaders.cmake from src/gl/shaders. */\n#include \"gl/program.h\"\n\nconst dp_gl_shader_file dp_gl_shader_files[] = {\n")
+foreach(file IN LISTS files)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" content)
+  string(REPLACE "\\" "\\\\" content "${content}")
+  string(REPLACE "\"" "\\\"" content "${content}")
+  string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
+  string(APPEND text "    {\"${name}\",\n     \"${content}\"},\n")
+endforeach()
+string(APPEND text "    {0, 0}};\n")
+file(WRITE "${OUTPUT}" "${text}")

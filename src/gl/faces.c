@@ -1,0 +1,137 @@
+/* Faces: the nearest triangle of each sample, and its depth.
+ *
+ * The scene's triangles are drawn once, without attributes, into a texture of numbers (1 + triangle, R32UI) and a depth buffer.
+ * Depth is d (core/view.h), which is larger when nearer, scaled into [0, 1]: in perspective 1 / distance, so that float32
+ * is fine where it matters. Where the application gives a depth texture, it is put there first, as DP_GL_ID_FOREIGN.
+ * Invariant: texel (x, y) is the picture's pixel from the upper left corner. */
+#include "gl/stages.h"
+
+#include <math.h>
+
+/* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane. */
+static void depth_range(const dp_gl *gl, float out[2]) {
+    const dp_view *const v = &gl->view;
+    const double *const z = v->clip[2], *const w = v->clip[3], *const s = v->sight;
+    /* along the line of sight, clip z = scale * distance + offset */
+    const double length2 = s[0] * s[0] + s[1] * s[1] + s[2] * s[2],
+                 scale = (z[0] * s[0] + z[1] * s[1] + z[2] * s[2]) / length2,
+                 offset = z[3] - scale * s[3];
+    const double wscale = (w[0] * s[0] + w[1] * s[1] + w[2] * s[2]) / length2,
+                 woffset = w[3] - wscale * s[3];
+    const double near_z = -(offset + woffset) / (scale + wscale),
+                 far_z = (woffset - offset) / (scale - wscale);
+    if (v->perspective) {
+        out[0] = (float)(near_z * (1 - 1e-6)), out[1] = 0;
+    } else {
+        out[0] = (float)((1 - 1e-6) / (far_z - near_z));
+        out[1] = (float)(far_z / (far_z - near_z) * (1 - 1e-6));
+    }
+}
+
+static dp_result reserve(dp_gl *gl, dp_diag *diag) {
+    dp_gl_faces *const f = &gl->faces;
+    const uint32_t w = gl->target.width, h = gl->target.height,
+                   samples = gl->samples > 1 ? gl->samples : 0;
+    dp_result result = dp_gl_texture_reserve(gl, &f->ids, GL_R32UI, w, h, samples,
+                                             "numbers of the samples' polygons", diag);
+    if (!result)
+        result = dp_gl_texture_reserve(gl, &f->depth, GL_DEPTH_COMPONENT32F, w, h, samples,
+                                       "depth of the samples", diag);
+    if (result) return result;
+    if (!f->framebuffer) gl->api.GenFramebuffers(1, &f->framebuffer);
+    gl->api.BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
+    gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, f->ids.name, 0);
+    gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, f->depth.name, 0);
+    gl->api.DrawBuffer(GL_COLOR_ATTACHMENT0);
+    if (gl->api.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return dp_fail(diag, DP_ERR_UNSUPPORTED,
+                       "%s cannot draw numbers with %u samples and 32 bits of depth", gl->device,
+                       gl->samples);
+    return DP_OK;
+}
+
+/* Sets up what faces, and all that is tested against them, are drawn with. */
+static void clear(dp_gl *gl) {
+    static const GLuint none[4] = {0, 0, 0, 0};
+    static const GLfloat far_away = 0;
+    gl->api.Viewport(0, 0, (GLsizei)gl->target.width, (GLsizei)gl->target.height);
+    gl->api.DepthMask(GL_TRUE);
+    gl->api.ClearBufferuiv(GL_COLOR, 0, none);
+    gl->api.ClearBufferfv(GL_DEPTH, 0, &far_away);
+    gl->api.Enable(GL_DEPTH_TEST);
+    gl->api.DepthFunc(GL_GREATER);
+}
+
+/* The application's depth, as d, with DP_GL_ID_FOREIGN. */
+static dp_result put_foreign(dp_gl *gl, const float range[2], dp_diag *diag) {
+    static const dp_gl_program_desc plain = {.vertex = "whole.vert", .fragment = "foreign.frag"},
+                                    several = {.vertex = "whole.vert",
+                                               .fragment = "foreign.frag",
+                                               .defines = "#define FOREIGN_SAMPLES\n"};
+    const dp_gl_api *const a = &gl->api;
+    uint32_t program;
+    GLint samples = 0;
+    a->ActiveTexture(GL_TEXTURE0 + DP_GL_UNIT_OWN);
+    while (a->GetError() != GL_NO_ERROR) {
+    }
+    a->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, gl->target.depth_texture);
+    const bool is_plain = a->GetError() != GL_NO_ERROR;
+    if (!is_plain)
+        a->GetTexLevelParameteriv(GL_TEXTURE_2D_MULTISAMPLE, 0, GL_TEXTURE_SAMPLES, &samples);
+    if (is_plain) a->BindTexture(GL_TEXTURE_2D, gl->target.depth_texture);
+    const dp_result result = dp_gl_program(gl, is_plain ? &plain : &several, &program, diag);
+    if (result) return result;
+    if (a->GetError() != GL_NO_ERROR)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "depth_texture %u is no texture of two dimensions",
+                       gl->target.depth_texture);
+    dp_gl_use(gl, program);
+    dp_gl_uniform_i(gl, program, "foreign", DP_GL_UNIT_OWN);
+    a->Uniform2f(a->GetUniformLocation(program, "depth_range"), range[0], range[1]);
+    a->DepthFunc(GL_ALWAYS);
+    dp_gl_draw_whole(gl);
+    a->DepthFunc(GL_GREATER);
+    return DP_OK;
+}
+
+dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.vertex = "faces.vert", .fragment = "faces.frag"};
+    const dp_gl_api *const a = &gl->api;
+    float range[2];
+    uint32_t program;
+    dp_result result = reserve(gl, diag);
+    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
+    depth_range(gl, range);
+    clear(gl);
+    if (gl->target.depth_texture) result = put_foreign(gl, range, diag);
+    if (result) return result;
+    dp_gl_use(gl, program);
+    dp_gl_scene_bind(gl);
+    a->Uniform2f(a->GetUniformLocation(program, "depth_range"), range[0], range[1]);
+    a->Enable(GL_CLIP_DISTANCE0);
+    if (gl->style.cull_back_faces) {
+        a->FrontFace(GL_CW); /* rows run from the top down here */
+        a->Enable(GL_CULL_FACE);
+    }
+    a->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(3 * gl->scene.triangle_count));
+    a->Disable(GL_CULL_FACE);
+    a->FrontFace(GL_CCW);
+    a->Disable(GL_CLIP_DISTANCE0);
+    a->Disable(GL_DEPTH_TEST);
+    a->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    return DP_OK;
+}
+
+void dp_gl_faces_bind(dp_gl *gl, uint32_t program) {
+    dp_gl_texture_bind(gl, &gl->faces.ids, DP_GL_UNIT_IDS);
+    dp_gl_texture_bind(gl, &gl->faces.depth, DP_GL_UNIT_DEPTH);
+    dp_gl_uniform_i(gl, program, "ids", DP_GL_UNIT_IDS);
+    dp_gl_uniform_i(gl, program, "depths", DP_GL_UNIT_DEPTH);
+}
+
+void dp_gl_faces_free(dp_gl *gl) {
+    dp_gl_texture_free(gl, &gl->faces.ids);
+    dp_gl_texture_free(gl, &gl->faces.depth);
+    if (gl->faces.framebuffer) gl->api.DeleteFramebuffers(1, &gl->faces.framebuffer);
+    gl->faces.framebuffer = 0;
+}

@@ -1,0 +1,248 @@
+/* dp_gl_draw: one picture, stage by stage.
+ *
+ *    meshes → scene → vertices → faces (ids, depth) → mates → edges, emerging lines, crossings
+ *           → visibility → segments
+ *    faces → surface: flat, or G-buffer, shading, edge map
+ *    segments or added polygons → ink over the surface → the application's framebuffer
+ *
+ * Nothing comes back to the host but counters: were the lists of candidates and of segments large enough? If not,
+ * they grow, and those stages run again. */
+#include "gl/stages.h"
+
+#include "core/outline.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *dp_gl_stage_name(dp_gl_stage stage) {
+    static const char *const names[DP_GL_STAGE_COUNT] = {"vertices",   "faces", "mates", "edges",
+                                                         "visibility", "shade", "ink"};
+    return (unsigned)stage < DP_GL_STAGE_COUNT ? names[stage] : "unknown";
+}
+
+static void put_color(dp_color c, float out[4]) {
+    for (int k = 0; k < 4; k++) out[k] = (float)(c >> (24 - 8 * k) & 0xff) / 255;
+}
+
+static void put_vector(dp_vec3 v, double last, double out[4]) {
+    out[0] = v.x, out[1] = v.y, out[2] = v.z, out[3] = last;
+}
+
+/* Half a degree short of the least fold that is drawn, a right angle at the most; 2 where flat edges are lines too. As in
+ * draw/draw.c. */
+static float flat_cosine(const dp_style *s) {
+    const float least = fminf(180 - s->ridge_angle, s->valley_angle - 180);
+    return least > 1 ? (float)cos(((double)fminf(least, 90) - 0.5) * 0.017453292519943295) : 2;
+}
+
+static void put_view(dp_gl *gl) {
+    const dp_view *const v = &gl->view;
+    dp_gl_picture_block *const b = &gl->block;
+    memcpy(b->clip, v->clip, sizeof b->clip);
+    memcpy(b->sight, v->sight, sizeof b->sight);
+    put_vector(v->eye, v->guard, b->eye);
+    put_vector(v->forward, v->focal, b->forward);
+    put_vector(v->corner, 0, b->corner);
+    put_vector(v->across, 0, b->across);
+    put_vector(v->down, 0, b->down);
+    const float size = (float)(1 / v->focal);
+    b->step[0] = v->perspective ? size : 0, b->step[1] = v->perspective ? 0 : size;
+    b->step[2] = dp_nearly_edge_on(v);
+    b->step[3] = flat_cosine(&gl->style);
+    b->size[0] = (float)v->width, b->size[1] = (float)v->height;
+    b->size[2] = (float)(1 / v->width), b->size[3] = (float)(1 / v->height);
+}
+
+static void put_style(dp_gl *gl) {
+    const dp_style *const s = &gl->style;
+    dp_gl_picture_block *const b = &gl->block;
+    const double theta = (double)s->ridge_angle * 0.017453292519943295,
+                 phi = (double)s->valley_angle * 0.017453292519943295;
+    b->angles[0] = cos(theta), b->angles[1] = sin(theta);
+    b->angles[2] = cos(phi), b->angles[3] = sin(phi);
+    for (int i = 0; i < DP_LINE_COUNT; i++) {
+        b->widths[i][0] = s->line[i].width;
+        put_color(s->line[i].color, b->colors[i]);
+    }
+    put_color(s->paper, b->paper);
+    put_color(s->surface, b->surface);
+    b->style[0] = s->lines & DP_ALL_LINES;
+    b->style[1] = gl->view.perspective;
+    b->style[2] = s->cull_back_faces;
+}
+
+/* Where samples lie in a pixel, as the device has it. */
+static void put_places(dp_gl *gl) {
+    dp_gl_picture_block *const b = &gl->block;
+    b->places[0][0] = b->places[0][1] = 0.5f;
+    if (gl->samples < 2) return;
+    gl->api.BindFramebuffer(GL_FRAMEBUFFER, gl->faces.framebuffer);
+    for (GLuint i = 0; i < gl->samples; i++)
+        gl->api.GetMultisamplefv(GL_SAMPLE_POSITION, i, b->places[i]);
+}
+
+dp_result dp_gl_upload_block(dp_gl *gl, dp_diag *diag) {
+    put_view(gl);
+    put_style(gl);
+    put_places(gl);
+    gl->block.counts[0] = gl->scene.vertex_count;
+    gl->block.counts[1] = gl->scene.triangle_count;
+    gl->block.counts[2] = gl->samples;
+    gl->block.counts[3] = (uint32_t)(gl->lines.segments.size / sizeof(dp_gl_segment));
+    return dp_gl_buffer_fill(gl, &gl->block_buffer, &gl->block, sizeof gl->block,
+                             "a picture's values", diag);
+}
+
+static uint32_t samples_of(const dp_gl *gl, uint32_t asked) {
+    uint32_t samples = asked ? asked : 4;
+    while (samples > 1 && samples > gl->samples_most) samples /= 2;
+    return samples;
+}
+
+static dp_result check_target(const dp_gl *gl, const dp_gl_target *t, dp_diag *diag) {
+    const uint32_t most = gl->texture_most;
+    if (t->width < 1 || t->height < 1 || t->width > most || t->height > most)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "the picture is %u x %u px; each side must be 1 to %u on this device",
+                       t->width, t->height, most);
+    if (t->samples > 16 || (t->samples & (t->samples - 1)) || t->samples == 2)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "%u samples per pixel; it must be 1, 4, 8 or 16",
+                       t->samples);
+    return DP_OK;
+}
+
+static dp_result check_meshes(const dp_gl *gl, dp_gl_mesh *const *meshes, size_t count,
+                              dp_diag *diag) {
+    for (size_t i = 0; i < count; i++)
+        if (!meshes || !meshes[i] || meshes[i]->gl != gl)
+            return dp_fail(diag, DP_ERR_ARGUMENT, "mesh %zu is NULL, or of another dp_gl", i);
+    return DP_OK;
+}
+
+/* Style, view and samples of the picture. */
+static dp_result begin(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, const dp_camera *camera,
+                       const dp_style *style, const dp_gl_target *target, dp_diag *diag) {
+    dp_result result = check_target(gl, target, diag);
+    if (!result) result = check_meshes(gl, meshes, count, diag);
+    if (!result) result = dp_style_resolve(style, &gl->style, diag);
+    if (!result) result = dp_gl_check_style(gl, &gl->style, diag);
+    if (result) return result;
+    gl->target = *target;
+    gl->samples = samples_of(gl, target->samples);
+    gl->lines.have_read = false;
+    result = dp_gl_scene_take(gl, meshes, count, diag);
+    if (result) return result;
+    gl->camera = dp_camera_about(camera, gl->scene.origin);
+    return dp_view_init(&gl->view, &gl->camera, target->width, target->height, diag);
+}
+
+/* ------- stages ------- */
+
+static void begin_stage(dp_gl *gl, dp_gl_stage stage) {
+    gl->queried[stage] = gl->timed;
+    if (!gl->timed) return;
+    if (!gl->queries[0]) gl->api.GenQueries(DP_GL_STAGE_COUNT, gl->queries);
+    gl->api.BeginQuery(GL_TIME_ELAPSED, gl->queries[stage]);
+}
+static void end_stage(dp_gl *gl) {
+    if (gl->timed) gl->api.EndQuery(GL_TIME_ELAPSED);
+}
+
+typedef dp_result stage_function(dp_gl *, dp_diag *);
+
+static dp_result run(dp_gl *gl, dp_gl_stage stage, stage_function *function, dp_diag *diag) {
+    begin_stage(gl, stage);
+    const dp_result result = function(gl, diag);
+    end_stage(gl);
+    return result;
+}
+
+static dp_result find_candidates(dp_gl *gl, dp_diag *diag) {
+    dp_result result = dp_gl_find_edges(gl, diag);
+    if (!result) result = dp_gl_find_emerging(gl, diag);
+    if (!result) result = dp_gl_find_crossings(gl, diag);
+    return result;
+}
+
+static bool finds_lines(const dp_gl *gl) {
+    const bool strokes = gl->style.ink == DP_INK_STROKES && gl->style.edges == DP_EDGES_EMERGENT;
+    return strokes && gl->scene.triangle_count && (gl->style.lines & DP_ALL_LINES);
+}
+
+static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
+    bool again = true;
+    dp_result result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
+    while (!result && again) {
+        result = run(gl, DP_GL_STAGE_EDGES, find_candidates, diag);
+        if (!result) result = run(gl, DP_GL_STAGE_VISIBILITY, dp_gl_find_visible, diag);
+        if (!result) result = dp_gl_grow_lines(gl, &again, diag);
+        gl->stats.regrown += again;
+        if (!result && again) result = dp_gl_upload_block(gl, diag);
+    }
+    return result;
+}
+
+static dp_result surface(dp_gl *gl, dp_diag *diag) {
+    const bool shaded = gl->style.shade.shading != DP_SHADING_FLAT || gl->style.edge_map.detector ||
+                        gl->style.shade.model_colors;
+    return shaded ? dp_gl_shade(gl, diag) : dp_gl_paint_surface(gl, diag);
+}
+
+static dp_result ink(dp_gl *gl, dp_diag *diag) {
+    dp_result result = DP_OK;
+    if (!gl->scene.triangle_count || !(gl->style.lines & DP_ALL_LINES))
+        result = DP_OK;
+    else if (gl->style.edges == DP_EDGES_ADJACENCY)
+        result = dp_gl_ink_fins(gl, diag);
+    else if (gl->style.ink == DP_INK_QUADS)
+        result = dp_gl_ink_quads(gl, diag);
+    else
+        result = dp_gl_ink_strokes(gl, diag);
+    return result ? result : dp_gl_show(gl, diag);
+}
+
+static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
+    dp_result result = dp_gl_upload_block(gl, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, dp_gl_scene_place, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);
+    if (!result) result = dp_gl_upload_block(gl, diag); /* where samples lie is known now */
+    if (!result && finds_lines(gl)) result = find_lines(gl, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_SHADE, surface, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_INK, ink, diag);
+    return result ? result : dp_gl_check(gl, "drawing a picture", diag);
+}
+
+dp_result dp_gl_draw(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, const dp_camera *camera,
+                     const dp_style *style, const dp_gl_target *target, dp_diag *diag) {
+    dp_gl_state *state;
+    if (!gl || !camera || !target || (count && !meshes))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_draw: gl, meshes, camera or target is NULL");
+    gl->drawn = false;
+    const uint64_t bytes = gl->stats.bytes;
+    gl->stats = (dp_gl_stats){.bytes = bytes};
+    memset(gl->queried, 0, sizeof gl->queried);
+    dp_result result = dp_gl_enter(gl, &state, diag);
+    if (result) return result;
+    result = begin(gl, meshes, count, camera, style, target, diag);
+    if (!result) result = draw_stages(gl, diag);
+    gl->drawn = !result;
+    gl->stats.triangles = gl->scene.triangle_count, gl->stats.vertices = gl->scene.vertex_count;
+    gl->stats.samples = gl->samples;
+    dp_gl_leave(gl, state);
+    return result;
+}
+
+void dp_gl_time_stages(dp_gl *gl, bool timed) {
+    if (gl) gl->timed = timed;
+}
+
+dp_result dp_gl_stats_of(dp_gl *gl, dp_gl_stats *stats, dp_diag *diag) {
+    if (!gl || !stats) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_stats_of: gl or stats is NULL");
+    for (int i = 0; i < DP_GL_STAGE_COUNT && !gl->is_lost; i++) {
+        GLuint64 ns = 0;
+        if (gl->queried[i]) gl->api.GetQueryObjectui64v(gl->queries[i], GL_QUERY_RESULT, &ns);
+        gl->stats.stage_ms[i] = (double)ns * 1e-6;
+    }
+    *stats = gl->stats;
+    return DP_OK;
+}

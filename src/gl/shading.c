@@ -1,0 +1,8 @@
+/* shading */
+#include "gl/stages.h"
+
+dp_result dp_gl_shade(dp_gl *gl, dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_UNSUPPORTED, "%s: not drawn by OpenGL", gl->device);
+}
+
+void dp_gl_shading_free(dp_gl *gl) { (void)gl; }

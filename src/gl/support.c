@@ -1,0 +1,27 @@
+/* What of a style is drawn by OpenGL: the rest is named, and refused.
+ *
+ * Rules are data: one row a member. docs/opengl.md has the same table for people. */
+#include "gl/stages.h"
+
+dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *diag) {
+    (void)gl;
+    const struct {
+        bool asked;
+        const char *what;
+    } rules[] = {
+        {style->hidden.look != DP_HIDDEN_NONE, "hidden lines"},
+        {style->xray > 0 && style->xray < 1, "x-rays"},
+        {style->detail > 0, "a detail of lines other than exact"},
+        {style->smooth != DP_SMOOTH_OFF, "smooth models"},
+        {style->exact_ends, "exact ends"},
+        {style->pattern.texture != NULL, "patterns on lines"},
+        {style->line_light.lighting != DP_LINE_LIGHT_OFF, "light on lines"},
+        {style->edge_table_off, "the switch edge_table_off"},
+        {style->mirror.size > 0, "mirrors"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (rules[i].asked)
+            return dp_fail(diag, DP_ERR_UNSUPPORTED, "OpenGL does not draw %s; dp_draw does",
+                           rules[i].what);
+    return DP_OK;
+}

@@ -1,0 +1,51 @@
+/* The picture's surface, without light, and the picture's way into the application's framebuffer. */
+#include "gl/stages.h"
+
+dp_result dp_gl_paint_surface(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "flat.frag"};
+    dp_gl_surface *const s = &gl->surface;
+    uint32_t program;
+    dp_result result = dp_gl_texture_reserve(gl, &s->picture, GL_RGBA8, gl->target.width,
+                                             gl->target.height, 0, "the picture", diag);
+    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
+    if (!s->framebuffer) gl->api.GenFramebuffers(1, &s->framebuffer);
+    gl->api.BindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
+    gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, s->picture.name, 0);
+    gl->api.DrawBuffer(GL_COLOR_ATTACHMENT0);
+    gl->api.Viewport(0, 0, (GLsizei)gl->target.width, (GLsizei)gl->target.height);
+    dp_gl_use(gl, program);
+    dp_gl_scene_bind(gl);
+    dp_gl_faces_bind(gl, program);
+    dp_gl_draw_whole(gl);
+    return DP_OK;
+}
+
+dp_result dp_gl_show(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "show.frag"};
+    const dp_gl_api *const a = &gl->api;
+    const dp_gl_target *const t = &gl->target;
+    uint32_t program;
+    const dp_result result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
+    a->BindFramebuffer(GL_DRAW_FRAMEBUFFER, t->framebuffer);
+    a->Viewport(t->x, t->y, (GLsizei)t->width, (GLsizei)t->height);
+    dp_gl_use(gl, program);
+    dp_gl_texture_bind(gl, &gl->surface.picture, DP_GL_UNIT_OWN);
+    dp_gl_uniform_i(gl, program, "shown", DP_GL_UNIT_OWN);
+    dp_gl_uniform_i(gl, program, "height", (int32_t)t->height);
+    a->Uniform2i(a->GetUniformLocation(program, "from"), t->x, t->y);
+    if (t->transparent) {
+        a->Enable(GL_BLEND);
+        a->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    }
+    dp_gl_draw_whole(gl);
+    a->Disable(GL_BLEND);
+    return DP_OK;
+}
+
+void dp_gl_surface_free(dp_gl *gl) {
+    dp_gl_texture_free(gl, &gl->surface.picture);
+    if (gl->surface.framebuffer) gl->api.DeleteFramebuffers(1, &gl->surface.framebuffer);
+    gl->surface.framebuffer = 0;
+}
