@@ -1,5 +1,5 @@
 /* Crossings. */
-#include "gl/stages.h"
+#include "gl/lines.h"
 
 dp_result dp_gl_find_crossings(dp_gl *gl, dp_diag *diag) {
     (void)gl, (void)diag;

@@ -1,6 +1,8 @@
 /* A dp_gl: what the context can do, and what all stages share. */
-#include "gl/gl.h"
-#include "gl/stages.h"
+#include "gl/ink.h"
+#include "gl/lines.h"
+#include "gl/scene.h"
+#include "gl/surface.h"
 
 #include <stdio.h>
 #include <string.h>

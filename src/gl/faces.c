@@ -4,7 +4,7 @@
  * Depth is d (core/view.h), which is larger when nearer, scaled into [0, 1]: in perspective 1 / distance, so that float32
  * is fine where it matters. Where the application gives a depth texture, it is put there first, as DP_GL_ID_FOREIGN.
  * Invariant: texel (x, y) is the picture's pixel from the upper left corner. */
-#include "gl/stages.h"
+#include "gl/scene.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* Ink. */
-#include "gl/stages.h"
+#include "gl/ink.h"
 
 dp_result dp_gl_ink_strokes(dp_gl *gl, dp_diag *diag) {
     (void)gl, (void)diag;

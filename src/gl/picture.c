@@ -7,7 +7,10 @@
  *
  * Nothing comes back to the host but counters: were the lists of candidates and of segments large enough? If not,
  * they grow, and those stages run again. */
-#include "gl/stages.h"
+#include "gl/ink.h"
+#include "gl/lines.h"
+#include "gl/scene.h"
+#include "gl/surface.h"
 
 #include "core/outline.h"
 

@@ -1,5 +1,5 @@
 /* quads */
-#include "gl/stages.h"
+#include "gl/ink.h"
 
 dp_result dp_gl_ink_quads(dp_gl *gl, dp_diag *diag) {
     return dp_fail(diag, DP_ERR_UNSUPPORTED, "%s: not drawn by OpenGL", gl->device);

@@ -1,5 +1,5 @@
 /* What comes back from the device: lines, and pixels. */
-#include "gl/stages.h"
+#include "gl/lines.h"
 
 #include <string.h>
 

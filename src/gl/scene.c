@@ -3,7 +3,7 @@
  * Corners are numbers of the scene's vertices, so that no later stage knows of meshes. They are written when the list
  * of meshes or the topology of one changes; vertices are placed for each picture. Invariant: `new_topology` is set
  * exactly when corners were written since the last picture, or a mesh of several moved against the others. */
-#include "gl/stages.h"
+#include "gl/scene.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* shading */
-#include "gl/stages.h"
+#include "gl/surface.h"
 
 dp_result dp_gl_shade(dp_gl *gl, dp_diag *diag) {
     return dp_fail(diag, DP_ERR_UNSUPPORTED, "%s: not drawn by OpenGL", gl->device);

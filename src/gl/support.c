@@ -1,7 +1,7 @@
 /* What of a style is drawn by OpenGL: the rest is named, and refused.
  *
  * Rules are data: one row a member. docs/opengl.md has the same table for people. */
-#include "gl/stages.h"
+#include "gl/scene.h"
 
 dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *diag) {
     (void)gl;

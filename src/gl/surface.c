@@ -1,5 +1,6 @@
 /* The picture's surface, without light, and the picture's way into the application's framebuffer. */
-#include "gl/stages.h"
+#include "gl/scene.h"
+#include "gl/surface.h"
 
 dp_result dp_gl_paint_surface(dp_gl *gl, dp_diag *diag) {
     static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "flat.frag"};

@@ -1,0 +1,23 @@
+/* Finding lines: from half-edges to visible segments, in the order in which dp_gl_draw runs these. */
+#ifndef DP_GL_LINES_H
+#define DP_GL_LINES_H
+
+#include "gl/gl.h"
+
+/* mates.c: which half-edges are each other's; nothing is done where they are known. */
+dp_result dp_gl_find_mates(dp_gl *gl, dp_diag *diag);
+/* edges.c: edges → candidates; half-edges where the eye must decide (no mate, several, one wound the same way, back faces that
+ * may be seen) → `disputed`. */
+dp_result dp_gl_find_edges(dp_gl *gl, dp_diag *diag);
+/* emerge.c: candidates beside which something else is seen become disputed, too; what the eye sees at all of those
+ * → candidates. */
+dp_result dp_gl_find_emerging(dp_gl *gl, dp_diag *diag);
+/* crossings.c: where triangles cross → candidates. */
+dp_result dp_gl_find_crossings(dp_gl *gl, dp_diag *diag);
+/* visibility.c: candidates → segments. */
+dp_result dp_gl_find_visible(dp_gl *gl, dp_diag *diag);
+/* visibility.c: was any buffer of these stages full? Then it has been made larger, and they must run again. */
+dp_result dp_gl_grow_lines(dp_gl *gl, bool *again, dp_diag *diag);
+void dp_gl_lines_free(dp_gl *gl);
+
+#endif

@@ -1,0 +1,29 @@
+/* Where a picture begins: the scene, and the nearest triangle of each sample. All stages return DP_OK or fill *diag;
+ * `…_free` needs the context, and those of stages that are made when first used check gl->is_lost. */
+#ifndef DP_GL_SCENE_H
+#define DP_GL_SCENE_H
+
+#include "gl/gl.h"
+
+/* scene.c: takes the meshes, and puts their triangles into one list if that is new; then their vertices onto the
+ * screen. */
+dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, dp_diag *diag);
+dp_result dp_gl_scene_place(dp_gl *gl, dp_diag *diag);
+/* Binds vertices, corners and triangles. */
+void dp_gl_scene_bind(dp_gl *gl);
+void dp_gl_scene_free(dp_gl *gl);
+void dp_gl_scene_free_host(dp_gl *gl);
+
+/* faces.c: the nearest triangle of each sample. */
+dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag);
+/* Binds ids and depth to their units and tells the program. */
+void dp_gl_faces_bind(dp_gl *gl, uint32_t program);
+void dp_gl_faces_free(dp_gl *gl);
+
+/* picture.c: the block of values that all shaders know. */
+dp_result dp_gl_upload_block(dp_gl *gl, dp_diag *diag);
+
+/* support.c: DP_ERR_UNSUPPORTED names what of the style this back end does not draw. */
+dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *diag);
+
+#endif

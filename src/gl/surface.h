@@ -1,0 +1,17 @@
+/* The picture without lines. */
+#ifndef DP_GL_SURFACE_H
+#define DP_GL_SURFACE_H
+
+#include "gl/gl.h"
+
+/* shading.c: the surface → surface.picture. flat: faces without light (surface.c). */
+dp_result dp_gl_paint_surface(dp_gl *gl, dp_diag *diag);
+dp_result dp_gl_shade(dp_gl *gl, dp_diag *diag);
+/* The picture, into the target's framebuffer. */
+dp_result dp_gl_show(dp_gl *gl, dp_diag *diag);
+/* pencil.c: the surface in pencil, for DP_SHADING_PENCIL (called by dp_gl_shade). */
+dp_result dp_gl_shade_pencil(dp_gl *gl, dp_diag *diag);
+void dp_gl_surface_free(dp_gl *gl);
+void dp_gl_shading_free(dp_gl *gl);
+
+#endif
