@@ -111,11 +111,12 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer segments;   /* dp_gl_segment */
     dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
     dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
-    dp_gl_buffer words;      /* of long spines, their sample points (visibility.c) */
+    dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
+    dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
     uint64_t topology;       /* whose mates they are */
     struct dp_lines *read;   /* the picture's lines, read back (read.c) */
-    bool have_read;
+    bool have_read, have_hiders;
 } dp_gl_lines_store;
 
 /* Mates: the half-edge that runs the same edge the other way; the same way, with DP_GL_MATE_ALIKE; or none, or more than
@@ -128,7 +129,7 @@ typedef struct dp_gl_lines_store {
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
     uint32_t candidates, disputed, crossings;
-    uint32_t wanted[5];    /* [0]: words of long spines (visibility.c) */
+    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
     uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
 } dp_gl_counters;
 

@@ -6,9 +6,14 @@
 dp_result dp_gl_lines_of(dp_gl *gl, dp_gl_lines *out, dp_diag *diag) {
     if (!gl || !out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_lines_of: gl or out is NULL");
     if (!gl->drawn) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_lines_of: nothing has been drawn");
+    dp_gl_state *state;
+    dp_result result = dp_gl_enter(gl, &state, diag);
+    if (result) return result;
+    result = dp_gl_find_hiders(gl, diag);
+    dp_gl_leave(gl, state);
     *out = (dp_gl_lines){gl->lines.segments.name, gl->lines.counters.name,
                          offsetof(dp_gl_counters, segments)};
-    return DP_OK;
+    return result;
 }
 
 static void turn_rows(uint8_t *rgba, size_t stride, uint32_t width, uint32_t height) {
