@@ -171,6 +171,12 @@ static bool finds_lines(const dp_gl *gl) {
     return strokes && gl->scene.triangle_count && (gl->style.lines & DP_ALL_LINES);
 }
 
+/* Vertices, and if lines are looked for how triangles lie to the eye. */
+static dp_result place(dp_gl *gl, dp_diag *diag) {
+    const dp_result result = dp_gl_scene_place(gl, diag);
+    return result || !finds_lines(gl) ? result : dp_gl_find_sides(gl, diag);
+}
+
 static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
     bool again = true;
     dp_result result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
@@ -205,7 +211,7 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
 
 static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     dp_result result = dp_gl_upload_block(gl, diag);
-    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, dp_gl_scene_place, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, place, diag);
     if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);
     if (!result) put_places(gl); /* which the framebuffer tells */
     if (!result) result = dp_gl_upload_block(gl, diag);
