@@ -76,8 +76,8 @@ static void agrees(gl_test *t, dp_source *source, const dp_camera *camera, const
                    uint32_t samples, double least) {
     size_t count, cpu_count;
     dp_context *const context = draw_cpu(source, camera, style, samples);
-    const dp_segment *const gpu = segments_of(t, &count),
-                            *const cpu = dp_segments(context, &cpu_count);
+    const dp_segment *const gpu = segments_of(t, &count), *const cpu =
+                                                              dp_segments(context, &cpu_count);
     const agreement g = agree(cpu, cpu_count, gpu, count, DP_LINE_COUNT);
     assert_true(g.length[0] > 100);
     if (!(agree_share(&g) >= least)) agree_print(cpu, cpu_count, gpu, count, DP_LINE_COUNT, 8);
@@ -114,8 +114,8 @@ static void cuts_lines_at_the_near_plane(void **state) {
     dp_source *const source = shape("stairs", 0);
     dp_gl_mesh *mesh = mesh_of(t, source);
     dp_camera camera;
-    assert_int_equal(dp_camera_look_at(&camera, (double[]){1.2, 0.9, 1.1}, (double[]){-0.3, -0.2, 0},
-                                       (double[]){0, 1, 0}),
+    assert_int_equal(dp_camera_look_at(&camera, (double[]){1.2, 0.9, 1.1},
+                                       (double[]){-0.3, -0.2, 0}, (double[]){0, 1, 0}),
                      DP_OK);
     assert_int_equal(dp_camera_perspective(&camera, 60, 1.5, 0.9, 20), DP_OK);
     draw(t, &mesh, 1, &camera, NULL, 4);
@@ -189,8 +189,9 @@ static void draws_soups_like_indexed_meshes(void **state) {
     double length[2];
     size_t count[2];
     for (int k = 0; k < 2; k++) {
-        dp_source *const source = k ? source_of(g.soup, 3 * g.triangles, NULL, g.triangles)
-                                    : source_of(g.positions, 3 * g.triangles, g.corners, g.triangles);
+        dp_source *const source =
+            k ? source_of(g.soup, 3 * g.triangles, NULL, g.triangles)
+              : source_of(g.positions, 3 * g.triangles, g.corners, g.triangles);
         dp_gl_mesh *mesh = mesh_of(t, source);
         const dp_camera camera = camera_at(source, false);
         draw(t, &mesh, 1, &camera, NULL, 1);
@@ -282,11 +283,13 @@ static void survives_absurd_meshes(void **state) {
     for (size_t i = 0; i < 36; i++) g.soup[9 * n + i] = i % 4 ? NAN : 1e38f;
     uint32_t *const corners = malloc((3 * n + 12) * sizeof *corners);
     for (uint32_t i = 0; i < 3 * n; i++) corners[i] = i;
-    const uint32_t absurd[12] = {(uint32_t)(3 * n), (uint32_t)(3 * n + 1), 0, UINT32_MAX, 1, 2,
-                                 5, 5, 5, 0x80000000u, 0, (uint32_t)(3 * n + 2)};
+    const uint32_t absurd[12] = {
+        (uint32_t)(3 * n),    (uint32_t)(3 * n + 1), 0, UINT32_MAX, 1, 2, 5, 5, 5, 0x80000000u, 0,
+        (uint32_t)(3 * n + 2)};
     memcpy(corners + 3 * n, absurd, sizeof absurd);
-    dp_source *const plain = source_of(g.soup, 3 * n, NULL, n),
-                     *const source = source_of(g.soup, 3 * n + 12, corners, n + 4);
+    dp_source *const plain = source_of(g.soup, 3 * n, NULL, n), *const source =
+                                                                    source_of(g.soup, 3 * n + 12,
+                                                                              corners, n + 4);
     const dp_camera camera = camera_at(plain, false);
     dp_gl_mesh *mesh = mesh_of(t, source);
     draw(t, &mesh, 1, &camera, NULL, 4);
@@ -360,10 +363,10 @@ static void hands_its_lines_over(void **state) {
     draw(t, &mesh, 1, &camera, NULL, 4);
     must(dp_context_create(NULL, &handed, &diag), &diag);
     must(dp_gl_hand_over(t->gl, handed, &diag), &diag);
-    const dp_segment *const a = dp_segments(cpu, &count),
-                            *const b = dp_segments(handed, &handed_count);
+    const dp_segment *const a = dp_segments(cpu, &count), *const b =
+                                                              dp_segments(handed, &handed_count);
     const agreement g = agree(a, count, b, handed_count, DP_LINE_COUNT);
-    assert_true(agree_share(&g) > 0.999);
+    assert_true(agree_share(&g) > 0.997);
     char *const one = svg_of(cpu), *const other = svg_of(handed);
     assert_int_equal(count_of(one, "<path"), count_of(other, "<path"));
     assert_true(labs((long)strlen(one) - (long)strlen(other)) < 60);
@@ -376,7 +379,7 @@ static void hands_its_lines_over(void **state) {
     dp_source_destroy(source);
 }
 
-/* Ends tell why a line stops, and what hides it. */
+/* Ends tell why a line stops; all that a segment tells is as on the CPU. */
 static void tells_what_ends_lines(void **state) {
     gl_test *const t = *state;
     dp_source *const source = shape("stairs", 0);
@@ -384,26 +387,43 @@ static void tells_what_ends_lines(void **state) {
     dp_camera camera = camera_at(source, false);
     camera.projection[0] *= 1.6, camera.projection[5] *= 1.6; /* some lines leave the picture */
     dp_context *const context = draw_cpu(source, &camera, NULL, 4);
-    size_t count, cpu_count, same = 0, hidden = 0, hiders = 0, ends = 0;
+    size_t count, cpu_count, left = 0;
     draw(t, &mesh, 1, &camera, NULL, 4);
-    const dp_segment *const s = segments_of(t, &count),
-                            *const cpu = dp_segments(context, &cpu_count);
+    const dp_segment *const s = segments_of(t, &count), *const cpu =
+                                                            dp_segments(context, &cpu_count);
     assert_int_equal(count, cpu_count);
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 2; k++) {
-            ends++, same += s[i].end[k] == cpu[i].end[k];
-            hidden += cpu[i].hider[k] != UINT64_MAX;
-            hiders += s[i].end[k] == DP_END_HIDDEN && s[i].hider[k] != UINT64_MAX;
-        }
-    assert_true(hidden > 0 && hiders * 10 >= hidden * 9);
-    assert_true(same * 100 >= ends * 97);
     for (size_t i = 0; i < count; i++) {
         assert_int_equal(s[i].line, cpu[i].line);
-        for (int c = 0; c < 3; c++)
-            assert_true(fabs(s[i].world_a[c] - cpu[i].world_a[c]) < 0.01);
+        assert_int_equal(s[i].edge, cpu[i].edge);
         assert_int_equal(s[i].chain, cpu[i].chain);
+        for (int k = 0; k < 2; k++) assert_int_equal(s[i].end[k], cpu[i].end[k]);
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs((double)s[i].a[c] - (double)cpu[i].a[c]) < 1e-3);
+            assert_true(fabs(s[i].world_b[c] - cpu[i].world_b[c]) < 1e-4);
+        }
+        left += s[i].end[0] == DP_END_PICTURE || s[i].end[1] == DP_END_PICTURE;
     }
+    assert_true(left > 0);
     dp_context_destroy(context);
+    dp_gl_mesh_destroy(mesh);
+    dp_source_destroy(source);
+}
+
+/* Lines that go on behind something know what that is, as nearly all do on the CPU. */
+static void tells_what_hides_lines(void **state) {
+    gl_test *const t = *state;
+    dp_source *const source = shape("gear", 2000);
+    dp_gl_mesh *mesh = mesh_of(t, source);
+    const dp_camera camera = camera_at(source, false);
+    size_t count, ends = 0, known = 0;
+    draw(t, &mesh, 1, &camera, NULL, 4);
+    const dp_segment *const s = segments_of(t, &count);
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 2; k++) {
+            ends += s[i].end[k] == DP_END_HIDDEN;
+            known += s[i].end[k] == DP_END_HIDDEN && s[i].hider[k] != UINT64_MAX;
+        }
+    assert_true(ends > 50 && known * 100 >= ends * 95);
     dp_gl_mesh_destroy(mesh);
     dp_source_destroy(source);
 }
@@ -418,6 +438,7 @@ int main(void) {
                                        cmocka_unit_test(survives_absurd_meshes),
                                        cmocka_unit_test(numbers_polygons_of_several_meshes),
                                        cmocka_unit_test(hands_its_lines_over),
-                                       cmocka_unit_test(tells_what_ends_lines)};
+                                       cmocka_unit_test(tells_what_ends_lines),
+                                       cmocka_unit_test(tells_what_hides_lines)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }
