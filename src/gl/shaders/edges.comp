@@ -21,24 +21,28 @@ bool may_be_drawn(Side a, Side b) {
            !(dot(a.normal, b.normal) > picture.step_.w);
 }
 
+void dispute(uint half_edge) {
+    uint at = atomicAdd(counters[5], 1u);
+    if (at < disputed_room) disputed[at] = half_edge;
+}
+
 void main() {
     uint t = dp_item();
     if (t >= picture.counts.y) return;
     Side a = sides[t];
-    uint bits = (a.kind & SIDE_NO_AREA) != 0u ? 0u : triangles[t].y;
+    uint bits = triangles[t].y;
+    bool gone = (a.kind & SIDE_NO_AREA) != 0u; // since its mates were found: they have none now
     for (uint k = 0u; k < 3u; k++) {
         uint half_edge = 3u * t + k, mate = mates[half_edge], u = mate_of(mate) / 3u;
-        bool here = (bits >> k & 1u) != 0u, diagonal = (bits >> k + 3u & 1u) != 0u;
-        Side b = Side(vec3(0.0), SIDE_NO_AREA);
-        if (is_mate(mate)) b = sides[u];
-        bool alone = (b.kind & SIDE_NO_AREA) != 0u, alike = (mate & MATE_ALIKE) != 0u,
-             first = t < u || (t == u && half_edge < mate_of(mate));
-        bool asks_eye = alone ? mate == MATE_MANY || !diagonal : alike && first;
-        if (here && asks_eye) {
-            uint at = atomicAdd(counters[5], 1u);
-            if (at < disputed_room) disputed[at] = half_edge;
-        }
-        if (here && !alone && !alike && first && may_be_drawn(a, b)) {
+        bool paired = is_mate(mate), first = paired && half_edge < mate_of(mate);
+        bool alike = (mate & MATE_ALIKE) != 0u, here = !gone && (bits >> k & 1u) != 0u,
+             diagonal = (bits >> k + 3u & 1u) != 0u;
+        if (gone && paired && may_be_line(mate_of(mate)) && !is_diagonal(mate_of(mate)))
+            dispute(mate_of(mate));
+        if (here && (paired ? first && alike : mate == MATE_MANY || !diagonal)) dispute(half_edge);
+        if (!here || !first || alike) continue;
+        Side b = sides[u];
+        if ((b.kind & SIDE_NO_AREA) == 0u && may_be_drawn(a, b)) {
             uint at = atomicAdd(counters[9], 1u);
             if (at < pairs_room) pairs[at] = half_edge;
         }

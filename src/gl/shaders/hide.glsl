@@ -37,11 +37,16 @@ float limit_at(double d) {
 struct Query {
     vec2 at;     // px
     float limit; // d
-    uint a, b;   // triangles whose polygons do not hide it; b: NONE
+    uint a, b;   // triangles of the line; b: NONE
+    uint polygon_a, polygon_b; // their polygons, which do not hide it
 };
+Query query_of(vec2 at, float limit, uint a, uint b) {
+    uint polygon = polygon_of(a);
+    return Query(at, limit, a, b, polygon, b == NONE ? polygon : polygon_of(b));
+}
 bool is_own(uint triangle, Query q) {
     uint polygon = polygon_of(triangle);
-    return polygon == polygon_of(q.a) || (q.b != NONE && polygon == polygon_of(q.b));
+    return polygon == q.polygon_a || polygon == q.polygon_b;
 }
 // What lies beside the line's own triangles, n < 6; NONE: nothing.
 uint neighbour_of(Query q, uint n) {
@@ -55,7 +60,8 @@ uint neighbour_of(Query q, uint n) {
 struct About {
     vec3 inside;
     float area; // sign: as on the screen; 0: it is too thin to tell
-    float d;    // of its plane, but no nearer than its nearest corner on the screen
+    float nearest; // depth of its corners on the screen
+    float d;       // of its plane there, but no nearer than that
 };
 const float THIN = 1e-4; // px
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
@@ -67,8 +73,8 @@ About about_on_screen(vec3 p0, vec3 p1, vec3 p2, vec2 at) {
     vec2 u = b - a, v = c - a;
     float reach = max(max(abs(u.x), abs(u.y)), max(abs(v.x), abs(v.y)));
     float d = (e.y * p0.z + e.z * p1.z + e.x * p2.z) / area;
-    return About(e * s, abs(area) > reach * THIN ? area : 0.0,
-                 min(d, max(max(p0.z, p1.z), p2.z)));
+    float nearest = max(max(p0.z, p1.z), p2.z);
+    return About(e * s, abs(area) > reach * THIN ? area : 0.0, nearest, min(d, nearest));
 }
 
 dvec3 homogeneous(ClipPoint c, vec2 at) {
@@ -89,7 +95,7 @@ About about_in_space(uint triangle, vec2 at) {
            s = volume < 0.0 ? -1.0 : 1.0;
     double before = p[0].c.z * e.y + p[1].c.z * e.z + p[2].c.z * e.x;
     double away = p[0].distance * e.y + p[1].distance * e.z + p[2].distance * e.x;
-    About r = About(vec3(e * s), float(volume), 0.0);
+    About r = About(vec3(e * s), float(volume), 0.0, 0.0);
     if (sum * s <= 0.0 || (before + volume) * s < 0.0) r.inside = vec3(0.0, 0.0, -1.0); // not before the eye
     r.d = float(is_perspective() ? sum / volume : -away / sum);
     return r;
@@ -101,22 +107,10 @@ About about(uint triangle, vec2 at) {
     return about_on_screen(a.xyz, b.xyz, c.xyz, at);
 }
 
-// The nearest depth of a triangle's corners on the screen.
-float nearest_of(uint triangle) {
-    return max(max(screen_of(corners[3u * triangle]).z, screen_of(corners[3u * triangle + 1u]).z),
-               screen_of(corners[3u * triangle + 2u]).z);
-}
-
-// The edge that the point lies furthest beyond; 3: it lies beyond none.
-uint beyond(About r, uint triangle, vec2 at) {
+// The edge that the point lies beyond, by the larger area; 3: it lies beyond none.
+uint beyond(About r) {
     vec3 e = r.inside;
     if (all(greaterThanEqual(e, vec3(0.0)))) return 3u;
-    for (uint k = 0u; k < 3u; k++) {
-        vec2 along = screen_of(corners[next_in(3u * triangle + k)]).xy -
-                     screen_of(corners[3u * triangle + k]).xy;
-        float size = length(along);
-        if (size > 0.0) e[k] /= size; // NaN, of a corner that is not on the screen: not divided
-    }
     return e.x <= e.y && e.x <= e.z ? 0u : e.y <= e.z ? 1u : 2u;
 }
 
@@ -130,12 +124,12 @@ uint walk(inout uint at, Query q, out bool votes) {
         if (is_own(at, q)) return CLEAR;
         About r = about(at, q.at);
         if (i == 0) votes = r.d > q.limit;
-        if (i == 0 && !votes && nearest_of(at) <= q.limit) return CLEAR;
+        if (i == 0 && !votes && r.nearest <= q.limit) return CLEAR;
         if (r.area != 0.0) {
             if (facing != 0.0 && (r.area < 0.0) != ((facing < 0.0) != alike)) return CLEAR;
             facing = r.area, alike = false;
         }
-        uint edge = beyond(r, at, q.at);
+        uint edge = beyond(r);
         if (edge == 3u) return r.area != 0.0 && r.d > q.limit ? HIDES : CLEAR;
         uint mate = mates[3u * at + edge];
         if (!is_mate(mate)) return UNSURE;
@@ -155,7 +149,7 @@ struct Shown {
 Shown shown_around(Query q) {
     ivec2 corner = ivec2(floor(q.at - 0.5)), own = ivec2(floor(q.at));
     Shown r;
-    uint a = polygon_of(q.a), b = q.b == NONE ? a : polygon_of(q.b), last = NOTHING;
+    uint last = NOTHING;
     r.count = r.foreign = 0, r.any_clear = false;
     for (int n = 0; n < 4 * SAMPLES; n++) {
         // the point's own pixel first
@@ -170,8 +164,7 @@ Shown shown_around(Query q) {
             continue;
         }
         last = id;
-        uint polygon = id == 0u ? a : polygon_of(id - 1u);
-        bool known = polygon == a || polygon == b;
+        bool known = id == 0u || is_own(id - 1u, q);
         r.any_clear = r.any_clear || known;
         for (int m = 0; m < r.count; m++) known = known || r.triangles[m] == id - 1u;
         if (!known && r.count < SHOWN) r.triangles[r.count++] = id - 1u;

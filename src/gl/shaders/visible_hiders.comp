@@ -14,7 +14,7 @@ void main() {
     vec3 along = (s.b - s.a) / float(s.k1 - s.k0); // from one sample point to the next, a quarter of a pixel
     for (float step = 0.5, found = 0.0; step < 8.0 && found == 0.0; step += 1.25) {
         vec3 at = end == 0u ? s.a - along * step : s.b + along * step;
-        if (!is_hidden(Query(at.xy, limit_at(double(at.z)) + depth_steps(at.z, 0.1), s.triangle, s.other),
+        if (!is_hidden(query_of(at.xy, limit_at(double(at.z)) + depth_steps(at.z, 0.1), s.triangle, s.other),
                        hider))
             hider = NONE;
         found = hider == NONE ? 0.0 : 1.0;
