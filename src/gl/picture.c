@@ -78,7 +78,7 @@ static void put_style(dp_gl *gl) {
 static void put_places(dp_gl *gl) {
     dp_gl_picture_block *const b = &gl->block;
     b->places[0][0] = b->places[0][1] = 0.5f;
-    if (gl->samples < 2) return;
+    if (gl->samples < 2 || gl->faces.ids.samples != gl->samples) return; /* it is asked again */
     gl->api.BindFramebuffer(GL_FRAMEBUFFER, gl->faces.framebuffer);
     for (GLuint i = 0; i < gl->samples; i++)
         gl->api.GetMultisamplefv(GL_SAMPLE_POSITION, i, b->places[i]);
