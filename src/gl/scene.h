@@ -24,6 +24,8 @@ void dp_gl_faces_free(dp_gl *gl);
 
 /* picture.c: the block of values that all shaders know. */
 dp_result dp_gl_upload_block(dp_gl *gl, dp_diag *diag);
+/* DP_ERR_ARGUMENT: its size or samples are out of range. */
+dp_result dp_gl_check_target(const dp_gl *gl, const dp_gl_target *target, dp_diag *diag);
 
 /* support.c: DP_ERR_UNSUPPORTED names what of the style this back end does not draw. */
 dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *diag);
