@@ -246,6 +246,10 @@ static dp_result check_buffers(dp_gl *gl, dp_gl_buffers *b, dp_diag *diag) {
     return result;
 }
 
+dp_result dp_gl_mesh_check(dp_gl_mesh *mesh, dp_diag *diag) {
+    return mesh->owned ? DP_OK : check_buffers(mesh->gl, &mesh->from, diag);
+}
+
 dp_result dp_gl_mesh_from_buffers(dp_gl *gl, const dp_gl_buffers *buffers, dp_gl_mesh **out,
                                   dp_diag *diag) {
     dp_gl_state *state;
