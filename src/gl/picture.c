@@ -138,6 +138,8 @@ static dp_result begin(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, const
                        const dp_style *style, const dp_gl_target *target, dp_diag *diag) {
     dp_result result = dp_gl_check_target(gl, target, diag);
     if (!result) result = check_meshes(gl, meshes, count, diag);
+    if (!result)
+        result = dp_gl_bind_framebuffer(gl, GL_DRAW_FRAMEBUFFER, target->framebuffer, diag);
     if (!result) result = dp_style_resolve(style, &gl->style, diag);
     if (!result) result = dp_gl_check_style(gl, &gl->style, diag);
     if (result) return result;

@@ -354,7 +354,7 @@ static void make_framebuffers(gl_test *t, objects *o) {
         a->ReadBuffer(GL_NONE);
     }
     a->BindTexture(GL_TEXTURE_2D, o->textures[0]);
-    a->BindFramebuffer(GL_READ_FRAMEBUFFER, o->framebuffers[0]);
+    a->BindFramebuffer(GL_FRAMEBUFFER, o->framebuffers[0]);
 }
 
 static objects make_objects(gl_test *t) {
@@ -406,14 +406,14 @@ static void set_each_buffer(gl_test *t) {
         a->BlendEquationSeparatei(i, GL_FUNC_ADD + i % 2, i % 2 ? GL_MIN : GL_MAX);
         a->BlendFuncSeparatei(i, GL_SRC_COLOR + i % 4, GL_DST_COLOR, GL_CONSTANT_COLOR + i % 2,
                               GL_ZERO);
-        if (i % 3) a->Enablei(GL_BLEND, i);
+        if (i % 3 == 1) a->Disablei(GL_BLEND, i);
     }
     for (GLuint i = 0; i < VIEWPORTS; i++) {
         a->ViewportIndexedf(i, 1.5f * (GLfloat)i, 2, 10 + (GLfloat)i, 7.25f);
         CALL(t, PFNGLSCISSORINDEXEDPROC, "glScissorIndexed")
         (i, (GLint)i, 1, (GLsizei)i + 2, 5);
         a->DepthRangeIndexed(i, 0.25, 0.5 + 0.03125 * i);
-        if (i % 2 == 0) a->Enablei(GL_SCISSOR_TEST, i);
+        if (i % 2) a->Disablei(GL_SCISSOR_TEST, i);
     }
 }
 
@@ -495,13 +495,13 @@ static void keeps_state(void **state) {
     static uint8_t plain[4 * WIDTH * HEIGHT], odd[4 * WIDTH * HEIGHT];
     gl_test *const t = *state;
     if (!t->gl) skip();
-    objects o = make_objects(t);
-    const dp_gl_target target = {
-        .framebuffer = o.framebuffers[1], .width = WIDTH, .height = HEIGHT, .samples = 4};
+    dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 4);
     call_all(t, &target, NULL, plain);
+    objects o = make_objects(t);
+    target.framebuffer = o.framebuffers[1];
     set_pixels(t);
-    set_each_buffer(t);
     set_switches(t, true);
+    set_each_buffer(t);
     set_values(t);
     assert_int_equal(t->gl->api.GetError(), GL_NO_ERROR);
     call_all(t, &target, &before, odd);
