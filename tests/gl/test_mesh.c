@@ -305,7 +305,7 @@ static void draw_lines(gl_test *t, const dp_gl_target *target) {
     a->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, lines.buffer);
     a->BindBuffer(GL_DRAW_INDIRECT_BUFFER, lines.count_buffer);
     a->MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    a->DrawArraysIndirect(GL_LINES, (const char *)NULL + (lines.count_offset - 4));
+    a->DrawArraysIndirect(GL_LINES, (const void *)(lines.count_offset - 4));
     a->BindFramebuffer(GL_FRAMEBUFFER, 0);
     a->BindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     a->BindVertexArray(0);
