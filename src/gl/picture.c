@@ -9,6 +9,7 @@
  * they grow, and those stages run again. */
 #include "gl/ink.h"
 #include "gl/lines.h"
+#include "gl/mesh.h"
 #include "gl/scene.h"
 #include "gl/surface.h"
 
@@ -113,12 +114,22 @@ dp_result dp_gl_check_target(const dp_gl *gl, const dp_gl_target *t, dp_diag *di
     return DP_OK;
 }
 
+static bool is_ours(const dp_gl *gl, const dp_gl_mesh *mesh) {
+    const dp_gl_mesh *at = gl->meshes;
+    while (at && at != mesh) at = at->next;
+    return at;
+}
+
+/* A mesh of another dp_gl, or one that has been destroyed, is in no list of ours: it is not looked at. */
 static dp_result check_meshes(const dp_gl *gl, dp_gl_mesh *const *meshes, size_t count,
                               dp_diag *diag) {
-    for (size_t i = 0; i < count; i++)
-        if (!meshes || !meshes[i] || meshes[i]->gl != gl)
-            return dp_fail(diag, DP_ERR_ARGUMENT, "mesh %zu is NULL, or of another dp_gl", i);
-    return DP_OK;
+    dp_result result = DP_OK;
+    for (size_t i = 0; i < count && !result; i++)
+        result = meshes[i] && is_ours(gl, meshes[i])
+                     ? dp_gl_mesh_check(meshes[i], diag)
+                     : dp_fail(diag, DP_ERR_ARGUMENT,
+                               "mesh %zu is NULL, destroyed, or of another dp_gl", i);
+    return result;
 }
 
 /* Style, view and samples of the picture. */
@@ -126,6 +137,8 @@ static dp_result begin(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, const
                        const dp_style *style, const dp_gl_target *target, dp_diag *diag) {
     dp_result result = dp_gl_check_target(gl, target, diag);
     if (!result) result = check_meshes(gl, meshes, count, diag);
+    if (!result)
+        result = dp_gl_bind_framebuffer(gl, GL_DRAW_FRAMEBUFFER, target->framebuffer, diag);
     if (!result) result = dp_style_resolve(style, &gl->style, diag);
     if (!result) result = dp_gl_check_style(gl, &gl->style, diag);
     if (result) return result;

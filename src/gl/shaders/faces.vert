@@ -17,6 +17,9 @@ uniform vec2 depth_range; // factor and offset: window depth in [0, 1] = d * x +
 
 flat out uint triangle;
 
+// What the device clips with beyond this would overflow: such points are made smaller, w and all.
+const double FAR = 1048576.0;
+
 void main() {
     uint half_edge = uint(gl_VertexID);
     triangle = half_edge / 3u;
@@ -38,5 +41,8 @@ void main() {
     // z / w as above, of a point of any w: d * w is 1, or -distance
     double zw = (is_perspective() ? 1.0 : -c.distance) * double(depth_range.x) +
                 double(depth_range.y) * c.c.w;
-    gl_Position = vec4(float(c.c.x), float(-c.c.y), float(CLIP_ZW(zw, c.c.w)), float(c.c.w));
+    dvec4 p = dvec4(c.c.x, -c.c.y, CLIP_ZW(zw, c.c.w), c.c.w), q = abs(p);
+    double most = max(max(q.x, q.y), max(q.z, q.w)), k = most > FAR ? FAR / most : 1.0;
+    gl_Position = vec4(p * k);
+    gl_ClipDistance[0] = float((c.c.w - c.c.z) * k);
 }
