@@ -316,13 +316,16 @@ static dp_result smooth_colors(dp_gl *gl, dp_diag *diag) {
 
 static dp_result resolve(dp_gl *gl, const dp_gl_texture *shown, dp_diag *diag) {
     const bool eight = gl->style.edge_map.detector && gl->style.edge_map.eight_bits;
-    const dp_gl_program_desc desc = {.vertex = "whole.vert",
-                                     .fragment = "resolve.frag",
-                                     .defines = eight ? "#define EIGHT_BITS\n" : NULL};
+    char defines[50];
     uint32_t program;
+    snprintf(defines, sizeof defines, "%s%s", eight ? "#define EIGHT_BITS\n" : "",
+             gl->target.depth_texture ? "#define FOREIGN\n" : "");
+    const dp_gl_program_desc desc = {
+        .vertex = "whole.vert", .fragment = "resolve.frag", .defines = defines};
     dp_result result = dp_gl_open_surface(gl, diag);
     if (!result) result = bind_pass(gl, &desc, &program, diag);
     if (result) return result;
+    dp_gl_faces_bind(gl, program);
     if (eight) dp_gl_buffer_bind(gl, &gl->shading->range, 4);
     dp_gl_texture_bind(gl, shown, DP_GL_UNIT_PASS);
     dp_gl_uniform_i(gl, program, "shown", DP_GL_UNIT_PASS);
