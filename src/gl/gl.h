@@ -172,6 +172,7 @@ typedef struct dp_gl_ink {
 typedef struct dp_gl_quads dp_gl_quads;     /* quads.c */
 typedef struct dp_gl_shading dp_gl_shading; /* shading.c: G-buffer, edge map, styles of surfaces */
 typedef struct dp_gl_fins dp_gl_fins;       /* fins.c: textured silhouettes, pencil */
+typedef struct dp_gl_mirror dp_gl_mirror;   /* mirror.c: the reflected scene, and its picture */
 
 struct dp_gl {
     dp_allocator memory;
@@ -206,6 +207,7 @@ struct dp_gl {
     dp_gl_quads *quads;     /* made when first used */
     dp_gl_shading *shading; /* the same */
     dp_gl_fins *fins;       /* the same */
+    dp_gl_mirror *mirror;   /* the same */
 
     dp_gl_stats stats;
     bool timed;

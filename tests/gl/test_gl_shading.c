@@ -26,9 +26,10 @@ static dp_source *make_shape(const char *name) {
     return source;
 }
 
-static dp_camera look_at(dp_source *source, bool orthographic) {
+static dp_camera look_at(dp_source *source, bool orthographic, double zoom) {
     dp_camera camera;
-    const dp_fit fit = {.aspect = (double)WIDTH / HEIGHT, .orthographic = orthographic};
+    const dp_fit fit = {
+        .aspect = (double)WIDTH / HEIGHT, .orthographic = orthographic, .zoom = zoom};
     assert_int_equal(dp_camera_fit_source(&camera, &fit, source, NULL, NULL), DP_OK);
     return camera;
 }
@@ -54,7 +55,7 @@ static void compare_shapes(gl_test *t, const sample *samples, size_t count) {
     if (!t->gl) skip();
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
         dp_source *const source = make_shape(shapes[s]);
-        const dp_camera camera = look_at(source, false);
+        const dp_camera camera = look_at(source, false, 0);
         for (size_t i = 0; i < count; i++) {
             dp_style style = samples[i].style;
             char name[80];
@@ -120,7 +121,49 @@ static void edge_maps(void **state) {
     compare_shapes(*state, samples, sizeof samples / sizeof *samples);
 }
 
+static void mirror(void **state) {
+    static const sample samples[] = {
+        {"mirror", {.mirror = {.fade = 0}}},
+        {"mirror-lit",
+         {.shade = {.shading = DP_SHADING_LAMBERT},
+          .mirror = {.tint = DP_RGB(120, 160, 200), .tint_share = 0.3f}}},
+        {"mirror-fade",
+         {.shade = {.shading = DP_SHADING_GOOCH, .normals = DP_NORMALS_SMOOTH},
+          .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL},
+          .mirror = {.fade = 1}}},
+        {"mirror-flat-fade", {.mirror = {.fade = 1}}},
+        {"mirror-toon",
+         {.shade = {.shading = DP_SHADING_TOON, .normals = DP_NORMALS_FACET},
+          .edge_map = {.detector = DP_EDGE_MAP_C1, .as_printed = true, .eight_bits = true}}},
+    };
+    gl_test *const t = *state;
+    if (!t->gl) skip();
+    for (int cuts = 0; cuts < 2; cuts++) {
+        dp_source *const source = make_shape(cuts ? "bracket" : "torus");
+        dp_extent extent;
+        assert_int_equal(dp_source_extent(source, &extent, NULL), DP_OK);
+        for (size_t i = 0; i < sizeof samples / sizeof *samples; i++) {
+            dp_style style = samples[i].style;
+            char name[80];
+            const double size = (double)(extent.max[0] - extent.min[0]), low = extent.min[1];
+            style.lines = DP_NO_LINES;
+            style.surface = DP_RGB(200, 120, 60);
+            style.mirror.normal[1] = 1;
+            style.mirror.offset = cuts ? low + 0.2 * (extent.max[1] - low) : low - 0.05 * size;
+            style.mirror.size = (float)(1.6 * size);
+            for (int k = 0; k < 3; k++)
+                style.mirror.center[k] = 0.5 * (double)(extent.min[k] + extent.max[k]);
+            style.mirror.fade *= (float)size;
+            const dp_camera camera = look_at(source, false, 0.6);
+            snprintf(name, sizeof name, "%s-%s", cuts ? "cut" : "whole", samples[i].name);
+            compare(t, name, source, &camera, &style, 4);
+        }
+        dp_source_destroy(source);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shades), cmocka_unit_test(edge_maps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shades), cmocka_unit_test(edge_maps),
+                                       cmocka_unit_test(mirror)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }
