@@ -50,12 +50,14 @@ EXPORT GLboolean glIsEnabled(GLenum capability) {
     return gl.glIsEnabled ? gl.glIsEnabled(capability) : GL_FALSE;
 }
 
-/* Also what the program did wrong before we looked. */
+/* Also what the program did wrong before we looked. GL keeps the first error alone: one that came later is
+ * dropped, as it would have been. */
 EXPORT GLenum glGetError(void) {
     struct context *const context = context_current();
     if (context && context->error != GL_NO_ERROR && !context->in_begin) {
         const GLenum error = context->error;
         context->error = GL_NO_ERROR;
+        gl.glGetError();
         return error;
     }
     return gl.glGetError ? gl.glGetError() : GL_NO_ERROR;
