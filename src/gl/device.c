@@ -1,6 +1,7 @@
 /* A dp_gl: what the context can do, and what all stages share. */
 #include "gl/ink.h"
 #include "gl/lines.h"
+#include "gl/mirror.h"
 #include "gl/scene.h"
 #include "gl/surface.h"
 
@@ -121,8 +122,9 @@ dp_result dp_gl_create(const dp_gl_desc *desc, dp_gl **out, dp_diag *diag) {
 
 static void free_host(dp_gl *gl) {
     const dp_allocator memory = gl->memory;
+    dp_gl_mirror_free(gl);
     dp_gl_scene_free_host(gl);
-    dp_free(&memory, gl->lines.read);
+    dp_gl_read_free(gl);
     dp_free(&memory, gl->programs.entries);
     dp_gl_quads_free(gl), dp_gl_shading_free(gl), dp_gl_fins_free(gl);
     dp_free(&memory, gl);
@@ -135,6 +137,7 @@ void dp_gl_destroy(dp_gl *gl) {
         return;
     }
     dp_gl_programs_free(gl);
+    dp_gl_mirror_free(gl);
     dp_gl_scene_free(gl);
     dp_gl_faces_free(gl);
     dp_gl_lines_free(gl);
