@@ -98,7 +98,7 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
 
 dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, dp_diag *diag) {
     dp_gl_scene *const s = &gl->scene;
-    s->new_topology = !is_known(s, meshes, count);
+    s->new_topology = !count || !is_known(s, meshes, count); /* none are known once one is gone */
     if (!s->new_topology) return DP_OK;
     s->count = 0;
     s->topology = dp_gl_number(gl);
