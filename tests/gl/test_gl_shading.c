@@ -369,9 +369,9 @@ static void turn_vertex(const double m[16], const float from[3], float to[3]) {
                         m[8 + r] * (double)from[2] + m[12 + r]);
 }
 
-/* Two meshes, one of them turned and stretched, as one source that is so. */
+/* Two meshes, one of them turned and smaller, as one source that is so. */
 static void scenes(void **state) {
-    static const double matrix[16] = {0, 0.6, 0, 0, -0.5, 0, 0, 0, 0, 0, 0.5, 0, 0.4, 0.3, 1.2, 1};
+    static const double matrix[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0.5, 0, 0.4, 0.3, 1.2, 1};
     gl_test *const t = *state;
     ball b, turned;
     dp_source *parts[2], *joined;
