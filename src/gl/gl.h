@@ -92,10 +92,11 @@ struct dp_gl_mesh {
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
 
-/* Groups of the meshes of a picture are numbered one mesh after the other. */
-static inline uint32_t dp_gl_groups_of(const dp_gl_mesh *mesh) {
-    return mesh->keeps_groups ? 0 : mesh->group_count ? mesh->group_count : 1;
-}
+/* Groups in a picture, as dp_source_join numbers them: k is group 0 of mesh k, then come the others of each mesh. A mesh's
+ * group g is `zero` if it is 0, else `others` + g. */
+typedef struct dp_gl_group_numbers {
+    uint32_t zero, others;
+} dp_gl_group_numbers;
 
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {
