@@ -137,6 +137,17 @@ typedef struct dp_gl_candidate {
     uint32_t level;  /* 0 */
 } dp_gl_candidate;
 
+/* Edges where the eye decides (emerge.c), and crossings (crossings.c). */
+typedef struct dp_gl_eye {
+    dp_gl_buffer words;    /* counts and rooms, bits of half-edges and cells, lists of cells */
+    dp_gl_buffer looked;   /* half-edges that are looked at */
+    dp_gl_buffer chunks;   /* parts of these */
+    dp_gl_buffer nodes;    /* of the cells' lists: polygons */
+    dp_gl_buffer findings; /* by sample point: what is seen there */
+    dp_gl_buffer pairs;    /* polygons that cross */
+    dp_gl_buffer crossed;  /* where */
+} dp_gl_eye;
+
 typedef struct dp_gl_surface {
     dp_gl_texture
         picture; /* RGBA8, the picture as it grows: surface, then ink; not premultiplied */
@@ -180,6 +191,7 @@ struct dp_gl {
     dp_gl_scene scene;
     dp_gl_faces faces;
     dp_gl_lines_store lines;
+    dp_gl_eye eye;
     dp_gl_surface surface;
     dp_gl_ink ink;
     dp_gl_quads *quads;     /* made when first used */

@@ -7,9 +7,8 @@ dp_result dp_gl_find_visible(dp_gl *gl, dp_diag *diag) {
 }
 
 dp_result dp_gl_grow_lines(dp_gl *gl, bool *again, dp_diag *diag) {
-    (void)gl, (void)diag;
     *again = false;
-    return DP_OK;
+    return dp_gl_grow_emerging(gl, again, diag);
 }
 
 void dp_gl_lines_free(dp_gl *gl) {
@@ -18,4 +17,5 @@ void dp_gl_lines_free(dp_gl *gl) {
                                      &l->candidates, &l->segments, &l->disputed};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) dp_gl_buffer_free(gl, buffers[i]);
     for (size_t i = 0; i < sizeof l->own / sizeof *l->own; i++) dp_gl_buffer_free(gl, &l->own[i]);
+    dp_gl_eye_free(gl);
 }
