@@ -1,6 +1,6 @@
 // What the passes of emerge.c share: the store, edges on the screen, and how polygons lie there.
-#include "facing.glsl"
 #include "polygons.glsl"
+#include "facing.glsl"
 
 // The same in emerge.c (eye_head).
 struct Head {
