@@ -225,12 +225,12 @@ dp_result dp_gl_grow_emerging(dp_gl *gl, bool *again, dp_diag *diag) {
         result = dp_gl_buffer_reserve(gl, buffers[i].buffer, buffers[i].wanted * buffers[i].entry,
                                       buffers[i].what, diag);
     }
-    return result;
+    return result ? result : dp_gl_grow_crossings(gl, again, diag);
 }
 
 void dp_gl_eye_free(dp_gl *gl) {
     dp_gl_eye *const e = &gl->eye;
-    dp_gl_buffer *const buffers[] = {&e->words,    &e->looked, &e->chunks, &e->nodes,
-                                     &e->findings, &e->pairs,  &e->crossed};
+    dp_gl_buffer *const buffers[] = {&e->words,    &e->looked, &e->chunks,  &e->nodes,
+                                     &e->findings, &e->pairs,  &e->crossed, &e->along};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) dp_gl_buffer_free(gl, buffers[i]);
 }

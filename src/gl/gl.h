@@ -103,7 +103,7 @@ typedef struct dp_gl_faces {
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
     uint32_t sampler; /* for the application's depth */
-    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
+    float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -154,8 +154,9 @@ typedef struct dp_gl_eye {
     dp_gl_buffer chunks;   /* parts of these */
     dp_gl_buffer nodes;    /* of the cells' lists: polygons */
     dp_gl_buffer findings; /* by sample point: what is seen there */
-    dp_gl_buffer pairs;    /* polygons that cross */
-    dp_gl_buffer crossed;  /* where */
+    dp_gl_buffer pairs;    /* the table of polygons that may cross */
+    dp_gl_buffer crossed;  /* those, and where they do */
+    dp_gl_buffer along;    /* crossings by cells */
 } dp_gl_eye;
 
 typedef struct dp_gl_surface {

@@ -116,7 +116,7 @@ struct Met {
     float gap;
 };
 Met met[MOST];
-uint met_count;
+uint met_count = 0u;
 
 // Sorted by polygon.
 void meet(Met m) {
