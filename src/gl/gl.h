@@ -121,7 +121,7 @@ typedef struct dp_gl_faces {
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
     uint32_t sampler; /* for the application's depth */
-    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
+    float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -165,6 +165,18 @@ typedef struct dp_gl_candidate {
     uint32_t seen;   /* bit 0: a is seen beside it, bit 1: b */
     uint32_t level;  /* 0 */
 } dp_gl_candidate;
+
+/* Edges where the eye decides (emerge.c), and crossings (crossings.c). */
+typedef struct dp_gl_eye {
+    dp_gl_buffer words;    /* counts and rooms, bits of half-edges and cells, lists of cells */
+    dp_gl_buffer looked;   /* half-edges that are looked at */
+    dp_gl_buffer chunks;   /* parts of these */
+    dp_gl_buffer nodes;    /* of the cells' lists: polygons */
+    dp_gl_buffer findings; /* by sample point: what is seen there */
+    dp_gl_buffer pairs;    /* the table of polygons that may cross */
+    dp_gl_buffer crossed;  /* those, and where they do */
+    dp_gl_buffer along;    /* crossings by cells */
+} dp_gl_eye;
 
 typedef struct dp_gl_surface {
     dp_gl_texture
@@ -210,6 +222,7 @@ struct dp_gl {
     dp_gl_scene scene;
     dp_gl_faces faces;
     dp_gl_lines_store lines;
+    dp_gl_eye eye;
     dp_gl_surface surface;
     dp_gl_ink ink;
     dp_gl_quads *quads;     /* made when first used */
