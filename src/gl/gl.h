@@ -96,6 +96,7 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
+    bool layered; /* ids and depth are layers of what silhouettes are drawn into, too (fins.c) */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -166,6 +167,10 @@ struct dp_gl {
     uint32_t samples_most; /* of colour, integer and depth at once */
     uint32_t texture_most, storage_most;
     uint32_t vertex_array;
+    /* For tests: as if the context had no geometry shader; stroke textures by the texture unit, by four texels in float32, or by
+     * these with shares in steps of 1/256 (fins_texture.c). */
+    bool no_geometry_shader;
+    enum { DP_GL_LOOKUPS_UNIT, DP_GL_LOOKUPS_EXACT, DP_GL_LOOKUPS_STEPS } lookups;
 
     /* the picture that is drawn */
     dp_view view;

@@ -1,0 +1,33 @@
+// Where a vertex of the scene goes in the window, straight from the scene. Of a vertex within the guarded frustum that is
+// the place on the screen that all other stages work with; any other one goes through the device's clipping.
+//
+// The window's depth is affine in d, from 0 (far) to 1 (near).
+#include "scene.glsl"
+
+#ifdef ZERO_TO_ONE // as glClipControl sets it; else -1 to 1
+#define CLIP_Z(z) (z)
+#define CLIP_ZW(zw, w) (zw)
+#else
+#define CLIP_Z(z) ((z) * 2.0 - 1.0)
+#define CLIP_ZW(zw, w) ((zw) * 2.0 - (w))
+#endif
+
+uniform vec2 depth_range; // factor and offset: window depth in [0, 1] = d * x + y
+
+// A point on the screen, times w.
+vec4 window_position(vec3 s, float w) {
+    float z = s.z * depth_range.x + depth_range.y;
+    return vec4(s.x * picture.size.z * 2.0 - 1.0, s.y * picture.size.w * 2.0 - 1.0, CLIP_Z(z),
+                1.0) *
+           w;
+}
+vec4 window_position_of(uint vertex) {
+    vec4 s = screen_of(vertex);
+    if (!is_off_screen(s)) return window_position(s.xyz, is_perspective() ? 1.0 / s.z : 1.0);
+    ClipPoint c = to_clip(world_of(vertex));
+    if (isnan(float(c.c.x + c.c.y + c.c.w))) return vec4(0.0, 0.0, 0.0, -1.0); // not finite
+    // z / w as above, of a point of any w: d * w is 1, or -distance
+    double zw = (is_perspective() ? 1.0 : -c.distance) * double(depth_range.x) +
+                double(depth_range.y) * c.c.w;
+    return vec4(float(c.c.x), float(-c.c.y), float(CLIP_ZW(zw, c.c.w)), float(c.c.w));
+}
