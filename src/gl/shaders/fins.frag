@@ -4,10 +4,11 @@
 
 #ifdef TEXTURED
 #include "stroke_texture.glsl"
-sample in vec3 place;
+#define PER_SAMPLE sample
 #else
-in vec3 place;
+#define PER_SAMPLE
 #endif
+PER_SAMPLE in vec3 place;
 flat in uint what;
 
 layout(location = 0) out uint value;

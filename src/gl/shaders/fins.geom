@@ -16,7 +16,12 @@ in VertexOut {
 } v[];
 
 out float gl_ClipDistance[1];
-out vec3 place;     // x, y from which u is computed; v: 0 to 1, or 2 on the surface
+#ifdef TEXTURED
+#define PER_SAMPLE sample
+#else
+#define PER_SAMPLE
+#endif
+PER_SAMPLE out vec3 place;     // x, y from which u is computed; v: 0 to 1, or 2 on the surface
 flat out uint what; // of the surface 1 + triangle, else the class of line
 
 uniform uint lines;

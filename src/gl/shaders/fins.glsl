@@ -48,20 +48,20 @@ dvec3 vertex_normal(uint from) {
     }
     for (steps = 0u; is_inner(last_in(first)) && steps < MOST_AROUND; steps++)
         first = over_next(first); // to where a polygon begins
-    dvec3 at = position_at(from), sum = dvec3(0.0LF), v = position_at(last_in(first)) - at;
+    dvec3 at = position_at(from), sum = dvec3(0.0lf), v = position_at(last_in(first)) - at;
     uint c = first;
     for (steps = 0u; c != NONE && steps < MOST_AROUND; steps++) {
         if (!is_inner(c)) {
             dvec3 u = position_at(next_in(c)) - at;
             double weight = dot(u, u) * dot(v, v);
-            if (weight > 0.0LF) sum += cross(u, v) / weight;
+            if (weight > 0.0lf) sum += cross(u, v) / weight;
             v = u;
         }
         c = over_next(c);
         if (c == first) break;
     }
     double l = length(sum);
-    return l > 0.0LF ? sum / l : dvec3(0.0LF);
+    return l > 0.0lf ? sum / l : dvec3(0.0lf);
 }
 
 // The direction on the screen in which a point moves along a direction in space; unit, or 0.
@@ -71,7 +71,7 @@ dvec2 project_direction(ClipPoint c, dvec3 n) {
     dvec2 d = dvec2((dx * c.c.w - c.c.x * dw) * double(picture.size.x),
                     (c.c.y * dw - dy * c.c.w) * double(picture.size.y));
     double l = length(d);
-    return l > 0.0LF && l - l == 0.0LF ? d / l : dvec2(0.0LF);
+    return l > 0.0lf && l - l == 0.0lf ? d / l : dvec2(0.0lf);
 }
 
 // How far inside plane i of the guarded frustum a point lies.
@@ -94,33 +94,33 @@ ClipPoint mix_points(ClipPoint a, ClipPoint b, double t) {
 FinEdge fin_edge(uint half_edge, bool front) {
     uint next = next_in(half_edge);
     ClipPoint a = to_clip(world_of(corners[half_edge])), b = to_clip(world_of(corners[next]));
-    double t0 = 0.0LF, t1 = 1.0LF;
+    double t0 = 0.0lf, t1 = 1.0lf;
     FinEdge e;
     e.is_seen = true;
     if (!is_inside(a) || !is_inside(b))
         for (int i = 0; i < 6; i++) {
             double da = inside(i, a), db = inside(i, b);
-            if (da < 0.0LF && db < 0.0LF) e.is_seen = false;
-            if (da < 0.0LF) t0 = max(t0, da / (da - db));
-            if (db < 0.0LF) t1 = min(t1, da / (da - db));
+            if (da < 0.0lf && db < 0.0lf) e.is_seen = false;
+            if (da < 0.0lf) t0 = max(t0, da / (da - db));
+            if (db < 0.0lf) t1 = min(t1, da / (da - db));
         }
     ClipPoint p = mix_points(a, b, t0), q = mix_points(a, b, t1);
-    e.is_seen = e.is_seen && t0 < t1 && p.c.w > 0.0LF && q.c.w > 0.0LF;
+    e.is_seen = e.is_seen && t0 < t1 && p.c.w > 0.0lf && q.c.w > 0.0lf;
     if (!e.is_seen) return e;
-    e.a = t0 > 0.0LF ? to_screen(p) : to_screen(a);
-    e.b = t1 < 1.0LF ? to_screen(q) : to_screen(b);
-    e.is_seen = length(e.b.xy - e.a.xy) > 0.0LF; // false for NaN
-    e.side = front ? 1.0LF : -1.0LF;
-    e.normal_a = e.normal_b = dvec2(0.0LF);
-    if (t0 == 0.0LF) e.normal_a = project_direction(a, vertex_normal(half_edge));
-    if (t1 == 1.0LF) e.normal_b = project_direction(b, vertex_normal(next));
+    e.a = t0 > 0.0lf ? to_screen(p) : to_screen(a);
+    e.b = t1 < 1.0lf ? to_screen(q) : to_screen(b);
+    e.is_seen = length(e.b.xy - e.a.xy) > 0.0lf; // false for NaN
+    e.side = front ? 1.0lf : -1.0lf;
+    e.normal_a = e.normal_b = dvec2(0.0lf);
+    if (t0 == 0.0lf) e.normal_a = project_direction(a, vertex_normal(half_edge));
+    if (t1 == 1.0lf) e.normal_b = project_direction(b, vertex_normal(next));
     return e;
 }
 
 // The corner of the strip beyond one end; a normal against the extrusion is turned round (Hermosilla and Vázquez 2009).
 dvec2 beyond(dvec2 end, dvec2 normal, dvec2 out_, double width) {
-    dvec2 n = normal == dvec2(0.0LF) ? out_ : normal;
-    if (dot(n, out_) < 0.0LF) n = -n;
+    dvec2 n = normal == dvec2(0.0lf) ? out_ : normal;
+    if (dot(n, out_) < 0.0lf) n = -n;
     return end + n * width;
 }
 

@@ -52,7 +52,7 @@ void main() {
 }
 #else
 void main() {
-    double reach = 0.0LF, radius = double(picture.size.y) / 2.0LF;
+    double reach = 0.0lf, radius = double(picture.size.y) / 2.0lf;
     vec3 low, high;
     for (int c = 0; c < 3; c++) {
         low[c] = from_order(box[c]);
@@ -61,19 +61,19 @@ void main() {
     centre = picture.size.xy / 2.0;
     half_height = picture.size.y / 2.0;
     k = weight;
-    ClipPoint middle = to_clip(vec3((dvec3(low) + dvec3(high)) * 0.5LF));
-    if (box[0] <= box[3] && middle.c.w > 0.0LF) { // points behind the eye are left out
+    ClipPoint middle = to_clip(vec3((dvec3(low) + dvec3(high)) * 0.5lf));
+    if (box[0] <= box[3] && middle.c.w > 0.0lf) { // points behind the eye are left out
         dvec3 at = to_screen(middle);
         centre = vec2(at.xy);
         for (int i = 0; i < 8; i++) {
             ClipPoint p = to_clip(vec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
                                        (i & 4) != 0 ? high.z : low.z));
-            if (p.c.w > 0.0LF) reach = max(reach, length(to_screen(p).xy - at.xy));
+            if (p.c.w > 0.0lf) reach = max(reach, length(to_screen(p).xy - at.xy));
         }
-        if (reach > 0.0LF) radius = reach;
+        if (reach > 0.0lf) radius = reach;
     }
-    double around = 2.0LF * 3.14159265358979323846LF * radius * 0.6LF;
+    double around = 2.0lf * 3.14159265358979323846lf * radius * 0.6lf;
     for (int i = 0; i < 2; i++)
-        repeats[i] = float(max(1.0LF, floor(around / double(periods[i]) + 0.5LF)));
+        repeats[i] = float(max(1.0lf, floor(around / double(periods[i]) + 0.5lf)));
 }
 #endif

@@ -3,7 +3,7 @@
 #define FACING_OF(t) 0u
 #include "outlines.glsl"
 
-layout(std430, binding = 5) writeonly buffer Facing { uint facing[]; };
+layout(std430, binding = 5) writeonly buffer Facings { uint facing[]; };
 
 void main() {
     uint t = dp_item();

@@ -6,7 +6,7 @@
 //     put       at the sum of the groups before, and of the triangles before in the group
 #define COMPUTE 64
 #define FACING_OF(t) facing[t]
-layout(std430, binding = 5) readonly buffer Facing { uint facing[]; };
+layout(std430, binding = 5) readonly buffer Facings { uint facing[]; };
 #include "outlines.glsl"
 
 layout(std430, binding = 6) writeonly buffer Listed { uint listed[]; };

@@ -7,7 +7,12 @@
 layout(std430, binding = 6) readonly buffer Listed { uint listed[]; }; // half-edge, with its line: fins_list.comp
 
 out float gl_ClipDistance[1];
-out vec3 place;
+#ifdef TEXTURED
+#define PER_SAMPLE sample
+#else
+#define PER_SAMPLE
+#endif
+PER_SAMPLE out vec3 place;
 flat out uint what;
 
 void main() {
