@@ -262,6 +262,7 @@ dp_result dp_gl_ink_fins(dp_gl *gl, dp_diag *diag) {
 void dp_gl_fins_free(dp_gl *gl) {
     dp_gl_fins *const f = gl->fins;
     if (!f) return;
+    dp_gl_pencil_free(gl, &f->pencil);
     if (!gl->is_lost) {
         dp_gl_buffer *const buffers[] = {&f->six,    &f->rings, &f->many,  &f->facing,
                                          &f->listed, &f->sums,  &f->centre};

@@ -2,7 +2,7 @@
 #ifndef DP_GL_FINS_H
 #define DP_GL_FINS_H
 
-#include "gl/gl.h"
+#include "gl/pencil.h"
 
 /* Bindings beside mates, which are at DP_GL_BIND_OWN. */
 enum {
@@ -28,6 +28,7 @@ struct dp_gl_fins {
     uint32_t layers
         [2]; /* arrays whose layer 1 these are, and layer 0 faces.ids and faces.depth; 0: none */
     uint32_t framebuffer;
+    dp_gl_pencil pencil; /* the paper's other half: pencil.c */
 };
 
 /* Are outlines drawn so in this picture? And in the same pass as faces? */
