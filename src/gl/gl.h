@@ -56,6 +56,16 @@ typedef struct dp_gl_picture_block {
     uint32_t style[4];                   /* lines, perspective, cull_back_faces, free */
 } dp_gl_picture_block;
 
+/* Normals of a mesh, and how up to date they are (attributes.c). */
+typedef struct dp_gl_mesh_normals {
+    dp_gl_buffer made;  /* computed: [3 * triangle] as dp_gl_mesh.normals */
+    uint64_t made_from; /* `version` of the positions that they are of; 0: none are made */
+    float crease;       /* degrees */
+    uint64_t version;   /* changes with the source's positions and attributes */
+    bool lacks;         /* some corners have no normal of their own, and get one that is made */
+    bool is_foreign;    /* the positions are the application's: none are computed */
+} dp_gl_mesh_normals;
+
 /* A mesh on the device. */
 struct dp_gl_mesh {
     dp_gl *gl;
@@ -64,9 +74,11 @@ struct dp_gl_mesh {
     bool owned;              /* the buffers are the library's: */
     dp_gl_buffer positions, corners, triangles, normals, texcoords, colors;
     bool has_normals, has_texcoords, has_colors;
-    uint64_t topology;  /* changes with the indices: a number that no other state has had */
-    uint64_t placement; /* the same of `matrix` and the positions of owned buffers */
-    double origin[3];   /* world space: what positions count from */
+    dp_gl_mesh_normals shading; /* what normals, texcoords and colors are of */
+    bool keeps_groups;          /* its groups have the same numbers in the picture */
+    uint64_t topology;          /* changes with the indices: a number that no other state has had */
+    uint64_t placement;         /* the same of `matrix` and the positions of owned buffers */
+    double origin[3];           /* world space: what positions count from */
     double matrix[16];
     bool placed;       /* there is a matrix */
     uint64_t polygons; /* of the source */
@@ -78,6 +90,11 @@ struct dp_gl_mesh {
     uint32_t group_count;
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
+
+/* Groups of the meshes of a picture are numbered one mesh after the other. */
+static inline uint32_t dp_gl_groups_of(const dp_gl_mesh *mesh) {
+    return mesh->keeps_groups ? 0 : mesh->group_count ? mesh->group_count : 1;
+}
 
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {

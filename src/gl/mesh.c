@@ -265,6 +265,7 @@ dp_result dp_gl_mesh_from_buffers(dp_gl *gl, const dp_gl_buffers *buffers, dp_gl
     m->vertex_count = from.vertex_count, m->triangle_count = from.triangle_count;
     m->polygons = from.triangle_count;
     m->topology = dp_gl_number(gl), m->placement = dp_gl_number(gl);
+    m->shading.version = dp_gl_number(gl), m->shading.is_foreign = true;
     *out = m;
     return DP_OK;
 }
@@ -299,8 +300,9 @@ void dp_gl_mesh_destroy(dp_gl_mesh *mesh) {
     if (*at) *at = mesh->next;
     gl->scene.count = 0; /* it may be among them */
     gl->drawn = false;
-    dp_gl_buffer *const buffers[] = {&mesh->positions, &mesh->corners,   &mesh->triangles,
-                                     &mesh->normals,   &mesh->texcoords, &mesh->colors};
+    dp_gl_buffer *const buffers[] = {&mesh->positions,   &mesh->corners,   &mesh->triangles,
+                                     &mesh->normals,     &mesh->texcoords, &mesh->colors,
+                                     &mesh->shading.made};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers && !gl->is_lost; i++)
         dp_gl_buffer_free(gl, buffers[i]);
     dp_free(&gl->memory, mesh->polygon_firsts);

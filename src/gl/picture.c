@@ -189,8 +189,10 @@ static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
 }
 
 static dp_result surface(dp_gl *gl, dp_diag *diag) {
-    const bool shaded = gl->style.shade.shading != DP_SHADING_FLAT || gl->style.edge_map.detector ||
-                        gl->style.shade.model_colors;
+    const dp_shading shading = gl->style.shade.shading;
+    const dp_edge_map *const map = &gl->style.edge_map;
+    const bool lit = shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER,
+               shaded = lit || gl->style.shade.model_colors || (map->detector && !map->hidden);
     return shaded ? dp_gl_shade(gl, diag) : dp_gl_paint_surface(gl, diag);
 }
 

@@ -2,19 +2,25 @@
 #include "gl/scene.h"
 #include "gl/surface.h"
 
-dp_result dp_gl_paint_surface(dp_gl *gl, dp_diag *diag) {
-    static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "flat.frag"};
+dp_result dp_gl_open_surface(dp_gl *gl, dp_diag *diag) {
     dp_gl_surface *const s = &gl->surface;
-    uint32_t program;
-    dp_result result = dp_gl_texture_reserve(gl, &s->picture, GL_RGBA8, gl->target.width,
-                                             gl->target.height, 0, "the picture", diag);
-    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
+    const dp_result result = dp_gl_texture_reserve(gl, &s->picture, GL_RGBA8, gl->target.width,
+                                                   gl->target.height, 0, "the picture", diag);
     if (result) return result;
     if (!s->framebuffer) gl->api.GenFramebuffers(1, &s->framebuffer);
     gl->api.BindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
     gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, s->picture.name, 0);
     gl->api.DrawBuffer(GL_COLOR_ATTACHMENT0);
     gl->api.Viewport(0, 0, (GLsizei)gl->target.width, (GLsizei)gl->target.height);
+    return DP_OK;
+}
+
+dp_result dp_gl_paint_surface(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "flat.frag"};
+    uint32_t program;
+    dp_result result = dp_gl_open_surface(gl, diag);
+    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
     dp_gl_use(gl, program);
     dp_gl_scene_bind(gl);
     dp_gl_faces_bind(gl, program);

@@ -14,12 +14,13 @@
 
 uniform vec2 depth_range; // factor and offset: window depth in [0, 1] = d * x + y
 
-// A point on the screen, times w.
+// A point on the screen, times w. The same in every pass over the model.
 vec4 window_position(vec3 s, float w) {
-    float z = s.z * depth_range.x + depth_range.y;
-    return vec4(s.x * picture.size.z * 2.0 - 1.0, s.y * picture.size.w * 2.0 - 1.0, CLIP_Z(z),
-                1.0) *
-           w;
+    precise float z = s.z * depth_range.x + depth_range.y;
+    precise vec4 p = vec4(s.x * picture.size.z * 2.0 - 1.0, s.y * picture.size.w * 2.0 - 1.0,
+                          CLIP_Z(z), 1.0) *
+                     w;
+    return p;
 }
 vec4 window_position_of(uint vertex) {
     vec4 s = screen_of(vertex);
@@ -27,7 +28,7 @@ vec4 window_position_of(uint vertex) {
     ClipPoint c = to_clip(world_of(vertex));
     if (isnan(float(c.c.x + c.c.y + c.c.w))) return vec4(0.0, 0.0, 0.0, -1.0); // not finite
     // z / w as above, of a point of any w: d * w is 1, or -distance
-    double zw = (is_perspective() ? 1.0 : -c.distance) * double(depth_range.x) +
+    precise double zw = (is_perspective() ? 1.0 : -c.distance) * double(depth_range.x) +
                 double(depth_range.y) * c.c.w;
     return vec4(float(c.c.x), float(-c.c.y), float(CLIP_ZW(zw, c.c.w)), float(c.c.w));
 }

@@ -4,6 +4,16 @@
 out float gl_ClipDistance[1];
 
 flat out uint triangle;
+invariant gl_Position; // the same in each pass over the model
+
+#ifdef PROJECTED // the picture's textures, projected from the camera: for textureProj
+out vec4 projected;
+void project() {
+    projected = vec4((gl_Position.xy + gl_Position.w) * 0.5, 0.0, gl_Position.w);
+}
+#else
+void project() {}
+#endif
 
 void main() {
     uint half_edge = uint(gl_VertexID);
@@ -11,4 +21,5 @@ void main() {
     uint vertex = corners[half_edge];
     gl_ClipDistance[0] = vertices[vertex].world.w;
     gl_Position = window_position_of(vertex);
+    project();
 }
