@@ -120,7 +120,7 @@ dp_result dp_gl_create(const dp_gl_desc *desc, dp_gl **out, dp_diag *diag) {
 static void free_host(dp_gl *gl) {
     const dp_allocator memory = gl->memory;
     dp_gl_scene_free_host(gl);
-    dp_free(&memory, gl->lines.read);
+    dp_gl_read_free(gl);
     dp_free(&memory, gl->programs.entries);
     dp_gl_quads_free(gl), dp_gl_shading_free(gl), dp_gl_fins_free(gl);
     dp_free(&memory, gl);

@@ -82,6 +82,7 @@ struct dp_gl_mesh {
     double matrix[16];
     bool placed;       /* there is a matrix */
     uint64_t polygons; /* of the source */
+    uint32_t pieces;   /* convex ones, which triangles are numbered by */
     uint32_t vertex_count, triangle_count;
     uint32_t *
         polygon_firsts; /* [triangle]: the first triangle of its polygon; NULL: all are their own */
@@ -104,6 +105,8 @@ typedef struct dp_gl_scene {
     double origin[3]; /* of all positions on the device, world space */
     uint32_t vertex_count, triangle_count;
     bool new_topology;     /* since the last picture: nothing that is kept of it holds */
+    uint64_t topology;     /* a number that changes with it; 0: no scene */
+    bool has_fans;         /* some polygons are of several triangles */
     dp_gl_buffer vertices; /* [vertex] screen x, y, d, key; world x, y, z, 0: vec4 each */
     dp_gl_buffer corners;  /* [3 * triangle] vertex */
     dp_gl_buffer
@@ -118,6 +121,7 @@ typedef struct dp_gl_faces {
     uint32_t framebuffer;
     bool layered; /* ids and depth are layers of what silhouettes are drawn into, too (fins.c) */
     uint32_t sampler; /* for the application's depth */
+    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -127,11 +131,12 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer counters;   /* dp_gl_counters */
     dp_gl_buffer candidates; /* dp_gl_candidate */
     dp_gl_buffer segments;   /* dp_gl_segment */
-    dp_gl_buffer disputed;   /* emerge.c's own */
+    dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
+    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
+    dp_gl_buffer words;      /* of long spines, their sample points (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
     uint64_t topology;       /* whose mates they are */
-    dp_segment *read;        /* read back (read.c) */
-    size_t read_cap, read_count;
+    struct dp_lines *read;   /* the picture's lines, read back (read.c) */
     bool have_read;
 } dp_gl_lines_store;
 
@@ -144,8 +149,9 @@ typedef struct dp_gl_lines_store {
 /* Counters on the device: the first four are a DrawArraysIndirectCommand for the segments' capsules. */
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
-    uint32_t candidates, disputed, crossings, wanted[5]; /* free for the stages: see picture.glsl */
-    uint32_t groups[4][4];                               /* arguments of indirect dispatches */
+    uint32_t candidates, disputed, crossings;
+    uint32_t wanted[5];    /* [0]: words of long spines (visibility.c) */
+    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
 } dp_gl_counters;
 
 /* A line that may be visible. 32 bytes. */

@@ -87,6 +87,7 @@ static dp_result upload_topology(dp_gl_mesh *m, const fan *f, dp_diag *diag) {
                                    "triangles of a mesh", diag);
     m->fingerprint = print;
     m->topology = dp_gl_number(gl);
+    gl->drawn = false; /* numbers of the last picture's triangles lead nowhere now */
     return result;
 }
 
@@ -156,7 +157,7 @@ static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {
     if (!result) result = upload_polygons(m, &polygons, diag);
     if (!result) result = dp_gl_mesh_take_attributes(m, &polygons, diag);
     if (!result) result = take_colors(m, source, &polygons, diag);
-    m->polygons = stats.polygons;
+    m->polygons = stats.polygons, m->pieces = polygons.count;
     m->owned = true;
     m->placement = dp_gl_number(m->gl);
     m->from = (dp_gl_buffers){.positions = m->positions.name,
@@ -263,7 +264,7 @@ dp_result dp_gl_mesh_from_buffers(dp_gl *gl, const dp_gl_buffers *buffers, dp_gl
     if (!m) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mesh");
     m->from = from;
     m->vertex_count = from.vertex_count, m->triangle_count = from.triangle_count;
-    m->polygons = from.triangle_count;
+    m->polygons = m->pieces = from.triangle_count;
     m->topology = dp_gl_number(gl), m->placement = dp_gl_number(gl);
     m->shading.version = dp_gl_number(gl), m->shading.is_foreign = true;
     *out = m;

@@ -89,7 +89,6 @@ static void put_places(dp_gl *gl) {
 dp_result dp_gl_upload_block(dp_gl *gl, dp_diag *diag) {
     put_view(gl);
     put_style(gl);
-    put_places(gl);
     gl->block.counts[0] = gl->scene.vertex_count;
     gl->block.counts[1] = gl->scene.triangle_count;
     gl->block.counts[2] = gl->samples;
@@ -215,7 +214,8 @@ static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     if (!result && dp_gl_fins_in_one_pass(gl))
         result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
     if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);
-    if (!result) result = dp_gl_upload_block(gl, diag); /* where samples lie is known now */
+    if (!result) put_places(gl); /* which the framebuffer tells */
+    if (!result) result = dp_gl_upload_block(gl, diag);
     if (!result && finds_lines(gl)) result = find_lines(gl, diag);
     if (!result) result = run(gl, DP_GL_STAGE_SHADE, surface, diag);
     if (!result) result = run(gl, DP_GL_STAGE_INK, ink, diag);

@@ -1,4 +1,4 @@
-/* What comes back from the device: lines, and pixels. */
+/* What comes back from the device as it is: buffers of lines, and pixels. */
 #include "gl/lines.h"
 #include "gl/scene.h"
 
@@ -10,19 +10,6 @@ dp_result dp_gl_lines_of(dp_gl *gl, dp_gl_lines *out, dp_diag *diag) {
     *out = (dp_gl_lines){gl->lines.segments.name, gl->lines.counters.name,
                          offsetof(dp_gl_counters, segments)};
     return DP_OK;
-}
-
-dp_result dp_gl_segments(dp_gl *gl, const dp_segment **segments, size_t *count, dp_diag *diag) {
-    if (!gl || !segments || !count)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_segments: gl, segments or count is NULL");
-    *segments = NULL, *count = 0;
-    return DP_OK;
-}
-
-dp_result dp_gl_hand_over(dp_gl *gl, dp_context *context, dp_diag *diag) {
-    if (!gl || !context)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_hand_over: gl or context is NULL");
-    return dp_fail(diag, DP_ERR_UNSUPPORTED, "not yet");
 }
 
 static void turn_rows(uint8_t *rgba, size_t stride, uint32_t width, uint32_t height) {

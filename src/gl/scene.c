@@ -90,7 +90,7 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
     for (size_t i = 0; i < gl->scene.count; i++) {
         const dp_gl_mesh *const m = gl->scene.meshes[i];
         put_mesh(gl, program, m, vertices, triangles, polygons, groups);
-        vertices += m->vertex_count, triangles += m->triangle_count, polygons += m->polygons;
+        vertices += m->vertex_count, triangles += m->triangle_count, polygons += m->pieces;
         groups += dp_gl_groups_of(m);
     }
     return DP_OK;
@@ -101,12 +101,15 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
     s->new_topology = !is_known(s, meshes, count);
     if (!s->new_topology) return DP_OK;
     s->count = 0;
+    s->topology = dp_gl_number(gl);
     dp_result result = reserve_list(gl, count)
                            ? count_all(gl, meshes, count, diag)
                            : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a list of meshes");
     if (!result) result = reserve_device(gl, diag);
     if (result) return result;
+    s->has_fans = false;
     for (size_t i = 0; i < count; i++) {
+        s->has_fans |= meshes[i]->polygon_firsts != NULL;
         s->meshes[i] = meshes[i];
         s->topologies[i] = meshes[i]->topology;
         s->placements[i] = meshes[i]->placement;
