@@ -76,8 +76,7 @@ static void compare(gl_test *t, const look *k) {
     uint8_t *const once = draw(t, &s, k, 1, false), *const twice = draw(t, &s, k, 2, false),
                    *const pulled = draw(t, &s, k, 2, true),
                    *const pulled_once = draw(t, &s, k, 1, true);
-    uint8_t *const cpu =
-        gl_test_draw_cpu(s.source, &s.camera, &s.style, WIDTH, HEIGHT, k->samples);
+    uint8_t *const cpu = gl_test_draw_cpu(s.source, &s.camera, &s.style, WIDTH, HEIGHT, k->samples);
     keep(k, "once", once), keep(k, "twice", twice), keep(k, "pulled", pulled), keep(k, "cpu", cpu);
     const double share = gl_test_alike(once, cpu, WIDTH, HEIGHT, 2);
     if (getenv("DP_TEST_PICTURES"))

@@ -23,8 +23,8 @@ const float PI = 3.14159265;
 const int TURNS = 18, TOOTH_SIZE = 512;
 const float TOOTH = 0.55; // share of graphite that the paper's tooth adds or takes
 
-vec2 pixel; // its place in the texture, before it is turned
-vec2 layer; // which textures: of the tone below, of the one above
+vec2 pixel = vec2(0.0); // its place in the texture, before it is turned
+vec2 layer = vec2(0.0); // which textures: of the tone below, of the one above
 
 // The angle of a direction without sign, [0, pi], within 2e-5.
 float angle_of(float x, float y) {
