@@ -23,9 +23,6 @@ const float PI = 3.14159265;
 const int TURNS = 18, TOOTH_SIZE = 512;
 const float TOOTH = 0.55; // share of graphite that the paper's tooth adds or takes
 
-vec2 pixel = vec2(0.0); // its place in the texture, before it is turned
-vec2 layer = vec2(0.0); // which textures: of the tone below, of the one above
-
 // The angle of a direction without sign, [0, pi], within 2e-5.
 float angle_of(float x, float y) {
     float ax = abs(x), ay = abs(y), most = max(ax, ay);
@@ -63,8 +60,10 @@ float sample_tone(vec2 at, float which) {
     return textureLod(tones, vec3((at + 0.5) / size, which), 0.0).x;
 #endif
 }
-// Brightness in both textures, 0 to 255, turned by an angle of this cosine and sine. y runs down, directions up.
-vec2 look_up(vec2 turn) {
+// Brightness in two textures (of the tone below, of the one above), 0 to 255, turned by an angle of this cosine and sine. y
+// runs down, directions up.
+vec2 look_up(vec2 turn, vec2 layer) {
+    vec2 pixel = gl_FragCoord.xy * scale;
     precise vec2 at = vec2(pixel.x * turn.x - pixel.y * turn.y, pixel.x * turn.y + pixel.y * turn.x);
     float value = sample_tone(at, layer.x);
     return 255.0 * vec2(value, layer.y == layer.x ? value : sample_tone(at, layer.y));
@@ -78,11 +77,11 @@ vec2 turn_of(float angle) {
     float c = 1.0 + z * (-0.5 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z * (1.0 / 40320.0 + z * (-1.0 / 3628800.0 + z / 479001600.0)))));
     return vec2(-s, c);
 }
-vec2 mean_of_look_ups(uint triangle) {
+vec2 mean_of_look_ups(uint triangle, vec2 layer) {
     vec2 sum = vec2(0.0);
     for (uint k = 0u; k < 3u; k++) {
         int parts = int(angle_at(3u * triangle + k) / PI * 65536.0) & 0xffff;
-        sum += look_up(turn_of(float(parts) * (PI / 65536.0)));
+        sum += look_up(turn_of(float(parts) * (PI / 65536.0)), layer);
     }
     return sum / 3.0;
 }
@@ -101,19 +100,19 @@ ivec2 steps_of(float angle) {
 }
 int after(int step_) { return step_ + 1 < TURNS ? step_ + 1 : 0; }
 
-vec2 mean_of_look_ups(uint triangle) {
+vec2 mean_of_look_ups(uint triangle, vec2 layer) {
     ivec2 t[3];
     for (uint k = 0u; k < 3u; k++) t[k] = steps_of(angle_at(3u * triangle + k));
     vec2 sum = vec2(0.0);
     if (t[0].x == t[1].x && t[0].x == t[2].x) { // as most are
         int part = t[0].y + t[1].y + t[2].y;
-        sum = look_up(turns[t[0].x].xy) * (float(765 - part) / 765.0);
-        if (part > 0) sum += look_up(turns[after(t[0].x)].xy) * (float(part) / 765.0);
+        sum = look_up(turns[t[0].x].xy, layer) * (float(765 - part) / 765.0);
+        if (part > 0) sum += look_up(turns[after(t[0].x)].xy, layer) * (float(part) / 765.0);
         return sum;
     }
     for (int k = 0; k < 3; k++) {
-        sum += look_up(turns[t[k].x].xy) * (float(255 - t[k].y) / 765.0);
-        if (t[k].y > 0) sum += look_up(turns[after(t[k].x)].xy) * (float(t[k].y) / 765.0);
+        sum += look_up(turns[t[k].x].xy, layer) * (float(255 - t[k].y) / 765.0);
+        if (t[k].y > 0) sum += look_up(turns[after(t[k].x)].xy, layer) * (float(t[k].y) / 765.0);
     }
     return sum;
 }
@@ -124,12 +123,10 @@ float tone_of(uint triangle, float dark) {
     int count = textureSize(tones, 0).z;
     if (count > 1) {
         float last = float(count - 1), at = min(dark * last, last - 0.001);
-        layer = vec2(floor(at), floor(at) + 1.0);
-        vec2 value = mean_of_look_ups(triangle);
-        return mix(value.x, value.y, at - layer.x) / 255.0;
+        vec2 value = mean_of_look_ups(triangle, vec2(floor(at), floor(at) + 1.0));
+        return mix(value.x, value.y, fract(at)) / 255.0;
     }
-    layer = vec2(0.0);
-    float value = mean_of_look_ups(triangle).x;
+    float value = mean_of_look_ups(triangle, vec2(0.0)).x;
     ivec2 at = ivec2(int(min(value, 255.0) + 0.5), int(dark * 255.0 + 0.5));
     return float(texelFetch(powers, at, 0).x) / 255.0;
 }
@@ -140,7 +137,6 @@ void main() {
     color = vec4(0.0);
     if (id_of(what) == 0u) return;
     color = base_at(p);
-    pixel = (vec2(p) + 0.5) * scale;
     float dark = 1.0 - clamp(dot(geometry_at(p).xyz, shading.light.xyz), 0.0, 1.0);
     float value = tone_of(what.x - 1u, dark);
     ivec2 in_tooth = ivec2(p.x % TOOTH_SIZE, p.y % TOOTH_SIZE);
