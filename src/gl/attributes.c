@@ -218,18 +218,26 @@ static dp_result make_normals(dp_gl *gl, dp_gl_mesh *m, dp_diag *diag) {
 
 /* ------- the picture's ------- */
 
-/* Rows of the matrix that turns normals: the cofactors of that which turns positions. */
-static void put_turn(dp_gl *gl, uint32_t program, const dp_gl_mesh *m) {
-    static const char *const names[3] = {"row0", "row1", "row2"};
+void dp_gl_turn_of(const dp_gl_mesh *m, double rows[3][3]) {
     const double *const a = m->matrix; /* column-major: entry (r, c) is a[4 c + r] */
-    dp_gl_uniform_u(gl, program, "is_turned", m->placed);
-    for (int r = 0; r < 3 && m->placed; r++) {
-        float row[4] = {0};
+    for (int r = 0; r < 3; r++) {
         const int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
         for (int c = 0; c < 3; c++) {
             const int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            row[c] = (float)(a[4 * c1 + r1] * a[4 * c2 + r2] - a[4 * c2 + r1] * a[4 * c1 + r2]);
+            rows[r][c] = m->placed
+                             ? a[4 * c1 + r1] * a[4 * c2 + r2] - a[4 * c2 + r1] * a[4 * c1 + r2]
+                             : (double)(r == c);
         }
+    }
+}
+
+static void put_turn(dp_gl *gl, uint32_t program, const dp_gl_mesh *m) {
+    static const char *const names[3] = {"row0", "row1", "row2"};
+    double rows[3][3];
+    dp_gl_turn_of(m, rows);
+    dp_gl_uniform_u(gl, program, "is_turned", m->placed);
+    for (int r = 0; r < 3; r++) {
+        const float row[4] = {(float)rows[r][0], (float)rows[r][1], (float)rows[r][2], 0};
         dp_gl_uniform_4f(gl, program, names[r], row);
     }
 }

@@ -133,11 +133,12 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer segments;   /* dp_gl_segment */
     dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
     dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
-    dp_gl_buffer words;      /* of long spines, their sample points (visibility.c) */
+    dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
+    dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
     uint64_t topology;       /* whose mates they are */
     struct dp_lines *read;   /* the picture's lines, read back (read.c) */
-    bool have_read;
+    bool have_read, have_hiders;
 } dp_gl_lines_store;
 
 /* Mates: the half-edge that runs the same edge the other way; the same way, with DP_GL_MATE_ALIKE; or none, or more than
@@ -150,7 +151,7 @@ typedef struct dp_gl_lines_store {
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
     uint32_t candidates, disputed, crossings;
-    uint32_t wanted[5];    /* [0]: words of long spines (visibility.c) */
+    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
     uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
 } dp_gl_counters;
 
@@ -179,6 +180,7 @@ typedef struct dp_gl_ink {
 typedef struct dp_gl_quads dp_gl_quads;     /* quads.c */
 typedef struct dp_gl_shading dp_gl_shading; /* shading.c: G-buffer, edge map, styles of surfaces */
 typedef struct dp_gl_fins dp_gl_fins;       /* fins.c: textured silhouettes, pencil */
+typedef struct dp_gl_mirror dp_gl_mirror;   /* mirror.c: the reflected scene, and its picture */
 
 struct dp_gl {
     dp_allocator memory;
@@ -217,6 +219,7 @@ struct dp_gl {
     dp_gl_quads *quads;     /* made when first used */
     dp_gl_shading *shading; /* the same */
     dp_gl_fins *fins;       /* the same */
+    dp_gl_mirror *mirror;   /* the same */
 
     dp_gl_stats stats;
     bool timed;

@@ -85,7 +85,7 @@ static dp_result upload_topology(dp_gl_mesh *m, const fan *f, dp_diag *diag) {
     if (!result)
         result = dp_gl_buffer_fill(gl, &m->triangles, f->kinds, 8 * (size_t)f->count,
                                    "triangles of a mesh", diag);
-    m->fingerprint = print;
+    m->fingerprint = result ? 0 : print;
     m->topology = dp_gl_number(gl);
     gl->drawn = false; /* numbers of the last picture's triangles lead nowhere now */
     return result;
@@ -145,6 +145,15 @@ static dp_result take_colors(dp_gl_mesh *m, dp_source *source, const dp_polygons
     return DP_OK;
 }
 
+/* What could not be read whole is empty. */
+static void clear(dp_gl_mesh *m) {
+    m->polygons = 0;
+    m->vertex_count = m->triangle_count = 0;
+    m->fingerprint = 0;
+    if (!m->group_colors) m->group_count = 0;
+    m->topology = dp_gl_number(m->gl);
+}
+
 static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {
     dp_polygon_store store = {0};
     dp_polygons polygons = {0};
@@ -158,6 +167,7 @@ static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {
     if (!result) result = dp_gl_mesh_take_attributes(m, &polygons, diag);
     if (!result) result = take_colors(m, source, &polygons, diag);
     m->polygons = stats.polygons, m->pieces = polygons.count;
+    if (result) clear(m);
     m->owned = true;
     m->placement = dp_gl_number(m->gl);
     m->from = (dp_gl_buffers){.positions = m->positions.name,
@@ -245,6 +255,10 @@ static dp_result check_buffers(dp_gl *gl, dp_gl_buffers *b, dp_diag *diag) {
         result = check_range(gl, b->normals, b->normals_offset, b->normals_stride, b->vertex_count,
                              "normals", diag);
     return result;
+}
+
+dp_result dp_gl_mesh_check(dp_gl_mesh *mesh, dp_diag *diag) {
+    return mesh->owned ? DP_OK : check_buffers(mesh->gl, &mesh->from, diag);
 }
 
 dp_result dp_gl_mesh_from_buffers(dp_gl *gl, const dp_gl_buffers *buffers, dp_gl_mesh **out,

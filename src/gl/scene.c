@@ -121,8 +121,7 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
     return result;
 }
 
-/* Rows of the map from a mesh's own space to the scene's; false if it changes nothing. */
-static bool placement_of(const dp_gl_mesh *m, const double origin[3], double rows[3][4]) {
+bool dp_gl_placement_of(const dp_gl_mesh *m, const double origin[3], double rows[3][4]) {
     bool moves = m->placed;
     for (int r = 0; r < 3; r++) {
         rows[r][3] = m->origin[r] - origin[r];
@@ -140,7 +139,7 @@ static bool placement_of(const dp_gl_mesh *m, const double origin[3], double row
 static dp_result place_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t first,
                             dp_gl_buffer *placement, dp_diag *diag) {
     double rows[3][4];
-    const bool moves = placement_of(m, gl->scene.origin, rows);
+    const bool moves = dp_gl_placement_of(m, gl->scene.origin, rows);
     const dp_result result =
         dp_gl_buffer_fill(gl, placement, rows, sizeof rows, "a mesh's place", diag);
     if (result) return result;

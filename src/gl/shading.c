@@ -22,6 +22,14 @@
 #include <stdio.h>
 #include <string.h>
 
+bool dp_gl_is_shaded(const dp_gl *gl) {
+    const dp_shading shading = gl->style.shade.shading;
+    const dp_edge_map *const map = &gl->style.edge_map;
+    const bool lit = shading != DP_SHADING_FLAT && shading != DP_SHADING_PAPER,
+               mirrors = gl->shading && gl->shading->mirrored;
+    return lit || mirrors || gl->style.shade.model_colors || (map->detector && !map->hidden);
+}
+
 dp_result dp_gl_need_shading(dp_gl *gl, dp_diag *diag) {
     if (gl->shading) return DP_OK;
     gl->shading = dp_alloc_zeroed(&gl->memory, sizeof *gl->shading);

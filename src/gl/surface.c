@@ -55,17 +55,25 @@ static void mask_other_buffers(dp_gl *gl, GLboolean mask) {
     for (GLuint i = 1; i < DP_GL_DRAW_BUFFERS; i++) gl->api.ColorMaski(i, mask, mask, mask, mask);
 }
 
+dp_result dp_gl_bind_framebuffer(dp_gl *gl, uint32_t point, uint32_t framebuffer, dp_diag *diag) {
+    const dp_gl_api *const a = &gl->api;
+    if (framebuffer && !a->IsFramebuffer(framebuffer))
+        return dp_fail(diag, DP_ERR_ARGUMENT, "there is no framebuffer %u", framebuffer);
+    a->BindFramebuffer(point, framebuffer);
+    if (a->CheckFramebufferStatus(point) != GL_FRAMEBUFFER_COMPLETE)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "framebuffer %u is not complete%s", framebuffer,
+                       framebuffer ? "" : ": there is no window");
+    return DP_OK;
+}
+
 dp_result dp_gl_show(dp_gl *gl, dp_diag *diag) {
     static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "show.frag"};
     const dp_gl_api *const a = &gl->api;
     const dp_gl_target *const t = &gl->target;
     uint32_t program;
-    const dp_result result = dp_gl_program(gl, &desc, &program, diag);
+    dp_result result = dp_gl_program(gl, &desc, &program, diag);
+    if (!result) result = dp_gl_bind_framebuffer(gl, GL_DRAW_FRAMEBUFFER, t->framebuffer, diag);
     if (result) return result;
-    a->BindFramebuffer(GL_DRAW_FRAMEBUFFER, t->framebuffer);
-    if (a->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "framebuffer %u is not complete%s", t->framebuffer,
-                       t->framebuffer ? "" : ": there is no window");
     a->Viewport(t->x, t->y, (GLsizei)t->width, (GLsizei)t->height);
     dp_gl_use(gl, program);
     dp_gl_faces_bind(gl, program);

@@ -6,6 +6,7 @@
 #define COMPUTE 64
 #define NO_VERTICES
 #include "scene.glsl"
+#include "normals16.glsl"
 
 layout(std430, binding = 3) readonly buffer Source { uint source[]; };
 layout(std430, binding = 4) readonly buffer Made { uvec2 made[]; };
@@ -14,18 +15,6 @@ layout(std430, binding = 5) writeonly buffer Normals { uvec2 normals[]; };
 uniform uint kind, mends, first_vertex, first_corner, corner_count, at, stride;
 uniform uint is_turned;
 uniform vec4 row0, row1, row2;
-
-vec3 unpack(uvec2 w) {
-    ivec2 n = ivec2(w);
-    return vec3(bitfieldExtract(n.x, 0, 16), bitfieldExtract(n.x, 16, 16), bitfieldExtract(n.y, 0, 16));
-}
-
-uvec2 pack(vec3 n) {
-    float l = length(n);
-    if (!(l > 0.0 && l < 1e30)) return uvec2(0u);
-    uvec3 v = uvec3(ivec3(roundEven(n / l * 32767.0))) & 0xffffu;
-    return uvec2(v.x | v.y << 16, v.z);
-}
 
 vec3 turned(vec3 n) { return vec3(dot(row0.xyz, n), dot(row1.xyz, n), dot(row2.xyz, n)); }
 
@@ -37,11 +26,11 @@ void main() {
         out_ = uvec2(source[2u * i], source[2u * i + 1u]);
         if (mends != 0u && out_.y >> 16 != 0u) out_ = made[i];
         out_.y &= 0xffffu;
-        if (is_turned != 0u) out_ = pack(turned(unpack(out_)));
+        if (is_turned != 0u) out_ = pack_normal(turned(unpack_normal(out_)));
     } else if (kind == 2u) {
         uint v = at + (corners[first_corner + i] - first_vertex) * stride;
         vec3 n = uintBitsToFloat(uvec3(source[v], source[v + 1u], source[v + 2u]));
-        out_ = pack(is_turned != 0u ? turned(n) : n);
+        out_ = pack_normal(is_turned != 0u ? turned(n) : n);
     }
     normals[first_corner + i] = out_;
 }

@@ -22,13 +22,25 @@ vec4 window_position(vec3 s, float w) {
                      w;
     return p;
 }
-vec4 window_position_of(uint vertex) {
+// What the device clips with beyond this would overflow: such points are made smaller, w and all.
+const double FARTHEST = 1048576.0;
+
+struct Corner {
+    vec4 position;    // in the window's clip space
+    float before_far; // distance from the far plane there, for gl_ClipDistance
+};
+Corner corner_at(uint vertex) {
     vec4 s = screen_of(vertex);
-    if (!is_off_screen(s)) return window_position(s.xyz, is_perspective() ? 1.0 / s.z : 1.0);
+    if (!is_off_screen(s))
+        return Corner(window_position(s.xyz, is_perspective() ? 1.0 / s.z : 1.0),
+                      vertices[vertex].world.w);
     ClipPoint c = to_clip(world_of(vertex));
-    if (isnan(float(c.c.x + c.c.y + c.c.w))) return vec4(0.0, 0.0, 0.0, -1.0); // not finite
+    if (isnan(float(c.c.x + c.c.y + c.c.w)))
+        return Corner(vec4(0.0, 0.0, 0.0, -1.0), vertices[vertex].world.w); // not finite
     // z / w as above, of a point of any w: d * w is 1, or -distance
     precise double zw = (is_perspective() ? 1.0 : -c.distance) * double(depth_range.x) +
-                double(depth_range.y) * c.c.w;
-    return vec4(float(c.c.x), float(-c.c.y), float(CLIP_ZW(zw, c.c.w)), float(c.c.w));
+                        double(depth_range.y) * c.c.w;
+    precise dvec4 p = dvec4(c.c.x, -c.c.y, CLIP_ZW(zw, c.c.w), c.c.w), q = abs(p);
+    double most = max(max(q.x, q.y), max(q.z, q.w)), k = most > FARTHEST ? FARTHEST / most : 1.0;
+    return Corner(vec4(p * k), float((c.c.w - c.c.z) * k));
 }

@@ -18,8 +18,8 @@ void project() {}
 void main() {
     uint half_edge = uint(gl_VertexID);
     triangle = half_edge / 3u;
-    uint vertex = corners[half_edge];
-    gl_ClipDistance[0] = vertices[vertex].world.w;
-    gl_Position = window_position_of(vertex);
+    Corner c = corner_at(corners[half_edge]);
+    gl_Position = c.position;
+    gl_ClipDistance[0] = c.before_far;
     project();
 }

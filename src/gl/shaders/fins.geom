@@ -13,6 +13,7 @@ layout(triangle_strip, max_vertices = 21) out;
 
 in VertexOut {
     vec4 screen, world;
+    float before_far;
 } v[];
 
 out float gl_ClipDistance[1];
@@ -56,7 +57,7 @@ void main() {
 #ifdef ONE_PASS
     if (front || picture.style.z == 0u) { // else back faces are not painted
         for (int i = 0; i < 6; i += 2)
-            put(gl_in[i].gl_Position, vec3(0.0, 0.0, 2.0), t + 1u, v[i].world.w, 0);
+            put(gl_in[i].gl_Position, vec3(0.0, 0.0, 2.0), t + 1u, v[i].before_far, 0);
         EndPrimitive();
     }
 #endif

@@ -3,6 +3,7 @@
 
 out VertexOut {
     vec4 screen, world;
+    float before_far;
 } v;
 
 void main() {
@@ -10,8 +11,11 @@ void main() {
     v.screen = screen_of(vertex);
     v.world = vertices[vertex].world;
 #ifdef ONE_PASS
-    gl_Position = window_position_of(vertex);
+    Corner c = corner_at(vertex);
+    gl_Position = c.position;
+    v.before_far = c.before_far;
 #else
     gl_Position = vec4(0.0);
+    v.before_far = 0.0;
 #endif
 }

@@ -6,6 +6,7 @@
 #include "surface_pick.glsl"
 #include "facing.glsl"
 #include "shading.glsl"
+#include "normals16.glsl"
 
 layout(location = 0) out vec4 geometry;
 layout(location = 1) out uvec2 what;
@@ -57,10 +58,7 @@ vec3 space_weights(uint t, vec2 at, float d) {
 }
 
 #ifndef FACETS
-vec3 normal_of(uint corner) {
-    ivec2 n = ivec2(normals[corner]);
-    return vec3(bitfieldExtract(n.x, 0, 16), bitfieldExtract(n.x, 16, 16), bitfieldExtract(n.y, 0, 16));
-}
+vec3 normal_of(uint corner) { return unpack_normal(normals[corner]); }
 #endif
 
 // 1 / sqrt(length2) where that lies between the bounds, else 0.
