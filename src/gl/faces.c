@@ -33,8 +33,7 @@ static dp_result reserve_textures(dp_gl *gl, dp_diag *diag) {
     dp_gl_faces *const f = &gl->faces;
     const uint32_t w = gl->target.width, h = gl->target.height,
                    samples = gl->samples > 1 ? gl->samples : 0;
-    if (f->layered) dp_gl_texture_free(gl, &f->ids), dp_gl_texture_free(gl, &f->depth);
-    f->layered = false;
+    if (f->layers[0]) dp_gl_fins_free_ink(gl);
     dp_result result = dp_gl_texture_reserve(gl, &f->ids, GL_R32UI, w, h, samples,
                                              "numbers of the samples' polygons", diag);
     if (!result)
@@ -194,6 +193,7 @@ void dp_gl_faces_bind(dp_gl *gl, uint32_t program) {
 }
 
 void dp_gl_faces_free(dp_gl *gl) {
+    dp_gl_fins_free_ink(gl);
     dp_gl_texture_free(gl, &gl->faces.ids);
     dp_gl_texture_free(gl, &gl->faces.depth);
     if (gl->faces.framebuffer) gl->api.DeleteFramebuffers(1, &gl->faces.framebuffer);

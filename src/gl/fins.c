@@ -55,10 +55,11 @@ dp_result dp_gl_fins_begin(dp_gl *gl, dp_diag *diag) {
 
 static uint32_t samples_of_textures(const dp_gl *gl) { return gl->samples > 1 ? gl->samples : 0; }
 
-void dp_gl_fins_free_layers(dp_gl *gl) {
-    dp_gl_fins *const f = gl->fins;
-    if (!f || !f->layers[0]) return;
-    dp_gl_texture_free(gl, &f->ink), dp_gl_texture_free(gl, &f->depth);
+void dp_gl_fins_free_ink(dp_gl *gl) {
+    dp_gl_faces *const f = &gl->faces;
+    dp_gl_texture_free(gl, &f->ink), dp_gl_texture_free(gl, &f->ink_depth);
+    if (!f->layers[0]) return;
+    dp_gl_texture_free(gl, &f->ids), dp_gl_texture_free(gl, &f->depth);
     gl->api.DeleteTextures(2, f->layers);
     f->layers[0] = f->layers[1] = 0;
 }
@@ -104,24 +105,23 @@ static void make_view(dp_gl *gl, dp_gl_texture *texture, uint32_t layers, GLenum
 
 static bool layers_fit(const dp_gl *gl) {
     const dp_gl_texture *const ids = &gl->faces.ids;
-    return gl->faces.layered && gl->fins->layers[0] && ids->width == gl->target.width &&
+    return gl->faces.layers[0] && ids->width == gl->target.width &&
            ids->height == gl->target.height && ids->samples == samples_of_textures(gl);
 }
 
 dp_result dp_gl_fins_reserve_layers(dp_gl *gl, dp_diag *diag) {
-    dp_result result = dp_gl_fins_begin(gl, diag);
-    if (result) return result;
-    dp_gl_fins *const f = gl->fins;
+    dp_gl_faces *const f = &gl->faces;
+    dp_result result = DP_OK;
     if (!layers_fit(gl)) {
-        dp_gl_fins_free_layers(gl);
+        dp_gl_fins_free_ink(gl);
         make_layers(gl, &f->layers[0], GL_R32UI);
         make_layers(gl, &f->layers[1], GL_DEPTH_COMPONENT32F);
-        make_view(gl, &gl->faces.ids, f->layers[0], GL_R32UI, 0);
-        make_view(gl, &gl->faces.depth, f->layers[1], GL_DEPTH_COMPONENT32F, 0);
+        make_view(gl, &f->ids, f->layers[0], GL_R32UI, 0);
+        make_view(gl, &f->depth, f->layers[1], GL_DEPTH_COMPONENT32F, 0);
         make_view(gl, &f->ink, f->layers[0], GL_R32UI, 1);
-        make_view(gl, &f->depth, f->layers[1], GL_DEPTH_COMPONENT32F, 1);
-        gl->faces.layered = true;
+        make_view(gl, &f->ink_depth, f->layers[1], GL_DEPTH_COMPONENT32F, 1);
         result = dp_gl_check(gl, "layers of surface and silhouettes", diag);
+        if (result) dp_gl_fins_free_ink(gl);
     }
     gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, f->layers[0], 0);
     gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, f->layers[1], 0);
@@ -133,18 +133,19 @@ static dp_result reserve_ink(dp_gl *gl, dp_diag *diag) {
     static const GLuint none[4] = {0, 0, 0, 0};
     static const GLfloat far_away = 0;
     const dp_gl_api *const a = &gl->api;
-    dp_gl_fins *const f = gl->fins;
+    dp_gl_fins *const s = gl->fins;
+    dp_gl_faces *const f = &gl->faces;
     const uint32_t w = gl->target.width, h = gl->target.height, samples = samples_of_textures(gl);
     dp_result result =
         dp_gl_texture_reserve(gl, &f->ink, GL_R32UI, w, h, samples, "ink of the samples", diag);
     if (!result)
-        result = dp_gl_texture_reserve(gl, &f->depth, GL_DEPTH_COMPONENT32F, w, h, samples,
+        result = dp_gl_texture_reserve(gl, &f->ink_depth, GL_DEPTH_COMPONENT32F, w, h, samples,
                                        "depth of ink", diag);
     if (result) return result;
-    if (!f->framebuffer) a->GenFramebuffers(1, &f->framebuffer);
-    a->BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
+    if (!s->framebuffer) a->GenFramebuffers(1, &s->framebuffer);
+    a->BindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
     a->FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, f->ink.name, 0);
-    a->FramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, f->depth.name, 0);
+    a->FramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, f->ink_depth.name, 0);
     a->DrawBuffer(GL_COLOR_ATTACHMENT0);
     a->Viewport(0, 0, (GLsizei)w, (GLsizei)h);
     a->DepthMask(GL_TRUE);
@@ -206,7 +207,8 @@ static dp_result draw_listed(dp_gl *gl, dp_diag *diag) {
 
 dp_result dp_gl_fins_draw_once(dp_gl *gl, dp_diag *diag) {
     const GLint viewport[2] = {(GLint)gl->target.width, (GLint)gl->target.height};
-    dp_result result = dp_gl_fins_adjacency(gl, diag);
+    dp_result result = dp_gl_fins_begin(gl, diag);
+    if (!result) result = dp_gl_fins_adjacency(gl, diag);
     if (!result) result = dp_gl_fins_texture(gl, diag);
     if (result) return result;
     gl->api.BindFramebuffer(GL_FRAMEBUFFER, gl->faces.framebuffer);
@@ -237,8 +239,8 @@ static dp_result put_ink(dp_gl *gl, dp_diag *diag) {
     if (result) return result;
     dp_gl_use(gl, program);
     dp_gl_faces_bind(gl, program);
-    dp_gl_texture_bind(gl, &gl->fins->ink, DP_GL_UNIT_OWN);
-    dp_gl_texture_bind(gl, &gl->fins->depth, DP_GL_UNIT_OWN + 1);
+    dp_gl_texture_bind(gl, &gl->faces.ink, DP_GL_UNIT_OWN);
+    dp_gl_texture_bind(gl, &gl->faces.ink_depth, DP_GL_UNIT_OWN + 1);
     dp_gl_uniform_i(gl, program, "ink", DP_GL_UNIT_OWN);
     dp_gl_uniform_i(gl, program, "ink_depths", DP_GL_UNIT_OWN + 1);
     gl->api.BindImageTexture(0, gl->surface.picture.name, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA8);
@@ -252,10 +254,7 @@ dp_result dp_gl_ink_fins(dp_gl *gl, dp_diag *diag) {
     if (gl->style.lines & DP_ALL_LINES & ~OUTLINES) result = dp_gl_ink_strokes(gl, diag);
     if (result || !dp_gl_draws_fins(gl)) return result;
     result = dp_gl_fins_begin(gl, diag);
-    if (!result && !dp_gl_fins_in_one_pass(gl)) {
-        if (gl->fins->layers[0] && !gl->faces.layered) dp_gl_fins_free_layers(gl);
-        result = draw_after(gl, diag);
-    }
+    if (!result && !dp_gl_fins_in_one_pass(gl)) result = draw_after(gl, diag);
     return result ? result : put_ink(gl, diag);
 }
 
@@ -266,11 +265,9 @@ void dp_gl_fins_free(dp_gl *gl) {
     if (!gl->is_lost) {
         dp_gl_buffer *const buffers[] = {&f->six,    &f->rings, &f->many,  &f->facing,
                                          &f->listed, &f->sums,  &f->centre};
-        dp_gl_fins_free_layers(gl);
         for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
             dp_gl_buffer_free(gl, buffers[i]);
-        dp_gl_texture *const textures[] = {&f->strokes[0], &f->strokes[1], &f->ink, &f->depth};
-        for (int i = 0; i < 4; i++) dp_gl_texture_free(gl, textures[i]);
+        for (int i = 0; i < 2; i++) dp_gl_texture_free(gl, &f->strokes[i]);
         if (f->framebuffer) gl->api.DeleteFramebuffers(1, &f->framebuffer);
     }
     dp_free(&gl->memory, f);

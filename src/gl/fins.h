@@ -23,12 +23,8 @@ struct dp_gl_fins {
     dp_gl_buffer centre;               /* of polar coordinates: stroke_texture.glsl */
     dp_gl_texture strokes[2];          /* of silhouettes and of borders */
     uint64_t stroke_keys[2];
-    /* Per sample: the ink's colour, 0 where there is none, and its depth. */
-    dp_gl_texture ink, depth;
-    uint32_t layers
-        [2]; /* arrays whose layer 1 these are, and layer 0 faces.ids and faces.depth; 0: none */
-    uint32_t framebuffer;
-    dp_gl_pencil pencil; /* the paper's other half: pencil.c */
+    uint32_t framebuffer; /* of ink alone */
+    dp_gl_pencil pencil;  /* the paper's other half: pencil.c */
 };
 
 /* Are outlines drawn so in this picture? And in the same pass as faces? */
@@ -37,10 +33,10 @@ bool dp_gl_fins_in_one_pass(const dp_gl *gl);
 
 /* fins.c. Makes gl->fins. */
 dp_result dp_gl_fins_begin(dp_gl *gl, dp_diag *diag);
-/* One pass, for faces.c: makes faces.ids and faces.depth layers of arrays, and attaches these to the bound framebuffer; then
- * draws surface and silhouettes. */
+/* For faces.c. One pass: makes its textures layers of arrays, and attaches these to the bound framebuffer; then draws surface
+ * and silhouettes. Frees ink and, if there are layers, all of them. */
 dp_result dp_gl_fins_reserve_layers(dp_gl *gl, dp_diag *diag);
-void dp_gl_fins_free_layers(dp_gl *gl);
+void dp_gl_fins_free_ink(dp_gl *gl);
 dp_result dp_gl_fins_draw_once(dp_gl *gl, dp_diag *diag);
 
 /* fins_edges.c: the index buffer with adjacency and the rings, kept while the topology stays; mates are known. Then, without a

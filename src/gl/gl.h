@@ -119,7 +119,8 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
-    bool layered; /* ids and depth are layers of what silhouettes are drawn into, too (fins.c) */
+    dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
+    uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
     uint32_t sampler; /* for the application's depth */
     float range[2]; /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
