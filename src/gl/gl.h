@@ -120,6 +120,8 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
+    dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
+    uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
     uint32_t sampler; /* for the application's depth */
     float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
@@ -208,6 +210,10 @@ struct dp_gl {
     uint32_t samples_most; /* of colour, integer and depth at once */
     uint32_t texture_most, storage_most;
     uint32_t vertex_array;
+    /* For tests: as if the context had no geometry shader; stroke textures by the texture unit, by four texels in float32, or by
+     * these with shares in steps of 1/256 (fins_texture.c). */
+    bool no_geometry_shader;
+    enum { DP_GL_LOOKUPS_UNIT, DP_GL_LOOKUPS_EXACT, DP_GL_LOOKUPS_STEPS } lookups;
 
     /* the picture that is drawn */
     dp_view view;
