@@ -8,8 +8,7 @@
 
 #include <math.h>
 
-/* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane. */
-static void depth_range(const dp_gl *gl, float out[2]) {
+void dp_gl_depth_range(const dp_gl *gl, float out[2]) {
     const dp_view *const v = &gl->view;
     const double *const z = v->clip[2], *const w = v->clip[3], *const s = v->sight;
     /* along the line of sight, clip z = scale * distance + offset */
@@ -101,7 +100,7 @@ dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag) {
     dp_result result = reserve(gl, diag);
     if (!result) result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
-    depth_range(gl, range);
+    dp_gl_depth_range(gl, range);
     clear(gl);
     if (gl->target.depth_texture) result = put_foreign(gl, range, diag);
     if (result) return result;

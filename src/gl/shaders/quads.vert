@@ -1,0 +1,44 @@
+// A corner of an added polygon, pulled from the list: two triangles each.
+#include "corner.glsl"
+#include "quads_records.glsl"
+
+uniform vec2 depth_range; // see place_corner
+uniform vec2 depth_move;  // moves it: d * x + y
+#ifdef ORDERED
+layout(std430, binding = 4) readonly buffer Order { uint order[]; };
+#endif
+
+flat out uint line, triangle;
+flat out vec3 at; // a point of its plane: x, y, d
+flat out vec2 slope;
+flat out vec4 root;
+flat out float nearest;
+
+void main() {
+    uint place = uint(gl_VertexID) / 6u, i = uint(gl_VertexID) % 6u;
+#ifdef ORDERED
+    place = order[place];
+#endif
+    Added a = added[place];
+    uint c = i < 3u ? i : i == 3u ? 0u : i - 2u;
+    line = floatBitsToUint(a.points[0].w), triangle = floatBitsToUint(a.points[1].w);
+    at = a.points[0].xyz;
+    slope = vec2(a.points[2].w, a.points[3].w);
+    root = a.root;
+    nearest = max(max(a.points[0].z, a.points[1].z), max(a.points[2].z, a.points[3].z));
+#ifdef ORDERED
+    if ((line & ADDED_FACE) != 0u) {
+        gl_Position = place_corner(3u * triangle + min(c, 2u), depth_range);
+        if (i >= 3u) gl_Position = vec4(0.0, 0.0, 0.0, -1.0);
+        nearest = 3.4e38;
+        return;
+    }
+#endif
+    vec3 p = a.points[c].xyz;
+    gl_ClipDistance[0] = 1.0;
+#ifdef ORDERED // depth is made by the fragments
+    gl_Position = vec4(place_on_screen(p, vec2(0.0, 0.5)));
+#else
+    gl_Position = place_on_screen(vec3(p.xy, p.z * depth_move.x + depth_move.y), depth_range);
+#endif
+}
