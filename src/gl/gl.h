@@ -31,6 +31,9 @@ enum {
 /* Texture units, of which a stage may use all from DP_GL_UNIT_OWN on. */
 enum { DP_GL_UNIT_IDS = 0, DP_GL_UNIT_DEPTH = 1, DP_GL_UNIT_OWN = 2, DP_GL_UNITS = 12 };
 
+/* Draw buffers that the application's framebuffer may have; OpenGL allows as many at least. */
+enum { DP_GL_DRAW_BUFFERS = 8 };
+
 enum { DP_GL_GROUP_SIZE = 64 /* invocations of a compute shader's group, along x */ };
 
 enum { DP_GL_SAMPLES_MOST = 16, DP_GL_LINES_MOST = 8 /* DP_LINE_COUNT, rounded up */ };
@@ -96,6 +99,7 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
+    uint32_t sampler; /* for the application's depth */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -162,7 +166,7 @@ struct dp_gl {
 
     char device[160];
     int version; /* 430, 450, … */
-    bool has_clip_control, has_debug, is_lost;
+    bool has_clip_control, has_reset_status, has_debug, is_lost;
     uint32_t samples_most; /* of colour, integer and depth at once */
     uint32_t texture_most, storage_most;
     uint32_t vertex_array;
@@ -188,13 +192,15 @@ struct dp_gl {
 
     dp_gl_stats stats;
     bool timed;
-    uint32_t queries[DP_GL_STAGE_COUNT];
+    uint32_t queries[DP_GL_STAGE_COUNT][2]; /* timestamps: when it began and ended */
     bool queried[DP_GL_STAGE_COUNT];
 };
 
 /* The error that the device remembers, as a result: memory, a lost context; DP_OK if there is none. It
  * is asked once a picture, not after each call. `what` was being done. */
 dp_result dp_gl_check(dp_gl *gl, const char *what, dp_diag *diag);
+/* Forgets errors that are not ours; notices a lost context. */
+void dp_gl_forget_errors(dp_gl *gl);
 
 /* Before and after what a call does: remembers and restores the application's state (state.c). */
 typedef struct dp_gl_state dp_gl_state;

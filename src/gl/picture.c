@@ -78,7 +78,7 @@ static void put_style(dp_gl *gl) {
 static void put_places(dp_gl *gl) {
     dp_gl_picture_block *const b = &gl->block;
     b->places[0][0] = b->places[0][1] = 0.5f;
-    if (gl->samples < 2) return;
+    if (gl->samples < 2 || gl->faces.ids.samples != gl->samples) return; /* it is asked again */
     gl->api.BindFramebuffer(GL_FRAMEBUFFER, gl->faces.framebuffer);
     for (GLuint i = 0; i < gl->samples; i++)
         gl->api.GetMultisamplefv(GL_SAMPLE_POSITION, i, b->places[i]);
@@ -102,7 +102,7 @@ static uint32_t samples_of(const dp_gl *gl, uint32_t asked) {
     return samples;
 }
 
-static dp_result check_target(const dp_gl *gl, const dp_gl_target *t, dp_diag *diag) {
+dp_result dp_gl_check_target(const dp_gl *gl, const dp_gl_target *t, dp_diag *diag) {
     const uint32_t most = gl->texture_most;
     if (t->width < 1 || t->height < 1 || t->width > most || t->height > most)
         return dp_fail(diag, DP_ERR_ARGUMENT,
@@ -125,7 +125,7 @@ static dp_result check_meshes(const dp_gl *gl, dp_gl_mesh *const *meshes, size_t
 /* Style, view and samples of the picture. */
 static dp_result begin(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, const dp_camera *camera,
                        const dp_style *style, const dp_gl_target *target, dp_diag *diag) {
-    dp_result result = check_target(gl, target, diag);
+    dp_result result = dp_gl_check_target(gl, target, diag);
     if (!result) result = check_meshes(gl, meshes, count, diag);
     if (!result) result = dp_style_resolve(style, &gl->style, diag);
     if (!result) result = dp_gl_check_style(gl, &gl->style, diag);
@@ -141,14 +141,15 @@ static dp_result begin(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, const
 
 /* ------- stages ------- */
 
+/* By timestamps: of elapsed time, the application may be measuring its own. */
 static void begin_stage(dp_gl *gl, dp_gl_stage stage) {
     gl->queried[stage] = gl->timed;
     if (!gl->timed) return;
-    if (!gl->queries[0]) gl->api.GenQueries(DP_GL_STAGE_COUNT, gl->queries);
-    gl->api.BeginQuery(GL_TIME_ELAPSED, gl->queries[stage]);
+    if (!gl->queries[0][0]) gl->api.GenQueries(2 * DP_GL_STAGE_COUNT, gl->queries[0]);
+    gl->api.QueryCounter(gl->queries[stage][0], GL_TIMESTAMP);
 }
-static void end_stage(dp_gl *gl) {
-    if (gl->timed) gl->api.EndQuery(GL_TIME_ELAPSED);
+static void end_stage(dp_gl *gl, dp_gl_stage stage) {
+    if (gl->timed) gl->api.QueryCounter(gl->queries[stage][1], GL_TIMESTAMP);
 }
 
 typedef dp_result stage_function(dp_gl *, dp_diag *);
@@ -156,7 +157,7 @@ typedef dp_result stage_function(dp_gl *, dp_diag *);
 static dp_result run(dp_gl *gl, dp_gl_stage stage, stage_function *function, dp_diag *diag) {
     begin_stage(gl, stage);
     const dp_result result = function(gl, diag);
-    end_stage(gl);
+    end_stage(gl, stage);
     return result;
 }
 
@@ -239,13 +240,21 @@ void dp_gl_time_stages(dp_gl *gl, bool timed) {
     if (gl) gl->timed = timed;
 }
 
+/* If the application has bound a buffer for results of queries, they would go there. */
+static double elapsed_ms(dp_gl *gl, const uint32_t queries[2]) {
+    GLuint64 ns[2] = {0, 0};
+    GLint buffer = 0;
+    if (gl->version >= 440) gl->api.GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
+    if (buffer) gl->api.BindBuffer(GL_QUERY_BUFFER, 0);
+    for (int i = 0; i < 2; i++) gl->api.GetQueryObjectui64v(queries[i], GL_QUERY_RESULT, &ns[i]);
+    if (buffer) gl->api.BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
+    return (double)(ns[1] - ns[0]) * 1e-6;
+}
+
 dp_result dp_gl_stats_of(dp_gl *gl, dp_gl_stats *stats, dp_diag *diag) {
     if (!gl || !stats) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_stats_of: gl or stats is NULL");
-    for (int i = 0; i < DP_GL_STAGE_COUNT && !gl->is_lost; i++) {
-        GLuint64 ns = 0;
-        if (gl->queried[i]) gl->api.GetQueryObjectui64v(gl->queries[i], GL_QUERY_RESULT, &ns);
-        gl->stats.stage_ms[i] = (double)ns * 1e-6;
-    }
+    for (int i = 0; i < DP_GL_STAGE_COUNT && !gl->is_lost; i++)
+        gl->stats.stage_ms[i] = gl->queried[i] ? elapsed_ms(gl, gl->queries[i]) : 0;
     *stats = gl->stats;
     return DP_OK;
 }

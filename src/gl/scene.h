@@ -18,6 +18,8 @@ void dp_gl_scene_free_host(dp_gl *gl);
 dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag);
 /* Binds ids and depth to their units and tells the program. */
 void dp_gl_faces_bind(dp_gl *gl, uint32_t program);
+/* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane. */
+void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 void dp_gl_faces_free(dp_gl *gl);
 /* The window's depth there = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near
  * plane. */
@@ -25,6 +27,8 @@ void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 
 /* picture.c: the block of values that all shaders know. */
 dp_result dp_gl_upload_block(dp_gl *gl, dp_diag *diag);
+/* DP_ERR_ARGUMENT: its size or samples are out of range. */
+dp_result dp_gl_check_target(const dp_gl *gl, const dp_gl_target *target, dp_diag *diag);
 
 /* support.c: DP_ERR_UNSUPPORTED names what of the style this back end does not draw. */
 dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *diag);

@@ -22,6 +22,33 @@ dp_result dp_gl_paint_surface(dp_gl *gl, dp_diag *diag) {
     return DP_OK;
 }
 
+/* Blended over what is there, or in its place. */
+static void draw_over(dp_gl *gl, bool over) {
+    const dp_gl_api *const a = &gl->api;
+    if (over) {
+        a->Enable(GL_BLEND);
+        a->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    }
+    dp_gl_draw_whole(gl);
+    a->Disable(GL_BLEND);
+    a->BlendFunc(GL_ONE, GL_ZERO);
+}
+
+/* Where the application's things cover samples, the picture holds nothing of those, and lies over what is there. */
+static void draw_parts(dp_gl *gl, uint32_t program) {
+    const bool transparent = gl->target.transparent,
+               parts = gl->target.depth_texture && !transparent;
+    dp_gl_uniform_u(gl, program, "part", parts ? 1 : 0);
+    draw_over(gl, transparent);
+    if (!parts) return;
+    dp_gl_uniform_u(gl, program, "part", 2);
+    draw_over(gl, true);
+}
+
+static void mask_other_buffers(dp_gl *gl, GLboolean mask) {
+    for (GLuint i = 1; i < DP_GL_DRAW_BUFFERS; i++) gl->api.ColorMaski(i, mask, mask, mask, mask);
+}
+
 dp_result dp_gl_show(dp_gl *gl, dp_diag *diag) {
     static const dp_gl_program_desc desc = {.vertex = "whole.vert", .fragment = "show.frag"};
     const dp_gl_api *const a = &gl->api;
@@ -30,18 +57,18 @@ dp_result dp_gl_show(dp_gl *gl, dp_diag *diag) {
     const dp_result result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
     a->BindFramebuffer(GL_DRAW_FRAMEBUFFER, t->framebuffer);
+    if (a->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return dp_fail(diag, DP_ERR_ARGUMENT, "framebuffer %u is not complete%s", t->framebuffer,
+                       t->framebuffer ? "" : ": there is no window");
     a->Viewport(t->x, t->y, (GLsizei)t->width, (GLsizei)t->height);
     dp_gl_use(gl, program);
+    dp_gl_faces_bind(gl, program);
     dp_gl_texture_bind(gl, &gl->surface.picture, DP_GL_UNIT_OWN);
     dp_gl_uniform_i(gl, program, "shown", DP_GL_UNIT_OWN);
-    dp_gl_uniform_i(gl, program, "height", (int32_t)t->height);
     a->Uniform2i(a->GetUniformLocation(program, "from"), t->x, t->y);
-    if (t->transparent) {
-        a->Enable(GL_BLEND);
-        a->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    }
-    dp_gl_draw_whole(gl);
-    a->Disable(GL_BLEND);
+    mask_other_buffers(gl, GL_FALSE);
+    draw_parts(gl, program);
+    mask_other_buffers(gl, GL_TRUE);
     return DP_OK;
 }
 
