@@ -21,9 +21,6 @@ void dp_gl_faces_bind(dp_gl *gl, uint32_t program);
 /* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane. */
 void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 void dp_gl_faces_free(dp_gl *gl);
-/* The window's depth there = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near
- * plane. */
-void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 
 /* picture.c: the block of values that all shaders know. */
 dp_result dp_gl_upload_block(dp_gl *gl, dp_diag *diag);

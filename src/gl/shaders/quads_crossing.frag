@@ -2,11 +2,26 @@
 // polygons that do not touch, and are both seen from the front or do cross; INTERVAL: by depth alone.
 #include "quads_surface.glsl"
 #include "quads_records.glsl"
-#include "quads_crossing.glsl"
+#include "crossing.glsl"
 
 uniform float reach;
 layout(location = 0) out uint ink;
 flat in uint triangle;
+
+// Do two polygons, named by their first triangles, have a corner position in common? Then they meet there by construction.
+bool touch(uint a, uint b) {
+    uint n = corner_count(a), m = corner_count(b);
+    for (uint i = 0u; i < n; i++)
+        for (uint k = 0u; k < m; k++)
+            if (world_of(vertex_at(a, i)) == world_of(vertex_at(b, k))) return true;
+    return false;
+}
+// Along every outline of a closed model a front and a back face come close without crossing.
+bool may_intersect(uint a, uint b) {
+    Crossing x;
+    if (touch(first_of(a), first_of(b))) return false;
+    return (is_front(a) && is_front(b)) || cross_polygons(first_of(a), first_of(b), x);
+}
 
 void main() {
     uint id = surface_id();

@@ -1,9 +1,3 @@
 // The depth of faces, into another depth buffer.
-#if SAMPLES > 1
-uniform sampler2DMS depths;
-#define AT gl_SampleID
-#else
-uniform sampler2D depths;
-#define AT 0
-#endif
-void main() { gl_FragDepth = texelFetch(depths, ivec2(gl_FragCoord.xy), AT).x; }
+#include "depths.glsl"
+void main() { gl_FragDepth = depth_at(ivec2(gl_FragCoord.xy), gl_SampleID); }

@@ -1,6 +1,6 @@
 // A polygon and its edges on the screen, for primitive shaders (features/features.h and features/build.c have the same): an
 // edge from P_i to P_j has E = unit(P_j - P_i), and O = E x N leads out of the polygon, in its plane.
-#include "scene.glsl"
+#include "polygons.glsl"
 #include "facing.glsl"
 
 const double BIG = 1e300LF; // stands for infinity
@@ -16,13 +16,6 @@ struct Polygon {
     bool front;
 };
 
-// Sum of the triangles' area normals: Newell's method.
-dvec3 polygon_normal(uint first, uint last) {
-    dvec3 sum = dvec3(0.0);
-    for (uint t = first; t <= last; t++) sum += area_normal(t);
-    double l = length(sum);
-    return l > 0.0 ? sum * (1.0 / l) : sum;
-}
 // As facing_of, of all triangles together.
 bool polygon_faces(Polygon p) {
     if (p.first == p.last) return is_front(p.first);
@@ -43,11 +36,10 @@ bool polygon_faces(Polygon p) {
 }
 Polygon polygon_with(uint triangle) {
     Polygon p;
-    uint name = polygon_of(triangle);
-    p.first = p.last = triangle;
-    while (p.first > 0u && polygon_of(p.first - 1u) == name) p.first--;
-    while (p.last + 1u < picture.counts.y && polygon_of(p.last + 1u) == name) p.last++;
-    p.normal = polygon_normal(p.first, p.last);
+    p.first = first_of(triangle);
+    uint n = corner_count(p.first);
+    p.last = p.first + n - 3u;
+    p.normal = normal_of(p.first, n);
     p.front = polygon_faces(p);
     return p;
 }
@@ -136,11 +128,7 @@ Lean lean_of(ScreenEdge e, dvec2 m) {
     return Lean(outward, outward ? m.y / m.x : m.y > 0.0 ? BIG : -BIG);
 }
 
-dvec3 edge_direction(vec3 from, vec3 to) {
-    dvec3 e = dvec3(to) - dvec3(from);
-    double l = length(e);
-    return l > 0.0 ? e * (1.0 / l) : e;
-}
+dvec3 edge_direction(vec3 from, vec3 to) { return unit(dvec3(to) - dvec3(from)); }
 
 ScreenEdge screen_edge(Polygon p, uint half_edge) {
     ScreenEdge e;

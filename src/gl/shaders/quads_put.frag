@@ -4,15 +4,17 @@
 #include "ids.glsl"
 #include "facing.glsl"
 #include "colors.glsl"
+#include "depths.glsl"
+#include "over.glsl"
 
 const float SPARE = 4.0; // a silhouette is not inked on a back face that is less than so many widths behind
 layout(location = 0) out vec4 color;
 #if SAMPLES > 1
 uniform usampler2DMS lines, trapped;
-uniform sampler2DMS line_depths, depths;
+uniform sampler2DMS line_depths;
 #else
 uniform usampler2D lines, trapped;
-uniform sampler2D line_depths, depths;
+uniform sampler2D line_depths;
 #endif
 #ifdef LAYERED
 uniform sampler2D under;
@@ -20,15 +22,13 @@ uniform sampler2D under;
 #ifdef ONCE
 #define STATE_ACCESS readonly
 #include "quads_state.glsl"
-#else
-uniform vec2 depth_range;
 #endif
 
 // Is the back face that is seen at the sample closely behind the silhouette?
 bool is_spared(ivec2 p, int i, float window) {
     uint id = id_at(p, i);
     if (!is_triangle(id) || is_front(id - 1u)) return false;
-    float surface = texelFetch(depths, p, i).x,
+    float surface = depth_at(p, i),
           d = (surface - depth_range.y) / depth_range.x,
           px = SPARE * picture.widths[SILHOUETTE].x,
           close = px * (d * picture.step_.x + picture.step_.y);
@@ -56,7 +56,7 @@ vec4 beneath(ivec2 p, int i) {
     return vec4(0.0);
 #else
     uint id = id_at(p, i);
-    return premultiplied(is_triangle(id) ? surface_color(id - 1u) : picture.paper);
+    return premultiplied(is_triangle(id) ? surface_color(id - 1u) : paper_color(id));
 #endif
 }
 
@@ -74,9 +74,6 @@ void main() {
     color = vec4(sum.a > 0.0 ? sum.rgb / sum.a : picture.paper.rgb, sum.a / float(SAMPLES));
 #ifdef LAYERED
     color = floor(color * 255.0 + 0.5) / 255.0;
-    vec4 u = texelFetch(under, p, 0);
-    float alpha = color.a + u.a * (1.0 - color.a);
-    if (!(alpha > 0.0)) discard;
-    color = vec4((color.rgb * color.a + u.rgb * u.a * (1.0 - color.a)) / alpha, alpha);
+    color = lay_over(texelFetch(under, p, 0), color, 1.0);
 #endif
 }

@@ -1,7 +1,7 @@
 // One pass, as printed (Raskar 2001, 2.3): z1 and ink of each sample in one word, so that both change at once: 29 bits
 // of the window's depth, and 1 + the class of line that is nearest, or 0.
+#include "depths.glsl"
 layout(std430, binding = 5) STATE_ACCESS buffer States { uint states[]; };
-uniform vec2 depth_range;
 
 uint state_of(float window, uint ink) { return floatBitsToUint(window) >> 1 << 3 | ink; }
 uint ink_of_state(uint s) { return s & 7u; }
