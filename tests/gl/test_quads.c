@@ -52,7 +52,9 @@ static double alike(gl_test *t, const scene *s, const dp_style *style, int level
     return share;
 }
 
+#include <time.h>
 static void prints_all(void **state) {
+    setvbuf(stdout, NULL, _IONBF, 0);
     const char *const shapes[] = {"bracket", "gear", "torus", "boxes"};
     const char *const betweens[] = {"plane", "interval", "interval 2", "stencil"};
     for (int i = 0; i < 4; i++)
@@ -68,6 +70,11 @@ static void prints_all(void **state) {
                         style.line[1] = (dp_line_style){3, DP_RGB(0,0,200)};
                         style.line[2] = (dp_line_style){4, DP_RGB(0,160,0)};
                         style.line[3] = (dp_line_style){3, DP_RGB(200,0,200)};
+                        if (getenv("Q_M") && atoi(getenv("Q_M")) != m) continue;
+                        if (getenv("Q_B") && !strchr(getenv("Q_B"), '0' + b)) continue;
+                        if (getenv("Q_S") && atoi(getenv("Q_S")) != i) continue;
+                        if (getenv("Q_N") && atoi(getenv("Q_N")) != n) continue;
+                        printf("%ld ", (long)(clock() / 1000));
                         printf("%-8s %-6s %-11s %-6s %u: %.5f\n", s.shape, m ? "paper" : "exact", betweens[b], o ? "ortho" : "persp", s.samples,
                                alike(*state, &s, &style, 2));
                     }

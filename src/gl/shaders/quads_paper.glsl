@@ -1,8 +1,11 @@
 // As printed (Raskar 2001, 2.1 to 2.3): the ends of an edge are moved in space, projected and clipped
 // (features/build.c, dp_paper_…).
+//
+// All that a half-edge adds goes through one loop, and all planes that cut it through another one: compilers would
+// otherwise write the same code out dozens of times. What is cut lies in one of two halves of a pool of points.
 
-const double PAPER_REACH = 1.5LF;              // polygons are cut off at so many times the pen's reach
-const double PAPER_GRAZING = 1.0LF / 32.0LF;   // least |V.N| and |V.R|
+const double PAPER_REACH = 1.5LF;            // polygons are cut off at so many times the pen's reach
+const double PAPER_GRAZING = 1.0LF / 32.0LF; // least |V.N| and |V.R|
 const uint MOST_POINTS = 16u;
 
 // P + w D [z sin(alpha) (V.C) / (V.M)]
@@ -15,125 +18,159 @@ dvec3 paper_offset(dvec3 p, dvec3 e, dvec3 direction, dvec3 normal, double px) {
     return p + direction * (wz * sine * dot(v, picture.forward.xyz) / grazing);
 }
 
-ClipPoint to_clip_d(dvec3 p) {
-    ClipPoint q;
-    for (int r = 0; r < 4; r++) q.c[r] = dot(picture.clip[r].xyz, p) + picture.clip[r].w;
-    q.distance = dot(picture.sight.xyz, p) + picture.sight.w;
-    return q;
+// A polygon in clip space: x, y, z, w and distance of its points.
+dvec4 pool[2u * MOST_POINTS];
+double pool_distance[2u * MOST_POINTS];
+uint base = 0u, point_count = 0u;
+
+void add_point(dvec3 p) {
+    dvec4 q;
+    for (int r = 0; r < 4; r++) q[r] = dot(picture.clip[r].xyz, p) + picture.clip[r].w;
+    pool[base + point_count] = q;
+    pool_distance[base + point_count] = dot(picture.sight.xyz, p) + picture.sight.w;
+    point_count++;
+}
+dvec3 point_at(uint i) {
+    return to_screen(ClipPoint(pool[base + i], pool_distance[base + i]));
 }
 
-// The polygon that is being cut, in clip space and then on the screen.
-ClipPoint clip_points[MOST_POINTS];
-dvec3 points[MOST_POINTS];
-uint point_count;
+// Keeps the part where f . (x, y, z, w) >= 0.
+void cut_by(dvec4 f) {
+    bool outside = false;
+    for (uint i = 0u; i < point_count; i++) outside = outside || dot(f, pool[base + i]) < 0.0;
+    if (!outside) return;
+    uint to = MOST_POINTS - base, n = 0u;
+    for (uint i = 0u; i < point_count; i++) {
+        uint a = base + i, b = base + (i + 1u == point_count ? 0u : i + 1u);
+        double da = dot(f, pool[a]), db = dot(f, pool[b]);
+        if (da >= 0.0 && n < MOST_POINTS) {
+            pool[to + n] = pool[a];
+            pool_distance[to + n++] = pool_distance[a];
+        }
+        if ((da < 0.0) != (db < 0.0) && n < MOST_POINTS) {
+            double t = da / (da - db);
+            pool[to + n] = pool[a] + (pool[b] - pool[a]) * t;
+            pool_distance[to + n++] = pool_distance[a] + (pool_distance[b] - pool_distance[a]) * t;
+        }
+    }
+    base = to;
+    point_count = n >= 3u ? n : 0u;
+}
 
-void clip_by(int plane) {
-    ClipPoint from[MOST_POINTS] = clip_points;
-    uint n = point_count;
-    point_count = 0u;
-    for (uint i = 0u; i < n; i++) {
-        ClipPoint a = from[i], b = from[i + 1u == n ? 0u : i + 1u];
-        double da = inside(plane, a), db = inside(plane, b);
-        if (da >= 0.0) clip_points[point_count++] = a;
-        if ((da < 0.0) != (db < 0.0)) clip_points[point_count++] = mix_clip(a, b, da / (da - db));
+// Of f.x x + f.y y + f.z on the screen, the same times w in clip space.
+dvec4 screen_plane(dvec3 f) {
+    double x = 0.5LF * f.x * double(picture.size.x), y = 0.5LF * f.y * double(picture.size.y);
+    return dvec4(x, -y, 0.0, x + y + f.z);
+}
+// The planes of the guarded frustum, and of a rectangle `reach_` px around the edge.
+dvec4 plane_number(int i, ScreenEdge e, double reach_) {
+    double g = picture.eye.w;
+    switch (i) {
+    case 0: return dvec4(0.0, 0.0, 1.0, 1.0);
+    case 1: return dvec4(0.0, 0.0, -1.0, 1.0);
+    case 2: return dvec4(1.0, 0.0, 0.0, g);
+    case 3: return dvec4(-1.0, 0.0, 0.0, g);
+    case 4: return dvec4(0.0, 1.0, 0.0, g);
+    case 5: return dvec4(0.0, -1.0, 0.0, g);
+    case 6: return screen_plane(dvec3(-e.n, dot(e.n, e.a.xy) + reach_));
+    case 7: return screen_plane(dvec3(e.n, reach_ - dot(e.n, e.a.xy)));
+    case 8: return screen_plane(dvec3(e.t, reach_ - dot(e.t, e.a.xy)));
+    default: return screen_plane(dvec3(-e.t, reach_ + dot(e.t, e.a.xy) + e.length));
     }
 }
 
-// Keeps the part where f.x x + f.y y + f.z >= 0.
-void cut_by(dvec3 f) {
-    bool any_outside = false;
-    for (uint i = 0u; i < point_count; i++)
-        any_outside = any_outside || f.x * points[i].x + f.y * points[i].y + f.z < 0.0;
-    if (!any_outside) return;
-    dvec3 from[MOST_POINTS] = points;
-    uint n = point_count;
-    point_count = 0u;
-    for (uint i = 0u; i < n; i++) {
-        dvec3 p = from[i], q = from[i + 1u == n ? 0u : i + 1u];
-        double ip = f.x * p.x + f.y * p.y + f.z, iq = f.x * q.x + f.y * q.y + f.z;
-        if (ip >= 0.0) points[point_count++] = p;
-        if ((ip < 0.0) != (iq < 0.0)) points[point_count++] = p + (q - p) * (ip / (ip - iq));
-    }
-}
-
-// Puts the polygon's plane and fan, two triangles at a time.
-void put_points(Task k, ScreenEdge e) {
-    dvec3 sum = dvec3(0.0);
-    double nearest = points[0].z;
-    for (uint i = 1u; i < point_count; i++) {
-        nearest = max(nearest, points[i].z);
-        if (i + 1u < point_count)
-            sum += cross(points[i] - points[0], points[i + 1u] - points[0]);
+// Projects the polygon, cut, and puts its fan, two triangles at a time.
+void project(Task k, ScreenEdge e, double reach_) {
+    for (int i = 0; i < 10 && point_count >= 3u; i++) cut_by(plane_number(i, e, reach_));
+    if (point_count < 3u) return;
+    dvec3 sum = dvec3(0.0), o = point_at(0u), last = point_at(1u);
+    double nearest = max(o.z, last.z);
+    for (uint i = 2u; i < point_count; i++) {
+        dvec3 p = point_at(i), a = last - o, b = p - o;
+        sum += dvec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+        nearest = max(nearest, p.z);
+        last = p;
     }
     dvec2 slope = sum.xy * (-1.0 / sum.z);
-    if (is_big(slope.x + slope.y)) return;
+    if (is_big(slope.x + slope.y + o.z)) return;
     for (uint i = 1u; i + 1u < point_count; i += 2u) {
-        dvec3 p[4] = dvec3[4](points[0], points[i], points[i + 1u],
-                              i + 2u < point_count ? points[i + 2u] : points[0]);
+        dvec3 p[4] = dvec3[4](o, point_at(i), point_at(i + 1u), o);
+        if (i + 2u < point_count) p[3] = point_at(i + 2u);
         put(k, p, slope, e.a.xy, e.b.xy, nearest);
     }
 }
 
-// Projects the `count` first of corners, clipped to the frustum and to `reach_` px around the edge.
-void project(Task k, ScreenEdge e, dvec3 corners_[4], uint count, double reach_) {
-    uint codes = 0u;
-    point_count = count;
-    for (uint i = 0u; i < count; i++) {
-        clip_points[i] = to_clip_d(corners_[i]);
-        codes |= outcode(clip_points[i]);
-    }
-    for (int plane = 0; plane < 6 && point_count >= 3u; plane++)
-        if ((codes >> plane & 1u) != 0u) clip_by(plane);
-    for (uint i = 0u; i < point_count; i++) {
-        if (!(clip_points[i].c.w > 0.0)) return;
-        points[i] = to_screen(clip_points[i]);
-        if (is_big(points[i].x + points[i].y + points[i].z)) return;
-    }
-    double n = dot(e.n, e.a.xy), t = dot(e.t, e.a.xy);
-    if (point_count >= 3u) cut_by(dvec3(-e.n, n + reach_));
-    if (point_count >= 3u) cut_by(dvec3(e.n, reach_ - n));
-    if (point_count >= 3u) cut_by(dvec3(e.t, reach_ - t));
-    if (point_count >= 3u) cut_by(dvec3(-e.t, reach_ + t + e.length));
-    if (point_count >= 3u) put_points(k, e);
-}
-
-// The quad that an edge sweeps along `direction`. The formula needs corners before the eye, so the edge is clipped before it
-// is moved, and the quad again afterwards.
-void put_swept(Task k, ScreenEdge e, uint half_edge, dvec3 direction, dvec3 normal, double px) {
-    vec3 from = world_of(corners[half_edge]), to = world_of(corners[next_in(half_edge)]);
+// The part of an edge that is seen: the formula needs corners before the eye.
+bool visible_part(vec3 from, vec3 to, out dvec3 a, out dvec3 b) {
     ClipPoint ca = to_clip(from), cb = to_clip(to);
     double t0 = 0.0, t1 = 1.0;
-    if ((outcode(ca) | outcode(cb)) != 0u && !clip_segment(ca, cb, t0, t1)) return;
-    dvec3 d = dvec3(to) - dvec3(from), u = edge_direction(from, to), a = dvec3(from) + d * t0,
-          b = dvec3(from) + d * t1;
-    dvec3 quad[4] = dvec3[4](a, b, paper_offset(b, u, direction, normal, px),
-                             paper_offset(a, u, direction, normal, px));
-    project(k, e, quad, 4u, PAPER_REACH * px);
+    if ((outcode(ca) | outcode(cb)) != 0u && !clip_segment(ca, cb, t0, t1)) return false;
+    a = dvec3(from) + (dvec3(to) - dvec3(from)) * t0, b = dvec3(from) + (dvec3(to) - dvec3(from)) * t1;
+    return true;
 }
 
-void shade_silhouette(Polygon p, uint half_edge, Pen pen, Task k) {
+// One polygon, from the points of an edge (of one corner, if bevel) moved in two directions.
+struct Sweep {
+    bool any;
+    dvec3 a, b, ea, eb, da, db, normal;
+    double px;
+};
+void put_sweep(Task k, ScreenEdge e, Sweep s) {
+    if (!s.any) return;
+    base = point_count = 0u;
+    add_point(s.a);
+    if (k.kind != BEVEL) add_point(s.b);
+    add_point(paper_offset(s.b, s.eb, s.db, s.normal, s.px));
+    add_point(paper_offset(s.a, s.ea, s.da, s.normal, s.px));
+    project(k, e, PAPER_REACH * s.px);
+}
+
+// Q and R (2.2). A quad that faces away is culled.
+Sweep folded(Polygon p, vec3 from, vec3 to, Pen pen) {
+    Sweep s;
+    dvec3 u = edge_direction(from, to), o = cross_of(u, p.normal);
+    s.normal = -pen.cosine * p.normal + pen.sine * o;
+    s.ea = s.eb = u;
+    s.da = s.db = -pen.sine * p.normal - pen.cosine * o;
+    s.px = pen.reach;
+    s.any = dot(view_vector(dvec3(from)), s.normal) < 0.0 && visible_part(from, to, s.a, s.b);
+    return s;
+}
+Sweep enlarged(Polygon p, vec3 from, vec3 to, Pen pen) {
+    Sweep s;
+    s.normal = p.normal;
+    s.ea = s.eb = edge_direction(from, to);
+    s.da = s.db = cross_of(s.ea, p.normal);
+    s.px = pen.reach;
+    s.any = visible_part(from, to, s.a, s.b);
+    return s;
+}
+// The triangle between the quads of two edges, at the corner where the first one ends: the paper's 2n-gon.
+Sweep bevel_at(Polygon p, uint half_edge, vec3 from, vec3 corner, Pen pen) {
+    Sweep s;
+    uint next = next_outer(p, half_edge);
+    s.normal = p.normal;
+    s.a = s.b = dvec3(corner);
+    s.eb = edge_direction(from, corner);
+    s.ea = edge_direction(corner, world_of(corners[next_in(next)]));
+    s.db = cross_of(s.eb, p.normal), s.da = cross_of(s.ea, p.normal);
+    s.px = pen.reach;
+    s.any = may_be_line(next) && outcode(to_clip(corner)) == 0u;
+    return s;
+}
+
+// Both polygons that a half-edge may add.
+void shade_paper(Polygon p, uint half_edge, bool first_one, bool second_one, Pen first_pen,
+                 Pen second_pen, Task first, Task second) {
     ScreenEdge e = screen_edge(p, half_edge);
     if (!e.seen) return;
-    uint next = next_outer(p, half_edge);
-    vec3 corner = world_of(corners[next]);
-    dvec3 u = edge_direction(world_of(corners[half_edge]), corner);
-    put_swept(k, e, half_edge, cross(u, p.normal), p.normal, pen.reach);
-    if (!may_be_line(next) || outcode(to_clip(corner)) != 0u) return;
-    // the triangle between the quads of two edges: the paper's 2n-gon
-    dvec3 at = dvec3(corner), v = edge_direction(corner, world_of(corners[next_in(next)]));
-    dvec3 bevel[4] = dvec3[4](at, paper_offset(at, u, cross(u, p.normal), p.normal, pen.reach),
-                              paper_offset(at, v, cross(v, p.normal), p.normal, pen.reach), at);
-    project(k, e, bevel, 3u, PAPER_REACH * pen.reach);
+    vec3 from = world_of(corners[half_edge]), to = world_of(corners[next_in(half_edge)]);
+    for (int i = 0; i < 2; i++) {
+        Sweep s;
+        if (!(i == 0 ? first_one : second_one)) continue;
+        if (p.front) s = folded(p, from, to, i == 0 ? first_pen : second_pen);
+        else if (i == 0) s = enlarged(p, from, to, first_pen);
+        else s = bevel_at(p, half_edge, from, to, first_pen);
+        put_sweep(i == 0 ? first : second, e, s);
+    }
 }
-
-// Q and R (2.2).
-void shade_folded(Polygon p, uint half_edge, Pen pen, Task k) {
-    vec3 from = world_of(corners[half_edge]);
-    dvec3 u = edge_direction(from, world_of(corners[next_in(half_edge)])), o = cross(u, p.normal);
-    dvec3 q = -pen.sine * p.normal - pen.cosine * o, r = -pen.cosine * p.normal + pen.sine * o;
-    if (dot(view_vector(dvec3(from)), r) >= 0.0) return; // culled: the quad faces away
-    ScreenEdge e = screen_edge(p, half_edge);
-    if (e.seen) put_swept(k, e, half_edge, q, r, pen.reach);
-}
-void shade_ridge(Polygon p, uint half_edge, Pen pen, Task k) { shade_folded(p, half_edge, pen, k); }
-void shade_valley(Polygon p, uint half_edge, Pen pen, Task k) { shade_folded(p, half_edge, pen, k); }

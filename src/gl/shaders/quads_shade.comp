@@ -30,6 +30,7 @@ uniform uint first_command;
 uniform uvec4 list_ends; // places of lists: 0 to x, x to y, y to z
 #endif
 
+const uint BEVEL = 32u; // a triangle between two quads
 const uint LINES = 0u, JOINTS = 1u, VALLEYS = 2u;
 
 // A place in the list; NONE: there is none, which does not happen.
@@ -95,22 +96,24 @@ void shade(uint half_edge) {
     if (is_beside(half_edge) || !may_be_line(half_edge)) return;
     uint t = half_edge / 3u;
     Polygon p = polygon_with(t);
-    if (!is_outer(p, half_edge)) return;
-    if (!p.front) {
-        Pen pen = Pen(double(reach.x), 0.0, 0.0, false);
-        if (draws(SILHOUETTE))
-            shade_silhouette(p, half_edge, pen, Task(SILHOUETTE, 0u, LINES, t, 1.0));
-        return;
-    }
-    if (is_diagonal(half_edge)) return;
-    if (ridge_line != NONE) {
-        Pen pen = Pen(double(reach.y), picture.angles.x, picture.angles.y, reflex.x != 0u);
-        shade_ridge(p, half_edge, pen, Task(ridge_line, 0u, LINES, t, 1.0));
-    }
-    if (draws(VALLEY)) {
-        Pen pen = Pen(double(reach.z), picture.angles.z, picture.angles.w, reflex.y != 0u);
-        shade_valley(p, half_edge, pen, Task(VALLEY, ADDED_VALLEY, VALLEYS, t, -1.0));
-    }
+    if (!is_outer(p, half_edge) || (p.front && is_diagonal(half_edge))) return;
+    Pen outline = Pen(double(reach.x), 0.0, 0.0, false),
+        ridge = Pen(double(reach.y), picture.angles.x, picture.angles.y, reflex.x != 0u),
+        valley = Pen(double(reach.z), picture.angles.z, picture.angles.w, reflex.y != 0u);
+    Task silhouette = Task(SILHOUETTE, 0u, LINES, t, 1.0), bevel = silhouette,
+         fold = Task(ridge_line, 0u, LINES, t, 1.0),
+         dent = Task(VALLEY, ADDED_VALLEY, VALLEYS, t, -1.0);
+    bool outlines = draws(SILHOUETTE), ridges = ridge_line != NONE, valleys = draws(VALLEY);
+#ifdef PAPER
+    bevel.kind = BEVEL;
+    if (p.front) silhouette = fold, bevel = dent, outline = ridge;
+    shade_paper(p, half_edge, p.front ? ridges : outlines, p.front ? valleys : outlines, outline, valley,
+                silhouette, bevel);
+#else
+    if (!p.front && outlines) shade_silhouette(p, half_edge, outline, silhouette);
+    if (p.front && ridges) shade_ridge(p, half_edge, ridge, fold);
+    if (p.front && valleys) shade_valley(p, half_edge, valley, dent);
+#endif
 }
 
 void main() {
