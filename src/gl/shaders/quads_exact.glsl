@@ -1,5 +1,5 @@
 // Exact widths: rectangles beside the projected edge, of which only the depth comes from the plane in space, and fans of
-// thin triangles as round joints (features/build.c, dp_screen_…).
+// thin triangles as round joints (features/build.c, dp_screen_…). As in quads_paper.glsl, all goes through one loop.
 
 const double SAGITTA = 0.3LF; // px: the triangles of a joint may miss its circle by so much
 const uint SPANS = 7u;        // and there are at most so many of them
@@ -51,8 +51,7 @@ void put_thin(Task k, dvec3 o, dvec3 from, dvec3 to) {
 
 // The joint between the rectangles of an edge and of the next one. `folded`: a cone, as far above the polygon's plane as
 // the quads at the pen's angle; else in that plane.
-void put_joint(Task k, Polygon p, uint half_edge, ScreenEdge e, Pen pen, double reach_, bool folded) {
-    ScreenEdge f = screen_edge(p, next_outer(p, half_edge));
+void put_joint(Task k, Polygon p, ScreenEdge e, ScreenEdge f, Pen pen, double reach_, bool folded) {
     if (!f.seen || e.ends_outside || is_big(e.own)) return;
     double from_rise = 0.0, to_rise = 0.0;
     if (folded) {
@@ -78,28 +77,34 @@ void put_joint(Task k, Polygon p, uint half_edge, ScreenEdge e, Pen pen, double 
     put_thin(k, e.b, from, circle_point(e, reach_, f.n, to_rise));
 }
 
-void shade_silhouette(Polygon p, uint half_edge, Pen pen, Task k) {
-    ScreenEdge e = screen_edge(p, half_edge);
-    if (!e.seen || e.own <= -BIG) return; // it leads straight away from the eye
-    put_quad(k, e, pen.reach, min(e.own, e.steep));
-    put_joint(k, p, half_edge, e, pen, pen.reach, false);
-}
-void shade_ridge(Polygon p, uint half_edge, Pen pen, Task k) {
-    ScreenEdge e = screen_edge(p, half_edge);
-    if (!e.seen) return;
+// How the rectangle beside an edge is drawn: its width (0: not at all), and its slope.
+dvec2 rectangle_of(ScreenEdge e, uint line, Pen pen) {
+    if (line == SILHOUETTE) // none if it leads straight away from the eye
+        return e.own <= -BIG ? dvec2(0.0) : dvec2(pen.reach, min(e.own, e.steep));
     Lean lean = quad_lean(e, pen);
-    if (!lean.outward && !pen.reflex) return;
-    put_quad(k, e, pen.reach, lean.outward ? min(lean.slope, e.steep) : e.steep);
-    k.list = joint_list;
-    put_joint(k, p, half_edge, e, pen, pen.reach, true);
-}
-void shade_valley(Polygon p, uint half_edge, Pen pen, Task k) {
-    ScreenEdge e = screen_edge(p, half_edge);
-    if (!e.seen) return;
-    Lean lean = quad_lean(e, pen);
-    if (!lean.outward && pen.reflex) return;
+    if (line != VALLEY) {
+        if (!lean.outward && !pen.reflex) return dvec2(0.0);
+        return dvec2(pen.reach, lean.outward ? min(lean.slope, e.steep) : e.steep);
+    }
+    if (!lean.outward && pen.reflex) return dvec2(0.0);
     double slope = lean.outward ? lean.slope : -e.steep;
-    double reach_ = slope > e.steep ? pen.reach * e.steep / slope : pen.reach;
-    put_quad(k, e, reach_, slope);
-    put_joint(k, p, half_edge, e, pen, reach_, true);
+    return dvec2(slope > e.steep ? pen.reach * e.steep / slope : pen.reach, slope);
+}
+
+// Both lines that a half-edge may add.
+void shade_exact(Polygon p, uint half_edge, bool first_one, bool second_one, Pen first_pen,
+                 Pen second_pen, Task first, Task second) {
+    ScreenEdge e = screen_edge(p, half_edge);
+    if (!e.seen) return;
+    ScreenEdge f = screen_edge(p, next_outer(p, half_edge));
+    for (int i = 0; i < 2; i++) {
+        if (!(i == 0 ? first_one : second_one)) continue;
+        Task k = i == 0 ? first : second;
+        Pen pen = i == 0 ? first_pen : second_pen;
+        dvec2 rectangle = rectangle_of(e, k.line, pen);
+        if (!(rectangle.x > 0.0)) continue;
+        put_quad(k, e, rectangle.x, rectangle.y);
+        if (k.line == ridge_line) k.list = joint_list;
+        put_joint(k, p, e, f, pen, rectangle.x, k.line != SILHOUETTE);
+    }
 }

@@ -100,19 +100,19 @@ void shade(uint half_edge) {
     Pen outline = Pen(double(reach.x), 0.0, 0.0, false),
         ridge = Pen(double(reach.y), picture.angles.x, picture.angles.y, reflex.x != 0u),
         valley = Pen(double(reach.z), picture.angles.z, picture.angles.w, reflex.y != 0u);
-    Task silhouette = Task(SILHOUETTE, 0u, LINES, t, 1.0), bevel = silhouette,
-         fold = Task(ridge_line, 0u, LINES, t, 1.0),
-         dent = Task(VALLEY, ADDED_VALLEY, VALLEYS, t, -1.0);
+    Task first = Task(SILHOUETTE, 0u, LINES, t, 1.0), second = first;
+    second.kind = BEVEL;
     bool outlines = draws(SILHOUETTE), ridges = ridge_line != NONE, valleys = draws(VALLEY);
+    if (p.front) {
+        first = Task(ridge_line, 0u, LINES, t, 1.0), outline = ridge;
+        second = Task(VALLEY, ADDED_VALLEY, VALLEYS, t, -1.0);
+    }
 #ifdef PAPER
-    bevel.kind = BEVEL;
-    if (p.front) silhouette = fold, bevel = dent, outline = ridge;
     shade_paper(p, half_edge, p.front ? ridges : outlines, p.front ? valleys : outlines, outline, valley,
-                silhouette, bevel);
+                first, second);
 #else
-    if (!p.front && outlines) shade_silhouette(p, half_edge, outline, silhouette);
-    if (p.front && ridges) shade_ridge(p, half_edge, ridge, fold);
-    if (p.front && valleys) shade_valley(p, half_edge, valley, dent);
+    shade_exact(p, half_edge, p.front ? ridges : outlines, p.front && valleys, outline, valley, first,
+                second);
 #endif
 }
 
