@@ -84,7 +84,10 @@ dp_result dp_gl_quads_portion(dp_gl *gl, bool once, dp_gl_portions *out, dp_diag
     const uint32_t all = 3 * gl->scene.triangle_count;
     *out = (dp_gl_portions){0};
     count_rooms(&gl->style, once, out);
-    out->edges = BYTES_MOST / RECORD / out->places / 192 * 192;
+    const size_t memory = gl->desc.memory,
+                 bytes = memory && memory < BYTES_MOST ? memory : BYTES_MOST;
+    out->edges = (uint32_t)(bytes / RECORD / out->places / 192 * 192);
+    if (!out->edges) out->edges = 192;
     if (out->edges > all) out->edges = all;
     out->count = (all + out->edges - 1) / out->edges;
     uint32_t end = 0;

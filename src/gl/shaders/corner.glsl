@@ -14,6 +14,9 @@
 
 out float gl_ClipDistance[1];
 
+// What the device clips with beyond this would overflow: such points are made smaller, w and all.
+const double FAR = 1048576.0;
+
 // `range`: factor and offset: window depth in [0, 1] = d * x + y
 vec4 place_on_screen(vec3 s, vec2 range) {
     return vec4(s.x * picture.size.z * 2.0 - 1.0, s.y * picture.size.w * 2.0 - 1.0,
@@ -29,7 +32,9 @@ vec4 place_corner(uint half_edge, vec2 range) {
     ClipPoint c = to_clip(world_of(vertex));
     if (isnan(float(c.c.x + c.c.y + c.c.w))) return vec4(0.0, 0.0, 0.0, -1.0); // not finite
     // z / w as above, of a point of any w: d * w is 1, or -distance
-    double zw =
-        (is_perspective() ? 1.0 : -c.distance) * double(range.x) + double(range.y) * c.c.w;
-    return vec4(float(c.c.x), float(-c.c.y), float(CLIP_ZW(zw, c.c.w)), float(c.c.w));
+    double zw = (is_perspective() ? 1.0 : -c.distance) * double(range.x) + double(range.y) * c.c.w;
+    dvec4 p = dvec4(c.c.x, -c.c.y, CLIP_ZW(zw, c.c.w), c.c.w), q = abs(p);
+    double most = max(max(q.x, q.y), max(q.z, q.w)), k = most > FAR ? FAR / most : 1.0;
+    gl_ClipDistance[0] = float((c.c.w - c.c.z) * k);
+    return vec4(p * k);
 }
