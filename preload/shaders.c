@@ -66,12 +66,15 @@ static const char lines_vertex[] = GLSL(
  *   kind    theta's, phi's plane lies outwards; T is drawn (not culled): 0 or 1; the margin
  * The constants, in units unless said otherwise:
  *   REACH   1.2 px: the centre of the pixel that holds such a point lies 0.5 to 1.9 px beside the edge
+ *   NEAR    0.72 px: half a pixel's diagonal, so that centre is just outside. Edges that are hidden but less
+ *           than REACH inside an outline have it, and what lies far behind at REACH, beside them
  *   TRAP    16: a neighbour's depth changes as much over REACH when it is 4 degrees from edge-on
  *   JUMP    40: where depth falls that far, no neighbour was ever there: an outline, or a border
  *   margin  a silhouette's edge is nearer than what lies outside by 2; by 12 if T is drawn and
  *           called front, for then only inverted winding makes it one */
 static const char found[] = GLSL(
     const float REACH = 1.2;
+    const float NEAR = 0.72;
     const float TRAP = 16.0;
     const float JUMP = 40.0;
     uniform sampler2D depth;
@@ -94,11 +97,12 @@ static const char found[] = GLSL(
         float steep = length(planes.xy);
         float z_out = seen(outside);
         float behind = span.y + dot(planes.xy, inside - line.xy) - seen(inside);
+        float z_free = min(z_out, seen(centre(spine + NEAR * n)));
         float slack = 0.05 * unit + 2.0 * step_depth;
         if (behind > slack + 0.02 * steep) /* T is hidden: a silhouette where its edge is not */
-            return vec3(z < z_out - kind.w * unit - slack ? 1.0 : 0.0, 0.0, 0.0);
+            return vec3(z < z_free - kind.w * unit - slack ? 1.0 : 0.0, 0.0, 0.0);
         if (kind.z < 0.5 || behind < -(12.0 * unit + 2.0 * steep)) return vec3(0.0); /* T is not there */
-        if (z < z_out - JUMP * unit - 4.0 * steep)
+        if (z < z_free - JUMP * unit - 4.0 * steep)
             return kinds.x > 0.0 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
         if (kind.x > 0.5 && span.y + dot(planes.zw, to_outside) < z_out - slack) return vec3(0.0, 1.0, 0.0);
         float z_valley = span.y + dot(more.xy, to_outside);
@@ -146,6 +150,7 @@ static const char planes_of_edges[] = GLSL(
 
 /* A short edge is looked along before its band is made, at places 2 px apart: most edges show nothing. */
 static const char lines_geometry[] = GLSL(
+    const float THIN = 0.02; /* px: what rounding of coordinates may add up to */
     uniform vec4 viewpoint; /* homogeneous, eye space */
     uniform vec2 facing;    /* winding on the screen, 1 or -1: what is culled (0: none); of fronts */
     uniform float reach;    /* half a line's width and half a smooth rim, px */
@@ -178,6 +183,10 @@ static const char lines_geometry[] = GLSL(
         vec4 p1 = window(b);
         float length_px = distance(p0.xy, p1.xy);
         if (p0.w <= 0.0 || p1.w <= 0.0 || length_px < 0.01) return;
+        vec2 t = (p1.xy - p0.xy) / length_px;
+        vec4 p2 = window(third);
+        vec2 aside = p2.xy - p0.xy;
+        if (p2.w > 0.0 && abs(t.x * aside.y - t.y * aside.x) < THIN) return; /* nor has it a side */
         vec3 viewer = normalize(viewpoint.xyz - a * viewpoint.w);
         vec3 to_viewer = relative(viewer, p0);
         if (to_viewer.z > 0.0) viewer = -viewer;
@@ -193,7 +202,6 @@ static const char lines_geometry[] = GLSL(
         float drawn = winding != facing.x ? 1.0 : 0.0;
         vec3 side = cross(viewer, abs(viewer.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         float unit = abs(to_viewer.z) / length(relative(normalize(side), p0).xy);
-        vec2 t = (p1.xy - p0.xy) / length_px;
         vec2 n = vec2(t.y, -t.x) * winding;
         vec4 l = vec4(p0.xy, t);
         vec4 s = vec4(length_px, p0.z, p1.z - p0.z, unit);
