@@ -11,6 +11,7 @@ library=$(realpath "${1:-$here/build/libdrypoint-preload.so}")
 gallery=$here/docs/gallery
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+side=280 # px
 convert=/usr/bin/convert montage=/usr/bin/montage
 
 # shot FILE SECONDS PROGRAM [VARIABLE...]: what its window shows after so long.
@@ -20,14 +21,14 @@ shot() {
     case $program in
     glxgears) set -- "$@" glxgears ;;
     *) for folder in /usr/libexec/xscreensaver /usr/lib/xscreensaver; do
-        [ ! -x $folder/$program ] || set -- "$@" $folder/$program -window
+        [ ! -x "$folder/$program" ] || set -- "$@" "$folder/$program" -window
     done ;;
     esac
-    env "$@" -geometry 402x402+0+0 >"$work/log" 2>&1 &
+    env "$@" -geometry $((side + 2))x$((side + 2))+0+0 >"$work/log" 2>&1 &
     pid=$!
     sleep "$seconds"
     kill -0 $pid || { cat "$work/log"; exit 1; }
-    /usr/bin/import -window root -crop 400x400+1+1 +repage "$file"
+    /usr/bin/import -window root -crop "${side}x$side+1+1" +repage "$file"
     kill $pid
     wait $pid || true
 }
@@ -38,17 +39,21 @@ shot 1 4 glxgears "${lines[@]}"
 shot 2 6 gears "${lines[@]}"
 shot 3 6 moebiusgears "${lines[@]}"
 shot 4 6 glknots "${lines[@]}"
-shot 5 25 topblock "${lines[@]}"
+shot 5 15 queens "${lines[@]}" DRYPOINT_ALSO=blended
 shot 6 8 superquadrics "${lines[@]}"
 shot 7 6 polyhedra "${lines[@]}"
-$montage "$work"/[0-7].png -tile 4x2 -geometry 400x400+4+4 -background white "$work/sheet.png"
-$convert "$work/sheet.png" -resize 60% -colors 64 -define png:compression-level=9 -strip "$gallery/preload-hacks.png"
+sheet() { # FILE COLUMNS PICTURE...
+    local file=$gallery/$1.png columns=$2
+    shift 2
+    $montage "$@" -tile "${columns}x" -geometry "${side}x$side+3+3" -background white "$work/sheet.png"
+    $convert "$work/sheet.png" +dither -colors 128 -define png:compression-level=9 -strip "$file"
+}
+sheet preload-hacks 4 "$work"/[0-7].png
 
 # The three inks, on the program's own picture and on paper.
 inks=(DRYPOINT_SILHOUETTE_INK=#000000 DRYPOINT_RIDGE_INK=#c00000 DRYPOINT_VALLEY_INK=#0050d0)
 shot 0 4 glxgears "${lines[@]}" "${inks[@]}"
 shot 1 4 glxgears "${lines[@]}" DRYPOINT_SHADED=1 DRYPOINT_INK=#ffffff
 shot 2 4 glxgears "${lines[@]}" DRYPOINT_WIDTH=5 DRYPOINT_PAPER=#fff4dc DRYPOINT_INK=#402000
-$montage "$work"/[0-2].png -tile 3x1 -geometry 400x400+4+4 -background white "$work/sheet.png"
-$convert "$work/sheet.png" -resize 75% -colors 64 -define png:compression-level=9 -strip "$gallery/preload-inks.png"
+sheet preload-inks 3 "$work"/[0-2].png
 ls -l "$gallery"/preload-*.png
