@@ -71,6 +71,11 @@ find_missing() {
     numpy || missing="$missing python3-numpy"
     [ -d /usr/share/assimp/models ] || missing="$missing assimp-testmodels" # some of them move
     fuzzer_runtime || missing="$missing $(compiler_rt)"
+    # Programs under libdrypoint-preload.so: headers and a server, and hacks to draw (8 MB, 20 MB unpacked).
+    { [ -e /usr/include/GL/glx.h ] && [ -e /usr/include/X11/Xlib.h ]; } || missing="$missing libgl-dev libx11-dev"
+    have Xvfb || missing="$missing xvfb"
+    have glxgears || missing="$missing mesa-utils"
+    [ -x /usr/libexec/xscreensaver/gears ] || [ -x /usr/lib/xscreensaver/gears ] || missing="$missing xscreensaver-gl"
 }
 
 find_missing "$@"
