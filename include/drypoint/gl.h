@@ -136,7 +136,8 @@ typedef struct dp_gl_segment {
     uint32_t k0, k1, n; /* it is the part from k0 / n to k1 / n of the whole edge */
     uint32_t hider[2];  /* triangle that hides what comes before a, after b; UINT32_MAX: none
                            is known, UINT32_MAX - 1: nothing does, the edge ends or leaves the picture */
-    uint32_t seen;      /* bit 0: `triangle` is seen beside the line, bit 1: `other` is */
+    uint32_t seen; /* bit 0: `triangle` is seen beside the line, bit 1: `other` is; bits 16 to 31:
+                      the group of `triangle` */
 } dp_gl_segment;
 
 /* The last picture's segments on the device, for the application's own use, valid until the next call

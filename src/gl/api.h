@@ -115,6 +115,7 @@
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                                             \
     X(IsEnabled, PFNGLISENABLEDPROC)                                                               \
     X(IsEnabledi, PFNGLISENABLEDIPROC)                                                             \
+    X(IsFramebuffer, PFNGLISFRAMEBUFFERPROC)                                                       \
     X(LineWidth, PFNGLLINEWIDTHPROC)                                                               \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                                                           \
     X(LogicOp, PFNGLLOGICOPPROC)                                                                   \

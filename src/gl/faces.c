@@ -146,6 +146,7 @@ dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag) {
     if (!result) result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
     dp_gl_depth_range(gl, range);
+    gl->faces.range[0] = range[0], gl->faces.range[1] = range[1];
     clear(gl);
     if (gl->target.depth_texture) result = put_foreign(gl, range, diag);
     if (result) return result;

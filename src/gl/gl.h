@@ -56,6 +56,16 @@ typedef struct dp_gl_picture_block {
     uint32_t style[4];                   /* lines, perspective, cull_back_faces, free */
 } dp_gl_picture_block;
 
+/* Normals of a mesh, and how up to date they are (attributes.c). */
+typedef struct dp_gl_mesh_normals {
+    dp_gl_buffer made;  /* computed: [3 * triangle] as dp_gl_mesh.normals */
+    uint64_t made_from; /* `version` of the positions that they are of; 0: none are made */
+    float crease;       /* degrees */
+    uint64_t version;   /* changes with the source's positions and attributes */
+    bool lacks;         /* some corners have no normal of their own, and get one that is made */
+    bool is_foreign;    /* the positions are the application's: none are computed */
+} dp_gl_mesh_normals;
+
 /* A mesh on the device. */
 struct dp_gl_mesh {
     dp_gl *gl;
@@ -64,12 +74,15 @@ struct dp_gl_mesh {
     bool owned;              /* the buffers are the library's: */
     dp_gl_buffer positions, corners, triangles, normals, texcoords, colors;
     bool has_normals, has_texcoords, has_colors;
-    uint64_t topology;  /* changes with the indices: a number that no other state has had */
-    uint64_t placement; /* the same of `matrix` and the positions of owned buffers */
-    double origin[3];   /* world space: what positions count from */
+    dp_gl_mesh_normals shading; /* what normals, texcoords and colors are of */
+    bool keeps_groups;          /* its groups have the same numbers in the picture */
+    uint64_t topology;          /* changes with the indices: a number that no other state has had */
+    uint64_t placement;         /* the same of `matrix` and the positions of owned buffers */
+    double origin[3];           /* world space: what positions count from */
     double matrix[16];
     bool placed;       /* there is a matrix */
     uint64_t polygons; /* of the source */
+    uint32_t pieces;   /* convex ones, which triangles are numbered by */
     uint32_t vertex_count, triangle_count;
     uint32_t *
         polygon_firsts; /* [triangle]: the first triangle of its polygon; NULL: all are their own */
@@ -79,6 +92,11 @@ struct dp_gl_mesh {
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
 
+/* Groups of the meshes of a picture are numbered one mesh after the other. */
+static inline uint32_t dp_gl_groups_of(const dp_gl_mesh *mesh) {
+    return mesh->keeps_groups ? 0 : mesh->group_count ? mesh->group_count : 1;
+}
+
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {
     dp_gl_mesh **meshes; /* borrowed, of the last picture */
@@ -87,6 +105,8 @@ typedef struct dp_gl_scene {
     double origin[3]; /* of all positions on the device, world space */
     uint32_t vertex_count, triangle_count;
     bool new_topology;     /* since the last picture: nothing that is kept of it holds */
+    uint64_t topology;     /* a number that changes with it; 0: no scene */
+    bool has_fans;         /* some polygons are of several triangles */
     dp_gl_buffer vertices; /* [vertex] screen x, y, d, key; world x, y, z, 0: vec4 each */
     dp_gl_buffer corners;  /* [3 * triangle] vertex */
     dp_gl_buffer
@@ -100,6 +120,7 @@ typedef struct dp_gl_faces {
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
     uint32_t sampler; /* for the application's depth */
+    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -109,12 +130,14 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer counters;   /* dp_gl_counters */
     dp_gl_buffer candidates; /* dp_gl_candidate */
     dp_gl_buffer segments;   /* dp_gl_segment */
-    dp_gl_buffer disputed;   /* emerge.c's own */
+    dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
+    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
+    dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
+    dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
     uint64_t topology;       /* whose mates they are */
-    dp_segment *read;        /* read back (read.c) */
-    size_t read_cap, read_count;
-    bool have_read;
+    struct dp_lines *read;   /* the picture's lines, read back (read.c) */
+    bool have_read, have_hiders;
 } dp_gl_lines_store;
 
 /* Mates: the half-edge that runs the same edge the other way; the same way, with DP_GL_MATE_ALIKE; or none, or more than
@@ -126,8 +149,9 @@ typedef struct dp_gl_lines_store {
 /* Counters on the device: the first four are a DrawArraysIndirectCommand for the segments' capsules. */
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
-    uint32_t candidates, disputed, crossings, wanted[5]; /* free for the stages: see picture.glsl */
-    uint32_t groups[4][4];                               /* arguments of indirect dispatches */
+    uint32_t candidates, disputed, crossings;
+    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
+    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
 } dp_gl_counters;
 
 /* A line that may be visible. 32 bytes. */
@@ -155,6 +179,7 @@ typedef struct dp_gl_ink {
 typedef struct dp_gl_quads dp_gl_quads;     /* quads.c */
 typedef struct dp_gl_shading dp_gl_shading; /* shading.c: G-buffer, edge map, styles of surfaces */
 typedef struct dp_gl_fins dp_gl_fins;       /* fins.c: textured silhouettes, pencil */
+typedef struct dp_gl_mirror dp_gl_mirror;   /* mirror.c: the reflected scene, and its picture */
 
 struct dp_gl {
     dp_allocator memory;
@@ -189,6 +214,7 @@ struct dp_gl {
     dp_gl_quads *quads;     /* made when first used */
     dp_gl_shading *shading; /* the same */
     dp_gl_fins *fins;       /* the same */
+    dp_gl_mirror *mirror;   /* the same */
 
     dp_gl_stats stats;
     bool timed;

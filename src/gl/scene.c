@@ -61,11 +61,12 @@ void dp_gl_scene_bind(dp_gl *gl) {
 
 /* Writes one mesh's corners and triangles behind those before it. */
 static void put_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t first_vertex,
-                     uint32_t first_triangle, uint64_t first_polygon) {
+                     uint32_t first_triangle, uint64_t first_polygon, uint32_t first_group) {
     const dp_gl_api *const a = &gl->api;
     dp_gl_uniform_u(gl, program, "first_vertex", first_vertex);
     dp_gl_uniform_u(gl, program, "first_triangle", first_triangle);
     dp_gl_uniform_u(gl, program, "first_polygon", (uint32_t)first_polygon);
+    dp_gl_uniform_u(gl, program, "first_group", m->keeps_groups ? 0 : first_group);
     dp_gl_uniform_u(gl, program, "vertex_count", m->vertex_count);
     dp_gl_uniform_u(gl, program, "triangle_count", m->triangle_count);
     dp_gl_uniform_u(gl, program, "indices_at",
@@ -80,7 +81,7 @@ static void put_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t 
 
 static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
     static const dp_gl_program_desc desc = {.compute = "scene_corners.comp"};
-    uint32_t program, vertices = 0, triangles = 0;
+    uint32_t program, vertices = 0, triangles = 0, groups = 0;
     uint64_t polygons = 0;
     const dp_result result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
@@ -88,8 +89,9 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
     dp_gl_scene_bind(gl);
     for (size_t i = 0; i < gl->scene.count; i++) {
         const dp_gl_mesh *const m = gl->scene.meshes[i];
-        put_mesh(gl, program, m, vertices, triangles, polygons);
-        vertices += m->vertex_count, triangles += m->triangle_count, polygons += m->polygons;
+        put_mesh(gl, program, m, vertices, triangles, polygons, groups);
+        vertices += m->vertex_count, triangles += m->triangle_count, polygons += m->pieces;
+        groups += dp_gl_groups_of(m);
     }
     return DP_OK;
 }
@@ -99,12 +101,15 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
     s->new_topology = !is_known(s, meshes, count);
     if (!s->new_topology) return DP_OK;
     s->count = 0;
+    s->topology = dp_gl_number(gl);
     dp_result result = reserve_list(gl, count)
                            ? count_all(gl, meshes, count, diag)
                            : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a list of meshes");
     if (!result) result = reserve_device(gl, diag);
     if (result) return result;
+    s->has_fans = false;
     for (size_t i = 0; i < count; i++) {
+        s->has_fans |= meshes[i]->polygon_firsts != NULL;
         s->meshes[i] = meshes[i];
         s->topologies[i] = meshes[i]->topology;
         s->placements[i] = meshes[i]->placement;
@@ -116,8 +121,7 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
     return result;
 }
 
-/* Rows of the map from a mesh's own space to the scene's; false if it changes nothing. */
-static bool placement_of(const dp_gl_mesh *m, const double origin[3], double rows[3][4]) {
+bool dp_gl_placement_of(const dp_gl_mesh *m, const double origin[3], double rows[3][4]) {
     bool moves = m->placed;
     for (int r = 0; r < 3; r++) {
         rows[r][3] = m->origin[r] - origin[r];
@@ -135,7 +139,7 @@ static bool placement_of(const dp_gl_mesh *m, const double origin[3], double row
 static dp_result place_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t first,
                             dp_gl_buffer *placement, dp_diag *diag) {
     double rows[3][4];
-    const bool moves = placement_of(m, gl->scene.origin, rows);
+    const bool moves = dp_gl_placement_of(m, gl->scene.origin, rows);
     const dp_result result =
         dp_gl_buffer_fill(gl, placement, rows, sizeof rows, "a mesh's place", diag);
     if (result) return result;

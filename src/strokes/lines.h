@@ -67,6 +67,9 @@ bool dp_piece_goes_on(const dp_piece *p, const dp_piece *q);
 /* The rule by which plain strokes are chained (lines.c). */
 dp_chain_rule dp_plain_chain_rule(void);
 
+/* Does the near or the far plane cut a spine there? (segments.c) */
+bool dp_lies_on_plane(const dp_view *view, const float world[3]);
+
 /* Puts segments into the order of polygons and edges (lines.c). */
 void dp_sort_segments(dp_lines *drawing);
 

@@ -171,10 +171,10 @@ static dp_point take_end(const dp_frame *frame, const dp_segment_batch *made, ui
     return p;
 }
 
-/* Does the near or the far plane cut a spine there? w - z and w + z are affine in world space: over
+/* w - z and w + z are affine in world space: over
  * their gradients they are distances from the planes, which tell at any ratio of near to far; z / w
  * is nearly 1 for much of the depth where near is close to the eye. */
-static bool lies_on_plane(const dp_view *view, const float world[3]) {
+bool dp_lies_on_plane(const dp_view *view, const float world[3]) {
     const dp_clip_point c = dp_to_clip(view, dp_v3f(world));
     const double *const z = view->clip[2], *const w = view->clip[3];
     const double reach = 1e-5 * fabs(c.distance) + 1e-6 * dp_length(dp_v3f(world));
@@ -211,7 +211,7 @@ static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, u
         out->end[k] = DP_END_PICTURE;
     } else if (hider == DP_HIDER_NONE) {
         const float world[3] = {made->world[k][0][i], made->world[k][1][i], made->world[k][2][i]};
-        out->end[k] = lies_on_plane(&frame->view, world) ? DP_END_PICTURE
+        out->end[k] = dp_lies_on_plane(&frame->view, world) ? DP_END_PICTURE
                       : piece->edge == DP_CROSSING       ? DP_END_CROSSING
                                                          : DP_END_VERTEX;
     } else {

@@ -1,0 +1,6 @@
+// What each triangle shows to the eye, made once a picture (edge_faces.comp): that of the polygon it is part of.
+struct Side {
+    vec3 normal; // unit, as it is wound
+    uint kind;
+};
+const uint SIDE_FRONT = 1u, SIDE_EDGE_ON = 2u, SIDE_NO_AREA = 4u;
