@@ -134,7 +134,8 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer candidates; /* dp_gl_candidate */
     dp_gl_buffer segments;   /* dp_gl_segment */
     dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
-    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
+    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (sides.c) */
+    dp_gl_buffer pairs;      /* half-edges that may be lines (edges.c) */
     dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
     dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
@@ -153,8 +154,8 @@ typedef struct dp_gl_lines_store {
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
     uint32_t candidates, disputed, crossings;
-    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
-    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
+    uint32_t wanted[5];    /* [0] to [2]: see passes.h */
+    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0]: see passes.h */
 } dp_gl_counters;
 
 /* A line that may be visible. 32 bytes. */
