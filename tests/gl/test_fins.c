@@ -266,6 +266,21 @@ static void is_mirrored(void **state) {
     close_scene(&s);
 }
 
+/* Strokes by adjacency are those that the table of edges finds, whose mates are an adjacency. */
+static void strokes_by_adjacency(void **state) {
+    gl_test *const t = *state;
+    const look k = {"strokes", "bracket", NULL, 3, 4, false, 0.995};
+    scene s;
+    if (!t->gl) skip();
+    open_scene(&k, &s);
+    s.style.ink = DP_INK_STROKES, s.style.lines = DP_ALL_LINES;
+    uint8_t *const gpu = gl_test_draw(t, s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
+    uint8_t *const cpu = gl_test_draw_cpu(s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
+    assert_true(gl_test_alike(gpu, cpu, WIDTH, HEIGHT, 2) > k.least);
+    free(gpu), free(cpu);
+    close_scene(&s);
+}
+
 /* What is not drawn is named. */
 static void refuses_the_rest(void **state) {
     gl_test *const t = *state;
@@ -306,6 +321,7 @@ int main(void) {
                                        cmocka_unit_test(lies_over_creases),
                                        cmocka_unit_test(brings_colours),
                                        cmocka_unit_test(is_mirrored),
+                                       cmocka_unit_test(strokes_by_adjacency),
                                        cmocka_unit_test(refuses_the_rest)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }
