@@ -108,7 +108,8 @@ static void follows_buffers(void **state) {
     dp_gl_mesh *mesh;
     if (!t->gl) skip();
     const dp_camera camera = figure_camera(false, 20);
-    const dp_style style = {.lines = DP_NO_LINES, .shade.shading = DP_SHADING_PENCIL};
+    const dp_style style = {.lines = DP_NO_LINES,
+                            .shade = {.shading = DP_SHADING_PENCIL, .normals = DP_NORMALS_FACET}};
     const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 1);
     figure_make(&f, 0);
     const GLuint names[2] = {buffer_of(t, f.positions, sizeof f.positions),
