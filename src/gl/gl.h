@@ -92,10 +92,11 @@ struct dp_gl_mesh {
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
 
-/* Groups of the meshes of a picture are numbered one mesh after the other. */
-static inline uint32_t dp_gl_groups_of(const dp_gl_mesh *mesh) {
-    return mesh->keeps_groups ? 0 : mesh->group_count ? mesh->group_count : 1;
-}
+/* Groups in a picture, as dp_source_join numbers them: k is group 0 of mesh k, then come the others of each mesh. A mesh's
+ * group g is `zero` if it is 0, else `others` + g. */
+typedef struct dp_gl_group_numbers {
+    uint32_t zero, others;
+} dp_gl_group_numbers;
 
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {
@@ -122,7 +123,7 @@ typedef struct dp_gl_faces {
     dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
     uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
     uint32_t sampler; /* for the application's depth */
-    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
+    float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -166,6 +167,18 @@ typedef struct dp_gl_candidate {
     uint32_t seen;   /* bit 0: a is seen beside it, bit 1: b */
     uint32_t level;  /* 0 */
 } dp_gl_candidate;
+
+/* Edges where the eye decides (emerge.c), and crossings (crossings.c). */
+typedef struct dp_gl_eye {
+    dp_gl_buffer words;    /* counts and rooms, bits of half-edges and cells, lists of cells */
+    dp_gl_buffer looked;   /* half-edges that are looked at */
+    dp_gl_buffer chunks;   /* parts of these */
+    dp_gl_buffer nodes;    /* of the cells' lists: polygons */
+    dp_gl_buffer findings; /* by sample point: what is seen there */
+    dp_gl_buffer pairs;    /* the table of polygons that may cross */
+    dp_gl_buffer crossed;  /* those, and where they do */
+    dp_gl_buffer along;    /* crossings by cells */
+} dp_gl_eye;
 
 typedef struct dp_gl_surface {
     dp_gl_texture
@@ -215,6 +228,7 @@ struct dp_gl {
     dp_gl_scene scene;
     dp_gl_faces faces;
     dp_gl_lines_store lines;
+    dp_gl_eye eye;
     dp_gl_surface surface;
     dp_gl_ink ink;
     dp_gl_quads *quads;     /* made when first used */

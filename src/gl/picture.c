@@ -17,9 +17,9 @@
 #include "gl/shading.h"
 #include "gl/surface.h"
 
+#include "base/elementary.h"
 #include "core/outline.h"
 
-#include <math.h>
 #include <string.h>
 
 const char *dp_gl_stage_name(dp_gl_stage stage) {
@@ -39,8 +39,8 @@ static void put_vector(dp_vec3 v, double last, double out[4]) {
 /* Half a degree short of the least fold that is drawn, a right angle at the most; 2 where flat edges are lines too. As in
  * draw/draw.c. */
 static float flat_cosine(const dp_style *s) {
-    const float least = fminf(180 - s->ridge_angle, s->valley_angle - 180);
-    return least > 1 ? (float)cos(((double)fminf(least, 90) - 0.5) * 0.017453292519943295) : 2;
+    const float least = dp_minf(180 - s->ridge_angle, s->valley_angle - 180);
+    return least > 1 ? (float)dp_cos(((double)dp_minf(least, 90) - 0.5) * 0.017453292519943295) : 2;
 }
 
 static void put_view(dp_gl *gl) {
@@ -66,8 +66,8 @@ static void put_style(dp_gl *gl) {
     dp_gl_picture_block *const b = &gl->block;
     const double theta = (double)s->ridge_angle * 0.017453292519943295,
                  phi = (double)s->valley_angle * 0.017453292519943295;
-    b->angles[0] = cos(theta), b->angles[1] = sin(theta);
-    b->angles[2] = cos(phi), b->angles[3] = sin(phi);
+    b->angles[0] = dp_cos(theta), b->angles[1] = dp_sin(theta);
+    b->angles[2] = dp_cos(phi), b->angles[3] = dp_sin(phi);
     for (int i = 0; i < DP_LINE_COUNT; i++) {
         b->widths[i][0] = s->line[i].width;
         put_color(s->line[i].color, b->colors[i]);

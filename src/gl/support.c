@@ -37,7 +37,6 @@ dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *dia
         {style->exact_ends, "exact ends"},
         {style->pattern.texture != NULL, "patterns on lines"},
         {style->line_light.lighting != DP_LINE_LIGHT_OFF, "light on lines"},
-        {style->edge_table_off, "the switch edge_table_off"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (rules[i].asked)

@@ -8,11 +8,6 @@ invariant gl_Position; // the same in each pass over the model
 
 #ifdef PROJECTED // the picture's textures, projected from the camera: for textureProj
 out vec4 projected;
-void project() {
-    projected = vec4((gl_Position.xy + gl_Position.w) * 0.5, 0.0, gl_Position.w);
-}
-#else
-void project() {}
 #endif
 
 void main() {
@@ -21,5 +16,7 @@ void main() {
     Corner c = corner_at(corners[half_edge]);
     gl_Position = c.position;
     gl_ClipDistance[0] = c.before_far;
-    project();
+#ifdef PROJECTED
+    projected = vec4((gl_Position.xy + gl_Position.w) * 0.5, 0.0, gl_Position.w);
+#endif
 }
