@@ -5,6 +5,7 @@
  *    drawn     marks half-edges that have made lines
  *    cells     marks the cells of 8 x 8 px in which there are sample points
  *    bin       polygons → lists of the marked cells that they touch
+ *    backs     marks the tiles in which back faces are seen
  *    look      for each sample point: what is seen to the left and to the right of the edge, of its cell's polygons
  *    runs      of sample points with one answer → candidates
  *
@@ -23,8 +24,9 @@ typedef struct eye_head {
     uint32_t looked_room, chunks_room, places_room, nodes_room;
     uint32_t cells_x, cells_y, emerging_at, cells_at, lists_at, candidates_room, disputed_room,
         all_edges;
-    float touching, crack, precision, free;
-    uint32_t groups[6][4];
+    float touching, crack, precision;
+    uint32_t tiles_at;
+    uint32_t groups[7][4];
 } eye_head;
 
 enum {
@@ -42,7 +44,8 @@ enum {
     GROUPS_LOOKED,
     GROUPS_CHUNKS,
     GROUPS_TRIANGLES,
-    GROUPS_DRAWN
+    GROUPS_DRAWN,
+    GROUPS_CELLS
 };
 
 static size_t words_of(size_t bits) { return (bits + 31) / 32; }
@@ -59,7 +62,8 @@ static size_t lay_out(const dp_gl *gl, eye_head *h) {
     const size_t cells = (size_t)h->cells_x * h->cells_y;
     h->emerging_at = (uint32_t)bits;
     h->cells_at = (uint32_t)(2 * bits);
-    h->lists_at = (uint32_t)(2 * bits + words_of(cells));
+    h->tiles_at = (uint32_t)(2 * bits + words_of(cells));
+    h->lists_at = h->tiles_at + (uint32_t)words_of(cells); /* there are fewer tiles */
     return h->lists_at + cells;
 }
 
@@ -191,6 +195,7 @@ dp_result dp_gl_find_emerging(dp_gl *gl, dp_diag *diag) {
         {"eye_drawn.comp", {&l->counters, &l->candidates, NULL, &l->mates}, GROUPS_DRAWN},
         {"eye_cells.comp", {&e->looked, &e->chunks}, GROUPS_CHUNKS},
         {"eye_bin.comp", {&e->nodes}, GROUPS_TRIANGLES},
+        {"eye_backs.comp", {&l->sides}, GROUPS_CELLS},
         {"eye_look.comp", {&e->looked, &e->chunks, &e->nodes, &e->findings}, GROUPS_CHUNKS},
         {"eye_runs.comp", {&e->looked, &l->counters, &e->findings, &l->candidates}, GROUPS_LOOKED}};
     dp_result result = begin(gl, diag);
