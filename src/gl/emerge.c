@@ -16,8 +16,6 @@
 #include "gl/lines.h"
 #include "gl/scene.h"
 
-#include "core/precision.h"
-
 /* The same in shaders/eye.glsl. */
 typedef struct eye_head {
     uint32_t looked, chunks, places, nodes;
@@ -90,9 +88,31 @@ static dp_result reserve(dp_gl *gl, dp_diag *diag) {
     return result;
 }
 
+/* What the model's own rounding allows: as the CPU has it of all polygons together (core/precision.c). */
+static dp_tolerances tolerances_of(const dp_gl *gl) {
+    static const dp_written unknown = {0};
+    dp_written all = {0};
+    for (size_t i = 0; i < gl->scene.count; i++) {
+        const dp_gl_mesh *const m = gl->scene.meshes[i];
+        if (!(m->written.precision > 0) || m->placed) return dp_tolerances_of(&unknown, &gl->view);
+        dp_vec3 by;
+        by.x = m->origin[0] - gl->scene.origin[0], by.y = m->origin[1] - gl->scene.origin[1];
+        by.z = m->origin[2] - gl->scene.origin[2];
+        const dp_vec3 least = dp_add(m->written.least, by), most = dp_add(m->written.most, by);
+        if (i == 0) all = (dp_written){m->written.precision, least, most};
+        all.precision = dp_min(all.precision, m->written.precision);
+        all.least = dp_v3(dp_min(all.least.x, least.x), dp_min(all.least.y, least.y),
+                          dp_min(all.least.z, least.z));
+        all.most = dp_v3(dp_max(all.most.x, most.x), dp_max(all.most.y, most.y),
+                         dp_max(all.most.z, most.z));
+    }
+    return dp_tolerances_of(&all, &gl->view);
+}
+
 /* Clears the words, and writes what they begin with. */
 static dp_result begin(dp_gl *gl, dp_diag *diag) {
-    eye_head h = {.touching = DP_TOUCHING, .crack = DP_CRACK};
+    const dp_tolerances t = tolerances_of(gl);
+    eye_head h = {.touching = t.touching, .crack = t.crack, .precision = (float)t.precision};
     const size_t size = sizeof h + 4 * lay_out(gl, &h);
     dp_result result = reserve(gl, diag);
     if (!result)
