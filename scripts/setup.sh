@@ -27,6 +27,25 @@ compiler_rt() {
     echo "libclang-rt-${version:-14}-dev"
 }
 
+header() { have cc && echo "#include <$1>" | cc -E -x c - >/dev/null 2>&1; }
+any_file() {
+    for file; do
+        [ ! -e "$file" ] || return 0
+    done
+    return 1
+}
+
+# Without these a component, or its tests, is left out, and all else goes on.
+find_optional() {
+    optional=
+    header GL/glcorearb.h || optional="$optional libgl-dev"
+    [ "${1:-build}" = check ] || return 0
+    header EGL/egl.h || optional="$optional libegl-dev"
+    any_file /usr/lib*/libEGL.so.1 /usr/lib/*/libEGL.so.1 || optional="$optional libegl1"
+    any_file /usr/lib*/dri/swrast_dri.so /usr/lib/*/dri/swrast_dri.so /usr/lib*/libgallium*.so \
+        /usr/lib/*/libgallium*.so || optional="$optional libgl1-mesa-dri"
+}
+
 find_missing() {
     missing=
     { have cc && have c++ && have make; } || missing="$missing build-essential"
@@ -52,12 +71,20 @@ find_missing() {
     numpy || missing="$missing python3-numpy"
     [ -d /usr/share/assimp/models ] || missing="$missing assimp-testmodels" # some of them move
     fuzzer_runtime || missing="$missing $(compiler_rt)"
+    # Programs under libdrypoint-preload.so: headers and a server, and hacks to draw (8 MB, 20 MB unpacked).
+    { [ -e /usr/include/GL/glx.h ] && [ -e /usr/include/X11/Xlib.h ]; } || missing="$missing libgl-dev libx11-dev"
+    have Xvfb || missing="$missing xvfb"
+    have glxgears || missing="$missing mesa-utils"
+    [ -x /usr/libexec/xscreensaver/gears ] || [ -x /usr/lib/xscreensaver/gears ] || missing="$missing xscreensaver-gl"
 }
 
 find_missing "$@"
-[ -n "$missing" ] || exit 0
+find_optional "$@"
+[ -n "$missing$optional" ] || exit 0
 
 if ! have apt-get; then
+    [ -z "$optional" ] || echo "setup: drawing by OpenGL lacks what these Debian packages hold:$optional" >&2
+    [ -n "$missing" ] || exit 0
     echo "setup: this machine lacks what these Debian packages hold:$missing" >&2
     echo "setup: there is no apt-get here; install the same by its own package manager." >&2
     exit 1
@@ -65,7 +92,8 @@ fi
 root=
 if [ "$(id -u)" -ne 0 ]; then
     if ! have sudo; then
-        echo "setup: as root, please run: apt-get install$missing" >&2
+        echo "setup: as root, please run: apt-get install$missing$optional" >&2
+        [ -n "$missing" ] || exit 0
         exit 1
     fi
     root="sudo"
@@ -81,6 +109,13 @@ apt update >"$log" 2>&1 || {
     tail -n 3 "$log" >&2
 }
 find_missing "$@" # the lists may name another compiler-rt
+if [ -n "$optional" ]; then
+    echo "setup: installing$optional${root:+, as root through sudo}"
+    # shellcheck disable=SC2086
+    apt install --no-install-recommends $optional >"$log" 2>&1 ||
+        echo "setup: that did not work; drawing by OpenGL, or its tests, are left out" >&2
+fi
+[ -n "$missing" ] || exit 0
 echo "setup: installing$missing${root:+, as root through sudo}"
 # shellcheck disable=SC2086
 if ! apt install --no-install-recommends $missing >"$log" 2>&1; then

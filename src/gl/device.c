@@ -1,6 +1,7 @@
 /* A dp_gl: what the context can do, and what all stages share. */
 #include "gl/ink.h"
 #include "gl/lines.h"
+#include "gl/mirror.h"
 #include "gl/scene.h"
 #include "gl/surface.h"
 
@@ -10,7 +11,8 @@
 static void forward_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                             const GLchar *text, const void *user) {
     const dp_gl *const gl = user;
-    (void)source, (void)type, (void)id, (void)length;
+    (void)type, (void)id, (void)length;
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return; /* program.c tells it, with names */
     if (severity != GL_DEBUG_SEVERITY_NOTIFICATION && gl->desc.message)
         gl->desc.message(gl->desc.user, text);
 }
@@ -106,11 +108,12 @@ dp_result dp_gl_create(const dp_gl_desc *desc, dp_gl **out, dp_diag *diag) {
     gl->lines.topology = UINT64_MAX;
     dp_result result = dp_gl_api_load(&gl->api, desc, diag);
     if (!result) result = ask_device(gl, diag);
+    if (!result) dp_gl_forget_errors(gl); /* the application's own */
+    if (!result && gl->is_lost) result = dp_gl_check(gl, "creating a dp_gl", diag);
     if (result) {
         dp_free(&memory, gl);
         return result;
     }
-    dp_gl_forget_errors(gl); /* the application's own */
     listen(gl);
     gl->api.GenVertexArrays(1, &gl->vertex_array);
     *out = gl;
@@ -119,6 +122,7 @@ dp_result dp_gl_create(const dp_gl_desc *desc, dp_gl **out, dp_diag *diag) {
 
 static void free_host(dp_gl *gl) {
     const dp_allocator memory = gl->memory;
+    dp_gl_mirror_free(gl);
     dp_gl_scene_free_host(gl);
     dp_gl_read_free(gl);
     dp_free(&memory, gl->programs.entries);
@@ -128,7 +132,12 @@ static void free_host(dp_gl *gl) {
 
 void dp_gl_destroy(dp_gl *gl) {
     if (!gl) return;
+    if (gl->is_lost) {
+        dp_gl_abandon(gl);
+        return;
+    }
     dp_gl_programs_free(gl);
+    dp_gl_mirror_free(gl);
     dp_gl_scene_free(gl);
     dp_gl_faces_free(gl);
     dp_gl_lines_free(gl);

@@ -57,6 +57,16 @@ typedef struct dp_gl_picture_block {
     uint32_t style[4];                   /* lines, perspective, cull_back_faces, free */
 } dp_gl_picture_block;
 
+/* Normals of a mesh, and how up to date they are (attributes.c). */
+typedef struct dp_gl_mesh_normals {
+    dp_gl_buffer made;  /* computed: [3 * triangle] as dp_gl_mesh.normals */
+    uint64_t made_from; /* `version` of the positions that they are of; 0: none are made */
+    float crease;       /* degrees */
+    uint64_t version;   /* changes with the source's positions and attributes */
+    bool lacks;         /* some corners have no normal of their own, and get one that is made */
+    bool is_foreign;    /* the positions are the application's: none are computed */
+} dp_gl_mesh_normals;
+
 /* A mesh on the device. */
 struct dp_gl_mesh {
     dp_gl *gl;
@@ -65,9 +75,11 @@ struct dp_gl_mesh {
     bool owned;              /* the buffers are the library's: */
     dp_gl_buffer positions, corners, triangles, normals, texcoords, colors;
     bool has_normals, has_texcoords, has_colors;
-    uint64_t topology;  /* changes with the indices: a number that no other state has had */
-    uint64_t placement; /* the same of `matrix` and the positions of owned buffers */
-    double origin[3];   /* world space: what positions count from */
+    dp_gl_mesh_normals shading; /* what normals, texcoords and colors are of */
+    bool keeps_groups;          /* its groups have the same numbers in the picture */
+    uint64_t topology;          /* changes with the indices: a number that no other state has had */
+    uint64_t placement;         /* the same of `matrix` and the positions of owned buffers */
+    double origin[3];           /* world space: what positions count from */
     double matrix[16];
     dp_written written; /* of a source's positions, in its own space (core/precision.h) */
     bool placed;        /* there is a matrix */
@@ -81,6 +93,12 @@ struct dp_gl_mesh {
     uint32_t group_count;
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
+
+/* Groups in a picture, as dp_source_join numbers them: k is group 0 of mesh k, then come the others of each mesh. A mesh's
+ * group g is `zero` if it is 0, else `others` + g. */
+typedef struct dp_gl_group_numbers {
+    uint32_t zero, others;
+} dp_gl_group_numbers;
 
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {
@@ -104,6 +122,8 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
+    dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
+    uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
     uint32_t sampler; /* for the application's depth */
     float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
@@ -117,11 +137,12 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer segments;   /* dp_gl_segment */
     dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
     dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
-    dp_gl_buffer words;      /* of long spines, their sample points (visibility.c) */
+    dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
+    dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
     uint64_t topology;       /* whose mates they are */
     struct dp_lines *read;   /* the picture's lines, read back (read.c) */
-    bool have_read;
+    bool have_read, have_hiders;
 } dp_gl_lines_store;
 
 /* Mates: the half-edge that runs the same edge the other way; the same way, with DP_GL_MATE_ALIKE; or none, or more than
@@ -134,7 +155,7 @@ typedef struct dp_gl_lines_store {
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
     uint32_t candidates, disputed, crossings;
-    uint32_t wanted[5];    /* [0]: words of long spines (visibility.c) */
+    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
     uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
 } dp_gl_counters;
 
@@ -175,6 +196,7 @@ typedef struct dp_gl_ink {
 typedef struct dp_gl_quads dp_gl_quads;     /* quads.c */
 typedef struct dp_gl_shading dp_gl_shading; /* shading.c: G-buffer, edge map, styles of surfaces */
 typedef struct dp_gl_fins dp_gl_fins;       /* fins.c: textured silhouettes, pencil */
+typedef struct dp_gl_mirror dp_gl_mirror;   /* mirror.c: the reflected scene, and its picture */
 
 struct dp_gl {
     dp_allocator memory;
@@ -190,6 +212,10 @@ struct dp_gl {
     uint32_t samples_most; /* of colour, integer and depth at once */
     uint32_t texture_most, storage_most;
     uint32_t vertex_array;
+    /* For tests: as if the context had no geometry shader; stroke textures by the texture unit, by four texels in float32, or by
+     * these with shares in steps of 1/256 (fins_texture.c). */
+    bool no_geometry_shader;
+    enum { DP_GL_LOOKUPS_UNIT, DP_GL_LOOKUPS_EXACT, DP_GL_LOOKUPS_STEPS } lookups;
 
     /* the picture that is drawn */
     dp_view view;
@@ -210,6 +236,7 @@ struct dp_gl {
     dp_gl_quads *quads;     /* made when first used */
     dp_gl_shading *shading; /* the same */
     dp_gl_fins *fins;       /* the same */
+    dp_gl_mirror *mirror;   /* the same */
 
     dp_gl_stats stats;
     bool timed;

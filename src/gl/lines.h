@@ -20,6 +20,8 @@ void dp_gl_eye_free(dp_gl *gl);
 dp_result dp_gl_find_crossings(dp_gl *gl, dp_diag *diag);
 /* visibility.c: candidates → segments. */
 dp_result dp_gl_find_visible(dp_gl *gl, dp_diag *diag);
+/* visibility.c: what hides segments beyond their ends; done when somebody reads them. */
+dp_result dp_gl_find_hiders(dp_gl *gl, dp_diag *diag);
 /* visibility.c: was any buffer of these stages full? Then it has been made larger, and they must run again. */
 dp_result dp_gl_grow_lines(dp_gl *gl, bool *again, dp_diag *diag);
 void dp_gl_lines_free(dp_gl *gl);

@@ -1,15 +1,21 @@
 /* What comes back from the device as it is: buffers of lines, and pixels. */
 #include "gl/lines.h"
 #include "gl/scene.h"
+#include "gl/surface.h"
 
 #include <string.h>
 
 dp_result dp_gl_lines_of(dp_gl *gl, dp_gl_lines *out, dp_diag *diag) {
     if (!gl || !out) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_lines_of: gl or out is NULL");
     if (!gl->drawn) return dp_fail(diag, DP_ERR_ARGUMENT, "dp_gl_lines_of: nothing has been drawn");
+    dp_gl_state *state;
+    dp_result result = dp_gl_enter(gl, &state, diag);
+    if (result) return result;
+    result = dp_gl_find_hiders(gl, diag);
+    dp_gl_leave(gl, state);
     *out = (dp_gl_lines){gl->lines.segments.name, gl->lines.counters.name,
                          offsetof(dp_gl_counters, segments)};
-    return DP_OK;
+    return result;
 }
 
 static void turn_rows(uint8_t *rgba, size_t stride, uint32_t width, uint32_t height) {
@@ -45,11 +51,9 @@ static dp_result read_rows(dp_gl *gl, const dp_gl_target *t, uint8_t *rgba, size
     GLint drawn = 0, read = 0, several = 0;
     GLuint framebuffer = 0;
     dp_gl_texture mean = {0};
-    dp_result result = DP_OK;
-    a->BindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
-    if (a->CheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return dp_fail(diag, DP_ERR_ARGUMENT, "framebuffer %u is not complete%s", t->framebuffer,
-                       t->framebuffer ? "" : ": there is no window");
+    dp_result result = dp_gl_bind_framebuffer(gl, GL_READ_FRAMEBUFFER, t->framebuffer, diag);
+    if (!result) result = dp_gl_bind_framebuffer(gl, GL_DRAW_FRAMEBUFFER, t->framebuffer, diag);
+    if (result) return result;
     a->GetIntegerv(GL_DRAW_BUFFER0, &drawn);
     a->GetIntegerv(GL_READ_BUFFER, &read);
     a->GetIntegerv(GL_SAMPLE_BUFFERS, &several);

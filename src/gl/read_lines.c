@@ -152,7 +152,8 @@ static dp_result read_lines(dp_gl *gl, const dp_allocator *memory, dp_lines *d, 
     dp_gl_state *state;
     dp_result result = dp_gl_enter(gl, &state, diag);
     if (result) return result;
-    result = fill(gl, memory, d, diag);
+    result = dp_gl_find_hiders(gl, diag);
+    if (!result) result = fill(gl, memory, d, diag);
     dp_gl_leave(gl, state);
     return result;
 }

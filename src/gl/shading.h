@@ -51,11 +51,15 @@ struct dp_gl_shading {
     const dp_gl_texture *mirrored; /* shown by pixels of DP_MIRROR_GROUP; NULL: no mirror */
 };
 
-/* shading.c: gl->shading, made when first used. */
+/* shading.c: does the picture's style need a G-buffer? */
+bool dp_gl_is_shaded(const dp_gl *gl);
+/* gl->shading, made when first used. */
 dp_result dp_gl_need_shading(dp_gl *gl, dp_diag *diag);
 
 /* attributes.c: gathers what this style needs of the meshes' attributes. */
 dp_result dp_gl_gather_attributes(dp_gl *gl, bool textured, bool colored, dp_diag *diag);
+/* Rows of the matrix that turns normals as the mesh stands: the cofactors of that which turns positions. */
+void dp_gl_turn_of(const dp_gl_mesh *mesh, double rows[3][3]);
 void dp_gl_attributes_free(dp_gl *gl, dp_gl_scene_attributes *attributes);
 
 /* edge_map.c: the G-buffer → edge map; its edges over `from` → s->edged, in a second pass over the model. */

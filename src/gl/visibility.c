@@ -1,13 +1,15 @@
 /* Visibility of lines: candidates become segments.
  *
- *    spines with sample points, a quarter of a pixel apart, lifted off the surface    spine.glsl
- *    points hidden by what the samples around them show, and by what is joined to it   hide.glsl
- *    runs of visible points → segments                                                 visibility.comp
+ *    spines with sample points, a quarter of a pixel apart, lifted off the surface     visible_spines.comp
+ *    points, 32 an invocation: are they hidden by what the samples around them show,
+ *    or by what is joined to it?                                                       visible_points.comp
+ *    runs of visible points → segments                                                 visible_segments.comp
+ *    what hides their ends, when somebody reads them                                   visible_hiders.comp
  *
  * The same points as in find/visibility.c, and the same question: does a polygon that is not the line's own cover the
  * point, nearer by DP_PROBE_SLACK? There every polygon is asked; here those that are seen around the point, and from there
- * on over the surface. Spines of more than a word of points are listed and divided between invocations; so the segments
- * are the same however long a spine is. Data structure: lists with counters (dp_gl_counters); one that was full is made
+ * on over the surface. However long a spine is, its points are
+ * divided between invocations, and its segments are whole. Data structure: lists with counters (dp_gl_counters); one that was full is made
  * larger, and the stages that fill them run again. Invariant: after dp_gl_grow_lines without `again` no list lacks a
  * member. Not handled: hiders that no sample around a point shows, nor a part of the same surface. */
 #include "gl/lines.h"
@@ -17,29 +19,35 @@
 enum {
     AT_CANDIDATES = offsetof(dp_gl_counters, candidates) / 4,
     AT_WORDS = offsetof(dp_gl_counters, wanted) / 4,
+    AT_SEGMENTS = offsetof(dp_gl_counters, segments) / 4,
     AT_GROUPS = offsetof(dp_gl_counters, groups) / 4
 };
-enum { WORD = 16 /* bytes: 32 sample points of a long spine */, FIRST_ROOM = 1 << 14 };
-
-static dp_result reserve(dp_gl *gl, dp_diag *diag) {
-    dp_gl_lines_store *const l = &gl->lines;
-    dp_result result = dp_gl_buffer_reserve(gl, &l->words, FIRST_ROOM * (size_t)WORD,
-                                            "sample points of long lines", diag);
-    if (!result)
-        result = dp_gl_buffer_reserve(gl, &l->segments, FIRST_ROOM * sizeof(dp_gl_segment),
-                                      "segments", diag);
-    const uint32_t room = (uint32_t)(l->segments.size / sizeof(dp_gl_segment));
-    if (!result && gl->block.counts[3] != room) result = dp_gl_upload_block(gl, diag);
-    return result;
-}
+/* Bytes: 32 sample points of a spine; a spine (shaders/lines.glsl). */
+enum { WORD = 8, SPINE = 112, FIRST_ROOM = 1 << 14 };
 
 static uint32_t rooms(const dp_gl_buffer *buffer, size_t size) {
     return (uint32_t)(buffer->size / size);
 }
 
-/* Arguments of an indirect dispatch over a list, at groups[slot]. */
-static dp_result count_groups(dp_gl *gl, uint32_t count_at, uint32_t room, uint32_t slot,
-                              dp_diag *diag) {
+static dp_result reserve(dp_gl *gl, dp_diag *diag) {
+    dp_gl_lines_store *const l = &gl->lines;
+    const size_t candidates = rooms(&l->candidates, sizeof(dp_gl_candidate));
+    dp_result result =
+        dp_gl_buffer_reserve(gl, &l->spines, candidates * SPINE, "spines of lines", diag);
+    if (!result)
+        result = dp_gl_buffer_reserve(gl, &l->words, FIRST_ROOM * (size_t)WORD,
+                                      "sample points of lines", diag);
+    if (!result)
+        result = dp_gl_buffer_reserve(gl, &l->segments, FIRST_ROOM * sizeof(dp_gl_segment),
+                                      "segments", diag);
+    if (!result && gl->block.counts[3] != rooms(&l->segments, sizeof(dp_gl_segment)))
+        result = dp_gl_upload_block(gl, diag);
+    return result;
+}
+
+/* Arguments of an indirect dispatch over `times` a list's members, at groups[slot]. */
+static dp_result count_groups(dp_gl *gl, uint32_t count_at, uint32_t room, uint32_t times,
+                              uint32_t slot, dp_diag *diag) {
     static const dp_gl_program_desc desc = {.compute = "groups.comp"};
     uint32_t program;
     const dp_result result = dp_gl_program(gl, &desc, &program, diag);
@@ -49,20 +57,20 @@ static dp_result count_groups(dp_gl *gl, uint32_t count_at, uint32_t room, uint3
     dp_gl_uniform_u(gl, program, "count_at", count_at);
     dp_gl_uniform_u(gl, program, "groups_at", AT_GROUPS + 4 * slot);
     dp_gl_uniform_u(gl, program, "room", room);
+    dp_gl_uniform_u(gl, program, "times", times);
     gl->api.DispatchCompute(1, 1, 1);
     gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     return DP_OK;
 }
 
-/* One pass of visibility.comp, for as many items as groups[slot] has. */
-static dp_result pass(dp_gl *gl, const char *defines, uint32_t slot, dp_diag *diag) {
-    const dp_gl_program_desc desc = {.compute = "visibility.comp", .defines = defines};
-    dp_gl_lines_store *const l = &gl->lines;
+/* Runs a program for as many items as groups[slot] has, with these buffers from DP_GL_BIND_OWN on. */
+static dp_result pass(dp_gl *gl, const char *compute, const dp_gl_buffer *const own[5],
+                      uint32_t slot, dp_diag *diag) {
+    const dp_gl_program_desc desc = {.compute = compute};
+    const dp_gl_lines_store *const l = &gl->lines;
     uint32_t program;
     const dp_result result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
-    const dp_gl_buffer *const own[] = {&l->mates, &l->counters, &l->candidates, &l->segments,
-                                       &l->words};
     dp_gl_use(gl, program);
     dp_gl_scene_bind(gl);
     for (uint32_t i = 0; i < 5; i++) dp_gl_buffer_bind(gl, own[i], DP_GL_BIND_OWN + i);
@@ -81,14 +89,31 @@ static dp_result pass(dp_gl *gl, const char *defines, uint32_t slot, dp_diag *di
 
 dp_result dp_gl_find_visible(dp_gl *gl, dp_diag *diag) {
     dp_gl_lines_store *const l = &gl->lines;
+    const dp_gl_buffer *const points[5] = {&l->mates, &l->counters, &l->candidates, &l->spines,
+                                           &l->words},
+                              *const runs[5] = {&l->segments, &l->counters, &l->candidates,
+                                                &l->spines, &l->words};
     dp_result result = reserve(gl, diag);
     if (!result)
-        result = count_groups(gl, AT_CANDIDATES, rooms(&l->candidates, sizeof(dp_gl_candidate)), 0,
-                              diag);
-    if (!result) result = pass(gl, "#define PASS 0\n", 0, diag);
-    if (!result) result = count_groups(gl, AT_WORDS, rooms(&l->words, WORD), 1, diag);
-    if (!result) result = pass(gl, "#define PASS 1\n", 1, diag);
-    if (!result) result = pass(gl, "#define PASS 2\n", 1, diag);
+        result = count_groups(gl, AT_CANDIDATES, rooms(&l->candidates, sizeof(dp_gl_candidate)), 1,
+                              0, diag);
+    if (!result) result = pass(gl, "visible_spines.comp", points, 0, diag);
+    if (!result) result = count_groups(gl, AT_WORDS, rooms(&l->words, WORD), 1, 1, diag);
+    if (!result) result = pass(gl, "visible_points.comp", points, 1, diag);
+    if (!result) result = pass(gl, "visible_segments.comp", runs, 0, diag);
+    l->have_hiders = false;
+    return result;
+}
+
+dp_result dp_gl_find_hiders(dp_gl *gl, dp_diag *diag) {
+    dp_gl_lines_store *const l = &gl->lines;
+    const dp_gl_buffer *const own[5] = {&l->mates, &l->counters, &l->segments, &l->spines,
+                                        &l->words};
+    if (l->have_hiders || !gl->stats.segments) return DP_OK;
+    dp_result result = count_groups(
+        gl, AT_SEGMENTS, rooms(&l->segments, sizeof(dp_gl_segment)), 2, 1, diag);
+    if (!result) result = pass(gl, "visible_hiders.comp", own, 1, diag);
+    l->have_hiders = !result;
     return result;
 }
 
@@ -112,7 +137,7 @@ dp_result dp_gl_grow_lines(dp_gl *gl, bool *again, dp_diag *diag) {
         result = grow(gl, &l->disputed, c.disputed, sizeof(uint32_t),
                       "edges of which the eye decides", again, diag);
     if (!result)
-        result = grow(gl, &l->words, c.wanted[0], WORD, "sample points of long lines", again, diag);
+        result = grow(gl, &l->words, c.wanted[0], WORD, "sample points of lines", again, diag);
     if (!result)
         result = grow(gl, &l->segments, c.segments, sizeof(dp_gl_segment), "segments", again, diag);
     if (!result) result = dp_gl_grow_emerging(gl, again, diag);
@@ -122,7 +147,8 @@ dp_result dp_gl_grow_lines(dp_gl *gl, bool *again, dp_diag *diag) {
 void dp_gl_lines_free(dp_gl *gl) {
     dp_gl_lines_store *const l = &gl->lines;
     dp_gl_buffer *const buffers[] = {&l->mates,    &l->slots,    &l->counters, &l->candidates,
-                                     &l->segments, &l->disputed, &l->sides,    &l->words};
+                                     &l->segments, &l->disputed, &l->sides,    &l->spines,
+                                     &l->words};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) dp_gl_buffer_free(gl, buffers[i]);
     for (size_t i = 0; i < sizeof l->own / sizeof *l->own; i++) dp_gl_buffer_free(gl, &l->own[i]);
     dp_gl_eye_free(gl);

@@ -43,7 +43,8 @@ static void upload(dp_gl *gl, const dp_lines *lines) {
 }
 
 static uint8_t *draw_gpu(gl_test *t, dp_source *source, const dp_camera *camera,
-                         const dp_style *style, const dp_gl_target *target, const dp_lines *lines) {
+                         const dp_style *style, const dp_gl_target *target, const dp_lines *lines,
+                         dp_gl_mesh **kept) {
     dp_gl *const gl = t->gl;
     uint8_t *const rgba = malloc((size_t)4 * target->width * target->height);
     dp_gl_mesh *mesh = NULL;
@@ -65,13 +66,16 @@ static uint8_t *draw_gpu(gl_test *t, dp_source *source, const dp_camera *camera,
     if (!result) result = dp_gl_read(gl, target, rgba, 0, &diag);
     if (result) fprintf(stderr, "%s\n", diag.message);
     assert_int_equal(result, DP_OK);
-    dp_gl_mesh_destroy(mesh);
+    if (kept)
+        *kept = mesh;
+    else
+        dp_gl_mesh_destroy(mesh);
     return rgba;
 }
 
 void strokes_draw_both(gl_test *t, dp_source *source, const dp_camera *camera,
                        const dp_style *style, const dp_gl_target *target, uint8_t **cpu,
-                       uint8_t **gpu) {
+                       uint8_t **gpu, dp_gl_mesh **kept) {
     const dp_target to = {.width = target->width,
                           .height = target->height,
                           .samples = target->samples,
@@ -81,6 +85,6 @@ void strokes_draw_both(gl_test *t, dp_source *source, const dp_camera *camera,
     assert_int_equal(dp_context_create(NULL, &context, &diag), DP_OK);
     if (dp_draw(context, source, camera, style, &to, &diag)) fail_msg("%s", diag.message);
     *cpu = to.rgba;
-    *gpu = draw_gpu(t, source, camera, style, target, &context->drawing);
+    *gpu = draw_gpu(t, source, camera, style, target, &context->drawing, kept);
     dp_context_destroy(context);
 }

@@ -42,7 +42,7 @@ static void compare(gl_test *t, const look *k) {
     const dp_shape made = {.name = k->shape, .triangles = 1500};
     assert_int_equal(dp_source_from_shape(&made, &source, NULL), DP_OK);
     assert_int_equal(dp_camera_fit_source(&camera, &fit, source, NULL, NULL), DP_OK);
-    strokes_draw_both(t, source, &camera, &style, &target, &cpu, &gpu);
+    strokes_draw_both(t, source, &camera, &style, &target, &cpu, &gpu, NULL);
     const double share = gl_test_alike(gpu, cpu, WIDTH, HEIGHT, 2);
     snprintf(name, sizeof name, "ink-%s-gpu", k->name);
     gl_test_keep(name, gpu, WIDTH, HEIGHT);

@@ -164,7 +164,7 @@ static void depth_of_others_hides_lines(void **state) {
                                    .transparent = true};
             uint8_t *cpu, *gpu;
             own_clear(a, &o, white, depth_of_wall(&camera, cases[i].distance));
-            strokes_draw_both(t, source, &camera, &style, &target, &cpu, &gpu);
+            strokes_draw_both(t, source, &camera, &style, &target, &cpu, &gpu, NULL);
             gl_test_keep(lines ? "target-ink-ridges" : "target-ink", gpu, WIDTH, HEIGHT);
             double ink[2] = {0, 0};
             for (int k = 0; k < BYTES; k += 4) ink[0] += 255 - cpu[k], ink[1] += 255 - gpu[k];

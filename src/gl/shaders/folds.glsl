@@ -8,7 +8,7 @@
 #include "polygons.glsl"
 
 // Cosine and sine of a thousandth of a degree: thresholds allow for so much rounding.
-const double ROUNDING_COS = 0.99999999984769130lf, ROUNDING_SIN = 1.7453292519057202e-5lf;
+const double ROUNDING_COS = 0.99999999984769130LF, ROUNDING_SIN = 1.7453292519057202e-5LF;
 
 // `cosine`, `sine`: of the threshold.
 bool is_at_most(double c, bool concave, double cosine, double sine) {

@@ -24,17 +24,30 @@ uniform sampler2D depths;
 uniform vec2 depth_range; // as in faces.vert
 
 const int STEPS = 24; // of a walk
+const uint NOTHING = 0xFFFFFFFEu; // beside the picture
 const uint HIDES = 0u, CLEAR = 1u, UNSURE = 2u;
+
+// How near a surface must be to hide a sample point at depth d.
+const double SLACK = 0.05LF; // pixel sizes
+float limit_at(double d) {
+    return float(d + (is_perspective() ? SLACK * d / picture.forward.w : SLACK / picture.forward.w));
+}
 
 // What a line is asked against.
 struct Query {
     vec2 at;     // px
     float limit; // d
-    uint a, b;   // polygons that do not hide it
+    uint a, b;   // triangles whose polygons do not hide it; b: NONE
 };
 bool is_own(uint triangle, Query q) {
     uint polygon = polygon_of(triangle);
-    return polygon == q.a || polygon == q.b;
+    return polygon == polygon_of(q.a) || (q.b != NONE && polygon == polygon_of(q.b));
+}
+// What lies beside the line's own triangles, as a sample's number: n < 6.
+uint neighbour_of(Query q, uint n) {
+    uint own = n < 3u ? q.a : q.b;
+    uint mate = own == NONE ? MATE_NONE : mates[3u * own + n % 3u];
+    return is_mate(mate) ? 1u + mate_of(mate) / 3u : 0u;
 }
 
 // A triangle about a point of the screen: on which side of edge k (from corner k) the point lies, times the sign of the
@@ -42,8 +55,9 @@ bool is_own(uint triangle, Query q) {
 struct About {
     vec3 inside;
     float area; // sign: as on the screen; 0: it is too thin to tell
-    float d;    // its depth there, if all are above 0
+    float d;    // of its plane, but no nearer than its nearest corner on the screen
 };
+const float THIN = 1e-4; // px
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 About about_on_screen(vec3 p0, vec3 p1, vec3 p2, vec2 at) {
@@ -53,8 +67,8 @@ About about_on_screen(vec3 p0, vec3 p1, vec3 p2, vec2 at) {
     vec2 u = b - a, v = c - a;
     float reach = max(max(abs(u.x), abs(u.y)), max(abs(v.x), abs(v.y)));
     float d = (e.y * p0.z + e.z * p1.z + e.x * p2.z) / area;
-    d = clamp(d, min(min(p0.z, p1.z), p2.z), max(max(p0.z, p1.z), p2.z));
-    return About(e * s, abs(area) > reach * 1e-4 ? area : 0.0, d);
+    return About(e * s, abs(area) > reach * THIN ? area : 0.0,
+                 min(d, max(max(p0.z, p1.z), p2.z)));
 }
 
 dvec3 homogeneous(ClipPoint c, vec2 at) {
@@ -87,6 +101,12 @@ About about(uint triangle, vec2 at) {
     return about_on_screen(a.xyz, b.xyz, c.xyz, at);
 }
 
+// The nearest depth of a triangle's corners on the screen.
+float nearest_of(uint triangle) {
+    return max(max(screen_of(corners[3u * triangle]).z, screen_of(corners[3u * triangle + 1u]).z),
+               screen_of(corners[3u * triangle + 2u]).z);
+}
+
 // The edge that the point lies furthest beyond; 3: it lies beyond none.
 uint beyond(About r, uint triangle, vec2 at) {
     vec3 e = r.inside;
@@ -100,80 +120,62 @@ uint beyond(About r, uint triangle, vec2 at) {
     return e.x <= e.y && e.x <= e.z ? 0u : e.y <= e.z ? 1u : 2u;
 }
 
-// Walks from a triangle to the one that covers the point; `at` becomes the last one on the way.
-uint walk(inout uint at, Query q) {
+// Walks from a triangle to the one that covers the point; `at` becomes the last one on the way. `votes`: not sure, but the
+// first one's plane lies before the point.
+uint walk(inout uint at, Query q, out bool votes) {
     float facing = 0.0;
     bool alike = false;
+    votes = false;
     for (int i = 0; i < STEPS; i++) {
         if (is_own(at, q)) return CLEAR;
         About r = about(at, q.at);
+        if (i == 0) votes = r.d > q.limit;
+        if (i == 0 && !votes && nearest_of(at) <= q.limit) return CLEAR;
         if (r.area != 0.0) {
             if (facing != 0.0 && (r.area < 0.0) != ((facing < 0.0) != alike)) return CLEAR;
             facing = r.area, alike = false;
-            uint edge = beyond(r, at, q.at);
-            if (edge == 3u) return r.d > q.limit ? HIDES : CLEAR;
-            uint mate = mates[3u * at + edge];
-            if (!is_mate(mate)) return UNSURE;
-            alike = (mate & MATE_ALIKE) != 0u;
-            at = mate_of(mate) / 3u;
-        } else {
-            uint edge = beyond(r, at, q.at);
-            if (edge == 3u) return CLEAR; // it covers nothing
-            uint mate = mates[3u * at + edge];
-            if (!is_mate(mate)) return UNSURE;
-            alike = alike != ((mate & MATE_ALIKE) != 0u);
-            at = mate_of(mate) / 3u;
         }
+        uint edge = beyond(r, at, q.at);
+        if (edge == 3u) return r.area != 0.0 && r.d > q.limit ? HIDES : CLEAR;
+        uint mate = mates[3u * at + edge];
+        if (!is_mate(mate)) return UNSURE;
+        alike = alike != ((mate & MATE_ALIKE) != 0u);
+        at = mate_of(mate) / 3u;
     }
     return UNSURE;
-}
-
-// The nearest depth of a triangle, whose corners are on the screen.
-float nearest_of(uint triangle) {
-    return max(max(screen_of(corners[3u * triangle]).z, screen_of(corners[3u * triangle + 1u]).z),
-               screen_of(corners[3u * triangle + 2u]).z);
 }
 
 // Is the point hidden? `hider`: by which triangle; NONE: it is not known.
 bool is_hidden(Query q, out uint hider) {
     ivec2 corner = ivec2(floor(q.at - 0.5)), own = ivec2(floor(q.at));
-    uint last[4] = uint[4](NONE, NONE, NONE, NONE);
+    uvec4 last = uvec4(NONE);
     int foreign = 0;
     bool any_clear = false;
     hider = NONE;
-    for (int k = 0; k < 4; k++) {
+    for (int n = 0; n < 4 * SAMPLES + 6; n++) {
         // the point's own pixel first
+        int k = n / SAMPLES, i = n % SAMPLES;
         ivec2 p = corner + ivec2((k & 1) ^ (own.x - corner.x), (k >> 1) ^ (own.y - corner.y));
-        if (!is_in_picture(p)) continue;
-        for (int i = 0; i < SAMPLES; i++) {
-            uint id = id_at(p, i);
-            if (id == ID_FOREIGN) {
-                bool hides = q.limit * depth_range.x + depth_range.y < texelFetch(depths, p, i).x;
-                foreign += int(hides && k == 0);
-                any_clear = any_clear || !hides;
-                continue;
-            }
-            if (id == 0u || is_own(id - 1u, q)) {
-                any_clear = true;
-                continue;
-            }
-            if (id == last[0] || id == last[1] || id == last[2] || id == last[3]) continue;
-            last[3] = last[2], last[2] = last[1], last[1] = last[0], last[0] = id;
-            uint at = id - 1u;
-            Plane plane = plane_of(at);
-            float d = plane_at(plane, q.at);
-            if (d <= q.limit && nearest_of(at) <= q.limit) {
-                any_clear = true;
-                continue;
-            }
-            uint found = walk(at, q);
-            if (found == HIDES) {
-                hider = at;
-                return true;
-            }
-            if (found == UNSURE && d > q.limit) hider = id - 1u;
-            else any_clear = true;
+        bool is_sample = n < 4 * SAMPLES;
+        if (!is_sample && !any_clear) return true;
+        uint id = !is_sample ? neighbour_of(q, uint(n - 4 * SAMPLES)) : is_in_picture(p) ? id_at(p, i) : NOTHING;
+        if (any(equal(uvec4(id), last)) || id == NOTHING) continue;
+        if (id == ID_FOREIGN) {
+            bool hides = q.limit * depth_range.x + depth_range.y < texelFetch(depths, p, i).x;
+            foreign += int(hides && k == 0);
+            any_clear = any_clear || !hides;
+            continue;
         }
+        last = uvec4(id, last.xyz);
+        uint at = id - 1u;
+        bool votes = false;
+        uint found = id == 0u ? CLEAR : walk(at, q, votes);
+        if (found == HIDES) {
+            hider = at;
+            return true;
+        }
+        if (found == UNSURE && votes && is_sample) hider = id - 1u;
+        else any_clear = true;
     }
-    return foreign * 2 >= SAMPLES + int(SAMPLES == 1) || !any_clear;
+    return foreign * 2 >= SAMPLES + int(SAMPLES == 1);
 }

@@ -5,12 +5,13 @@
 #include "folds.glsl"
 #include "candidates.glsl"
 
-const double LIFT = 0.1lf, SLACK = 0.05lf, SPACING = 0.25lf; // pixel sizes, pixel sizes, px
+const double LIFT = 0.1LF, SPACING = 0.25LF; // pixel sizes, px
 
 struct Spine {
     dvec3 a, b;             // ends on the screen: x, y, d
     dvec3 probe_a, probe_b; // the same, lifted
     uint n;                 // sample points; point k is (k + 1/2) / n of the way along
+    bool asks_back;         // it is seen only where back faces are
 };
 
 uniform uint has_fans;
@@ -72,7 +73,7 @@ dvec3 lift_of(Candidate c, dvec3 at) {
     return length(sum) > 1e-3 ? unit(sum) : -view_vector(at);
 }
 
-bool place_spine(dvec3 a, dvec3 b, dvec3 normal, out Spine s) {
+bool place_spine(dvec3 a, dvec3 b, dvec3 normal, inout Spine s) {
     ClipPoint ca = clip_of(a), cb = clip_of(b);
     double t0, t1;
     if (!clip_spine(ca, cb, t0, t1)) return false;
@@ -96,9 +97,7 @@ bool spine_of(Candidate c, out Spine s) {
         b = dvec3(world_of(corners[next_in(3u * c.a + c.edge)]));
         normal = lift_of(c, a);
     }
+    s.asks_back = (c.line == RIDGE || c.line == VALLEY) && c.b != NONE && !is_front(c.a) &&
+                  !is_front(c.b);
     return place_spine(a, b, normal, s);
-}
-dvec3 probe_of(Spine s, uint k) {
-    precise dvec3 p = s.probe_a + (s.probe_b - s.probe_a) * ((double(k) + 0.5) / double(s.n));
-    return p;
 }
