@@ -16,6 +16,7 @@
 
 #include "base/diag.h"
 #include "base/memory.h"
+#include "core/precision.h"
 #include "core/view.h"
 
 /* Storage buffers, by binding: no shader uses more than eight. Those of a stage alone are its own, from
@@ -80,9 +81,10 @@ struct dp_gl_mesh {
     uint64_t placement;         /* the same of `matrix` and the positions of owned buffers */
     double origin[3];           /* world space: what positions count from */
     double matrix[16];
-    bool placed;       /* there is a matrix */
-    uint64_t polygons; /* of the source */
-    uint32_t pieces;   /* convex ones, which triangles are numbered by */
+    dp_written written; /* of a source's positions, in its own space (core/precision.h) */
+    bool placed;        /* there is a matrix */
+    uint64_t polygons;  /* of the source */
+    uint32_t pieces;    /* convex ones, which triangles are numbered by */
     uint32_t vertex_count, triangle_count;
     uint32_t *
         polygon_firsts; /* [triangle]: the first triangle of its polygon; NULL: all are their own */
