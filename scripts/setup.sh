@@ -2,7 +2,7 @@
 # setup.sh [build|check]: installs what is missing to build, or also to run all checks.
 #
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
-# rest comes from Debian's packages, with sudo when not root.
+# rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
 set -eu
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -25,6 +25,23 @@ numpy() { /usr/bin/python3 -c 'import numpy' 2>/dev/null; }
 compiler_rt() {
     version=$(apt-cache depends clang 2>/dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p' | head -n 1)
     echo "libclang-rt-${version:-14}-dev"
+}
+
+loadable() { [ -n "$(find /usr/lib /usr/local/lib -name "$1" -print -quit 2>/dev/null)" ]; }
+
+# What is left out where it is missing: drawing by OpenGL (its headers, 1 MB; a way to it without a window and drivers, 25 MB,
+# and 120 MB of LLVM for them), the viewer (GLFW 1 MB, Dear ImGui 4 MB), and the test of the viewer's window.
+find_extra() {
+    extra=
+    [ -e /usr/include/GL/glcorearb.h ] || extra="$extra libgl-dev"
+    loadable libEGL.so.1 || extra="$extra libegl1"
+    { loadable swrast_dri.so || loadable 'libgallium*.so'; } || extra="$extra libgl1-mesa-dri"
+    module glfw3 || extra="$extra libglfw3-dev"
+    module imgui || extra="$extra libimgui-dev"
+    [ "${1:-build}" = check ] || return 0
+    have Xvfb || extra="$extra xvfb xauth" # a screen nobody sees
+    have xdotool || extra="$extra xdotool"
+    have import || extra="$extra imagemagick"
 }
 
 find_missing() {
@@ -54,10 +71,18 @@ find_missing() {
     fuzzer_runtime || missing="$missing $(compiler_rt)"
 }
 
+# without_extra WHY: nothing more is needed than what cannot be installed.
+without_extra() {
+    echo "setup: $1; without$extra the viewer, or drawing by OpenGL, is left out" >&2
+    exit 0
+}
+
 find_missing "$@"
-[ -n "$missing" ] || exit 0
+find_extra "$@"
+[ -n "$missing$extra" ] || exit 0
 
 if ! have apt-get; then
+    [ -n "$missing" ] || without_extra "there is no apt-get here"
     echo "setup: this machine lacks what these Debian packages hold:$missing" >&2
     echo "setup: there is no apt-get here; install the same by its own package manager." >&2
     exit 1
@@ -65,6 +90,7 @@ fi
 root=
 if [ "$(id -u)" -ne 0 ]; then
     if ! have sudo; then
+        [ -n "$missing" ] || without_extra "this is not root"
         echo "setup: as root, please run: apt-get install$missing" >&2
         exit 1
     fi
@@ -81,15 +107,20 @@ apt update >"$log" 2>&1 || {
     tail -n 3 "$log" >&2
 }
 find_missing "$@" # the lists may name another compiler-rt
-echo "setup: installing$missing${root:+, as root through sudo}"
+echo "setup: installing$missing$extra${root:+, as root through sudo}"
 # shellcheck disable=SC2086
-if ! apt install --no-install-recommends $missing >"$log" 2>&1; then
+if [ -n "$missing" ] && ! apt install --no-install-recommends $missing >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     echo "setup: that did not work. As root, please run: apt-get install$missing" >&2
     exit 1
 fi
 
 find_missing "$@"
+find_extra "$@"
+# shellcheck disable=SC2086
+if [ -n "$extra" ] && ! apt install --no-install-recommends $extra >"$log" 2>&1; then
+    [ -n "$missing" ] || without_extra "these could not be installed"
+fi
 if [ -n "$missing" ]; then
     echo "setup: still missing after the installation:$missing" >&2
     exit 1
