@@ -9,6 +9,9 @@ int command_draw(const tool_settings *s);
 int command_info(const tool_settings *s);
 int command_make(const tool_settings *s);
 int command_bench(const tool_settings *s);
+/* Runs the viewer, a program of its own, with the words after "drypoint view", before which there is room for one more.
+ * Returns only if that cannot be. */
+int view_run(char **words);
 
 /* Draws all models as one scene. */
 int draw_scene(const tool_settings *s);

@@ -202,7 +202,7 @@ static void write_bash(FILE *out) {
     fputs(bash_head, out);
     fprintf(out, "    local shapes='%s'\n    local models='%s'\n    local topics='%s'\n", shapes,
             models, topics);
-    fputs("    local commands='info make bench help'\n", out);
+    fputs("    local commands='info make bench view help'\n", out);
     bash_commands(out);
     fputs(bash_middle, out);
     bash_values(out);
@@ -267,12 +267,12 @@ static void write_zsh(FILE *out) {
           "    _files\n"
           "}\n",
           out);
-    fputs("_drypoint_first() {\n    compadd -- info make bench help\n    _drypoint_models\n}\n"
+    fputs("_drypoint_first() {\n    compadd -- info make bench view help\n    _drypoint_models\n}\n"
           "_drypoint() {\n"
           "    local -a options\n"
           "    local command=$words[2]\n"
           "    case $command in\n"
-          "    info|make|bench|help) [[ $CURRENT -gt 2 ]] || command= ;;\n"
+          "    info|make|bench|view|help) [[ $CURRENT -gt 2 ]] || command= ;;\n"
           "    *) command= ;;\n"
           "    esac\n"
           "    if [[ -n $command ]]; then\n"
@@ -332,7 +332,7 @@ static void write_fish(FILE *out) {
     fputs("# fish completion of drypoint, written by: drypoint --completions fish\n"
           "function __drypoint_command\n"
           "    set -l words (commandline -opc)\n"
-          "    if set -q words[2]; and contains -- $words[2] info make bench help\n"
+          "    if set -q words[2]; and contains -- $words[2] info make bench view help\n"
           "        echo $words[2]\n"
           "    else\n"
           "        echo draw\n"
@@ -348,10 +348,11 @@ static void write_fish(FILE *out) {
     fputs("complete -c drypoint -n __fish_is_first_token -a help -d 'Tell more about a topic.'\n",
           out);
     shape_words("shape:", words);
-    fprintf(out,
-            "complete -c drypoint -n 'contains (__drypoint_command) draw info bench' -a '%s' -d "
-            "'Generated model'\n",
-            words);
+    fprintf(
+        out,
+        "complete -c drypoint -n 'contains (__drypoint_command) draw info bench view' -a '%s' -d "
+        "'Generated model'\n",
+        words);
     shape_words("", words);
     fprintf(out, "complete -c drypoint -n 'contains (__drypoint_command) make' -f -a '%s'\n",
             words);

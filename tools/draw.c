@@ -46,7 +46,7 @@ static void warn_options(const tool_settings *s, const drawing *d) {
 int drawing_prepare(const tool_settings *s, drawing *d, dp_source *seen, measured *model) {
     d->pixels = files_have_pixels(s), d->paths = files_have_paths(s);
     d->style = make_style(s);
-    d->style.exact_ends = d->paths;
+    d->style.exact_ends = d->paths && !s->gl;
     look_mirror(s, model, &d->style);
     int code = page_make(s, seen, model, &d->plan);
     if (code) return code;
@@ -69,15 +69,35 @@ int drawing_open(const tool_settings *s, drawing *d, uint32_t threads) {
     d->target.width = d->plan.views[0].width, d->target.height = d->plan.views[0].height;
     int code = planes_prepare(s, &d->target);
     if (!code) code = make_page(d);
+    if (!code && s->gl && !d->gl) code = gl_open(&d->gl);
     if (code) return code;
+    if (d->gl && s->stats) gl_time(d->gl);
     return dp_context_create(&desc, &d->context, &diag) ? report_failure(NULL, &diag) : 0;
 }
 
 /* ---- drawing ---- */
 
+/* Draws by OpenGL; the lines become the context's if anyone asks for them. */
+static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
+                      const object_styles *objects, const dp_target *target) {
+    dp_diag diag = {0};
+    if (objects->count) {
+        wrong_usage(
+            "--gl: OpenGL draws no object in a look of its own; leave out --object, or --gl");
+        return EXIT_FAILED;
+    }
+    dp_result result = gl_draw(d->gl, &v->camera, style, target, &diag);
+    if (!result && (d->paths || s->outputs[OUTPUT_TRACE]) && style->lines != DP_NO_LINES)
+        result = gl_hand_over(d->gl, d->context, &diag);
+    if (!result) return 0;
+    report_failure("--gl", &diag);
+    return EXIT_FAILED;
+}
+
 static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
                      const object_styles *objects, const dp_target *target) {
     dp_diag diag = {0};
+    if (d->gl) return draw_by_gl(s, d, v, style, objects, target);
     progress_begin("drawing", s->quiet);
     const dp_result result = dp_draw_grouped(d->context, d->source, &v->camera, style,
                                              objects->styles, objects->count, target, &diag);
@@ -109,6 +129,23 @@ static int draw_ground(const tool_settings *s, drawing *d, int k) {
     return code;
 }
 
+static void take_stats(drawing *d, int k) {
+    dp_diag diag;
+    if (!d->gl) dp_stats_of(d->context, &d->stats[k]);
+    if (d->gl && gl_stats(d->gl, &d->stats[k], &diag)) d->stats[k] = (dp_stats){0};
+}
+
+/* Uploads the model, or where its vertices are now. */
+static int take_source(drawing *d) {
+    dp_diag diag = {0};
+    if (!d->gl || d->gl_lent) return 0;
+    const dp_result result = gl_take(d->gl, d->source, d->gl_taken, &diag);
+    d->gl_taken = true;
+    if (!result) return 0;
+    report_failure("--gl", &diag);
+    return EXIT_FAILED;
+}
+
 static int draw_lines(const tool_settings *s, drawing *d, int k) {
     const page_view *const v = &d->plan.views[k];
     const size_t stride = (size_t)4 * d->plan.width;
@@ -118,7 +155,7 @@ static int draw_lines(const tool_settings *s, drawing *d, int k) {
     if (target.rgba) target.rgba += v->y * stride + (size_t)4 * v->x, target.rgba_stride = stride;
     if (v->bare) style.hidden.look = DP_HIDDEN_NONE;
     int code = draw_into(s, d, v, &style, &d->objects, &target);
-    if (!code) dp_stats_of(d->context, &d->stats[k]);
+    if (!code) take_stats(d, k);
     if (!code && d->paths) code = paths_make(s, &d->plan, d->context, &d->views[k].lines);
     return code;
 }
@@ -133,7 +170,7 @@ static void clear_views(drawing *d) {
 
 /* The ground first: the context's last drawing is that of the lines, which the trace is of. */
 int drawing_draw(const tool_settings *s, drawing *d) {
-    int code = 0;
+    int code = take_source(d);
     clear_views(d);
     if (d->plan.paged && d->target.rgba) ink_paper(&d->target, s->style.paper);
     for (int k = 0; k < d->plan.view_count && !code; k++) {
@@ -206,6 +243,21 @@ static void tell_empty_picture(const tool_settings *s, const drawing *d) {
     tell_empty(strcmp(s->files[0], "-") ? s->files[0] : "standard output");
 }
 
+static void print_gl_stats(const tool_settings *s, const drawing *d, const dp_target *view) {
+    if (s->stats == STATS_TABLE) {
+        gl_print_table(stderr, d->gl);
+        return;
+    }
+    FILE *const out = files_standard(s) ? stderr : stdout;
+    fprintf(
+        out,
+        "{\"width\": %u, \"height\": %u, \"samples\": %u, \"triangles\": %llu, \"segments\": %llu",
+        view->width, view->height, view->samples, (unsigned long long)d->stats[0].triangles,
+        (unsigned long long)d->stats[0].segments);
+    gl_print_json(out, d->gl);
+    fputs("}\n", out);
+}
+
 static void print_stats(const tool_settings *s, const drawing *d) {
     warn_source(s, dp_source_remark(d->source));
     if (!s->quiet) warn_dropped(s, &d->stats[0]);
@@ -214,6 +266,10 @@ static void print_stats(const tool_settings *s, const drawing *d) {
         const dp_target view = {.width = d->plan.views[k].width,
                                 .height = d->plan.views[k].height,
                                 .samples = d->target.samples};
+        if (d->gl && s->stats) {
+            print_gl_stats(s, d, &view);
+            continue;
+        }
         if (s->stats == STATS_TABLE) print_stats_table(stderr, s, &d->stats[k]);
         if (s->stats == STATS_JSON)
             print_stats_json(files_standard(s) ? stderr : stdout, s, &d->stats[k], &view);
@@ -241,6 +297,7 @@ static int run(const tool_settings *s, drawing *d) {
 }
 
 void drawing_free(drawing *d) {
+    if (!d->gl_lent) gl_close(d->gl);
     dp_context_destroy(d->context);
     dp_texture_destroy(d->texture);
     dp_source_destroy(d->source);

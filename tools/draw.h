@@ -2,6 +2,7 @@
 #ifndef TOOL_DRAW_H
 #define TOOL_DRAW_H
 
+#include "gl.h"
 #include "look.h"
 #include "objects.h"
 #include "page.h"
@@ -18,6 +19,9 @@ typedef struct drawing {
     page_plan plan;
     bool pixels, paths; /* what is wanted */
     bool lent;          /* target.rgba is not the drawing's own */
+    tool_gl *gl;        /* draws instead of the context; NULL: none */
+    bool gl_lent;       /* it is not the drawing's own, and has the source already */
+    bool gl_taken;      /* it has the source, perhaps at another time */
     view_paths views[SHEET_MOST];
     dp_stats stats[SHEET_MOST];
 } drawing;

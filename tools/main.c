@@ -28,10 +28,13 @@ int main(int argc, char **argv) {
     dp_diag diag;
     if (dp_version_check(&diag)) return report_failure(NULL, &diag);
     const bool sound = options_parse(argc, argv, &settings);
+    const bool views = sound && !settings.question && settings.command == COMMAND_VIEW;
     interrupt_install();
     int code = sound ? 0 : EXIT_USAGE;
     if (sound && settings.question)
         code = answer(&settings);
+    else if (views)
+        code = view_run(argv + 2);
     else if (sound)
         code = commands[settings.command](&settings);
     models_free(&settings);

@@ -36,7 +36,7 @@ static bool check_command(const tool_settings *s) {
     const char *const word = s->model_count ? s->models[0] : "";
     if (s->command != COMMAND_DRAW || !*word || strpbrk(word, "./:") || !stat(word, &status))
         return true;
-    nearest_word("info|make|bench|help", word, best, sizeof best);
+    nearest_word("info|make|bench|view|help", word, best, sizeof best);
     if (spelling_distance(word, best) > 2) return true;
     return wrong_usage("%s: there is no such file or command; did you mean \"drypoint %s\"?", word,
                        best);
@@ -58,6 +58,7 @@ static bool check_present(const tool_settings *s) {
     const command_text *const text = &command_table[s->command];
     const char *const space = *text->name ? " " : "";
     if (!check_command(s)) return false;
+    if (!s->model && s->command == COMMAND_VIEW) return true; /* an empty window */
     if (!s->model)
         return wrong_usage("no %s given; usage: drypoint %s%s%s",
                            s->command == COMMAND_MAKE ? "shape" : "model", text->name, space,

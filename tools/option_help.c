@@ -101,7 +101,7 @@ static void usage_line(FILE *out, const char *before, const command_text *text) 
 
 /* What MODEL can be; scenes come last, of which info and make know nothing. */
 static void help_models(FILE *out, tool_command command) {
-    const bool scenes = command == COMMAND_DRAW || command == COMMAND_BENCH;
+    const bool scenes = command != COMMAND_INFO && command != COMMAND_MAKE;
     for (const char *const *text = models_text; *text; text++)
         if (scenes || text[1]) wrap_from(out, 0, *text);
 }
@@ -118,7 +118,7 @@ static void help_command(FILE *out, tool_command command) {
     if (command == COMMAND_MAKE) help_shapes(out), fputc('\n', out);
     help_examples(out, command);
     if (command == COMMAND_DRAW)
-        fputs("\n\"drypoint COMMAND --help\" tells more about info, make and bench.\n"
+        fputs("\n\"drypoint COMMAND --help\" tells more about info, make, bench and view.\n"
               "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n",
               out);
 }
@@ -228,7 +228,7 @@ static void first_screen(FILE *out) {
     topic_words(topics, sizeof topics, ", ");
     snprintf(text, sizeof text, "%s, or the name of an option.", topics);
     usage_line(out, "Usage: ", &command_table[COMMAND_DRAW]);
-    fputs("       drypoint info|make|bench ...\n\n", out);
+    fputs("       drypoint info|make|bench|view ...\n\n", out);
     fprintf(out, "%s\n", command_table[COMMAND_DRAW].about);
     wrap_from(out, 0, models_text[0]);
     fputs("\n"

@@ -7,8 +7,9 @@
 #define INFO       (1u << COMMAND_INFO)
 #define MAKE       (1u << COMMAND_MAKE)
 #define BENCH      (1u << COMMAND_BENCH)
-#define PICTURE    (DRAW | BENCH)
-#define EVERY      (DRAW | INFO | MAKE | BENCH)
+#define VIEW       (1u << COMMAND_VIEW)
+#define PICTURE    (DRAW | BENCH | VIEW)
+#define EVERY      (DRAW | INFO | MAKE | BENCH | VIEW)
 #define AT(member) offsetof(tool_settings, member)
 
 const char *const output_names[OUTPUT_COUNT] = {"edge-map", "normals", "depth",
@@ -62,8 +63,10 @@ const option option_table[] = {
     {"preset", 0, "technical|illustration|cartoon|engraving|blueprint|sketch|pencil|patent|iso|patent-us|patent-epc|axidraw|laser",
      OPTION_WORD, GROUP_PICTURE, PICTURE, AT(preset), 0, 0, 0,
      "A look: options that go together; those on the command line change it."},
-    {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, PICTURE, AT(width), 0, 1, 32768,
+    {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, DRAW | BENCH, AT(width), 0, 1, 32768,
      "Width and height of the picture in pixels. Default: 1600x1200. With --page, the page says it."},
+    {"size", 0, "WxH", OPTION_SIZE, GROUP_PICTURE, VIEW, AT(width), 0, 64, 16384,
+     "Width and height of the picture in the window, in pixels. Default: 1200x900, or what the screen has room for."},
     {"samples", 0, "1|4|8|16", OPTION_WORD, GROUP_PICTURE, PICTURE, AT(samples), 0, 0, 0,
      "Samples per pixel. Default: 4."},
     {"paper", 0, "COLOR|none", OPTION_COLOR, GROUP_PICTURE, PICTURE, AT(style.paper), 0, 0, 0,
@@ -368,6 +371,13 @@ const option option_table[] = {
     {"edge-table", 0, "on|off", OPTION_WORD, GROUP_METHOD, PICTURE, AT(edge_table), 0, 0, 0,
      "With --ink strokes: resolve edges by a small table per tile where that is possible, or look for "
      "what lies across every edge on the screen. Default: on."},
+    {"gl", 0, NULL, OPTION_FLAG, GROUP_METHOD, DRAW, AT(gl), 0, 0, 0,
+     "Draw by OpenGL 4.3 or later, without a window (through EGL): the same lines, found and drawn by the graphics "
+     "hardware or by Mesa's llvmpipe. --detail is exact there. What OpenGL does not draw fails and is named; without "
+     "--gl it is drawn."},
+    {"backend", 0, "cpu|gl", OPTION_WORD, GROUP_METHOD, VIEW, AT(backend), 0, 0, 0,
+     "What draws at first: the processor, or OpenGL 4.3, which has exact lines and not all looks. The key g changes "
+     "it. Default: cpu."},
     {"cull-back-faces", 0, NULL, OPTION_FLAG, GROUP_METHOD, PICTURE, AT(cull_back_faces), 0, 0, 0,
      "Do not paint back faces: faster for closed models, holes in open ones."},
 
@@ -444,6 +454,10 @@ const option option_table[] = {
      "Print the version."},
     {"completions", 0, "bash|zsh|fish", OPTION_WORD, GROUP_PROGRAM, DRAW, AT(completions), 0, 0, 0,
      "Print what completes these options in a shell, to be read by it: source <(drypoint --completions bash)."},
+    {"spin", 0, "N", OPTION_COUNT, GROUP_PROGRAM, VIEW, AT(spin), 0, 1, 1000000,
+     "Turn the model once round in N frames, as fast as they can be drawn, print how many a second that are, and end."},
+    {"dropped", 0, "FILE", OPTION_TEXT, GROUP_HIDDEN, VIEW, AT(dropped), 0, 0, 0,
+     "Take a file as if it was dropped on the window, once the model is there."},
     {"man", 0, NULL, OPTION_QUESTION, GROUP_HIDDEN, EVERY, QUESTION_MAN, 0, 0, 0,
      "Print the man page."},
 };
@@ -485,5 +499,12 @@ const command_text command_table[COMMAND_COUNT] = {
                        {"drypoint bench dragon.ply --frames 20 --size 1680x1050", "median of twenty",
                         "drypoint bench shape:terrain:1000000 --threads 1", "a generated model",
                         NULL}},
+    [COMMAND_VIEW] = {"view",
+                      "[MODEL...] [options]",
+                      "Show a model in a window: turn it, change its look, save what is seen.",
+                      {"drypoint view part.stl", "the mouse turns it; ? lists the keys",
+                       "drypoint view engine.glb --preset illustration --size 1680x1050", "in a look, in a large window",
+                       "drypoint view gear.stl shaft.obj --backend gl", "two files, one scene, drawn by OpenGL",
+                       "drypoint view", "an empty window: drop files on it", NULL}},
 };
 /* clang-format on */

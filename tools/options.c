@@ -19,7 +19,7 @@ typedef struct walk {
     bool of_preset;  /* options of other commands are passed over: bench has no pages */
 } walk;
 
-static const char *const command_words = "info|make|bench";
+static const char *const command_words = "info|make|bench|view";
 
 static const option *find_name(const char *name, size_t length, unsigned commands) {
     for (const option *o = option_table; o < option_table + option_count; o++)

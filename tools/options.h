@@ -14,6 +14,7 @@ typedef enum tool_command {
     COMMAND_INFO,
     COMMAND_MAKE,
     COMMAND_BENCH,
+    COMMAND_VIEW,
     COMMAND_COUNT
 } tool_command;
 
@@ -35,6 +36,7 @@ enum { STROKE_ARC = 1, STROKE_POLAR };
 enum { PATTERN_OBJECT = 1, PATTERN_SCREEN };
 enum { HIDDEN_DASHED = 1, HIDDEN_DOTTED, HIDDEN_THIN, HIDDEN_SOLID, HIDDEN_NONE };
 enum { INK_STROKES = 1, INK_QUADS };
+enum { BACKEND_CPU = 1, BACKEND_GL };
 enum {
     SHADING_PAPER = 1,
     SHADING_FLAT,
@@ -176,6 +178,10 @@ typedef struct tool_settings {
     bool has_detail;
     int edges, method, between, ink, edge_table; /* words */
     bool cull_back_faces;
+    bool gl;             /* drawn by OpenGL */
+    int backend;         /* word, of view */
+    uint32_t spin;       /* frames that view times */
+    const char *dropped; /* a file that view is to take as if it was dropped on its window */
 
     double pencil_s, pencil_o;
     bool has_pencil_s, has_pencil_o;

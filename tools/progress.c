@@ -28,6 +28,8 @@ static struct {
     bool enabled;
 } work;
 
+static int (*listener)(double fraction);
+
 static const char wipe[] = "\r\033[K";
 
 /* ---- Ctrl-C ---- */
@@ -74,7 +76,10 @@ static double seconds_since(const struct timespec *start) {
     return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
 }
 
+void progress_to(int (*hear)(double fraction)) { listener = hear; }
+
 void progress_begin(const char *what, bool quiet) {
+    if (listener) return;
     work.what = what;
     work.last_shown = 0;
     work.enabled = !quiet && isatty(STDERR_FILENO);
@@ -107,6 +112,7 @@ static void show(double elapsed, double fraction) {
 int progress_report(void *user, double fraction) {
     (void)user;
     if (signal_seen) return 1;
+    if (listener) return listener(fraction);
     if (!work.enabled) return 0;
     const double elapsed = seconds_since(&work.start);
     if (elapsed < 1 || elapsed - work.last_shown < 0.1) return 0;
@@ -123,6 +129,7 @@ void progress_clear(void) {
 }
 
 void progress_end(void) {
+    if (listener) return;
     progress_clear();
     work.enabled = false;
 }

@@ -6,18 +6,38 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 
-static void say(const char *prefix, const char *format, va_list arguments) {
+static void (*listener)(const char *text);
+
+void report_to(void (*hear)(const char *text)) { listener = hear; }
+
+static void put(const char *text) {
     progress_clear();
-    fputs(prefix, stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    fprintf(stderr, "drypoint: %s\n", text);
+    if (listener) listener(text);
+}
+
+/* Text of any length. */
+static void say(const char *prefix, const char *format, va_list arguments) {
+    char some[1024];
+    va_list again;
+    va_copy(again, arguments);
+    const int start = snprintf(some, sizeof some, "%s", prefix);
+    const int length = vsnprintf(some + start, sizeof some - (size_t)start, format, arguments);
+    const size_t size = (size_t)(start + (length > 0 ? length : 0)) + 1;
+    char *const all = size > sizeof some ? malloc(size) : NULL;
+    if (all)
+        vsnprintf(all + snprintf(all, size, "%s", prefix), size - (size_t)start, format, again);
+    put(all ? all : some);
+    free(all);
+    va_end(again);
 }
 
 bool wrong_usage(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    say("drypoint: ", format, arguments);
+    say("", format, arguments);
     va_end(arguments);
     return false;
 }
@@ -25,14 +45,14 @@ bool wrong_usage(const char *format, ...) {
 void warn(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    say("drypoint: warning: ", format, arguments);
+    say("warning: ", format, arguments);
     va_end(arguments);
 }
 
 void note(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    say("drypoint: ", format, arguments);
+    say("", format, arguments);
     va_end(arguments);
 }
 
@@ -43,11 +63,10 @@ int report_failure(const char *file, const dp_diag *diag) {
     else if (diag->offset)
         snprintf(where, sizeof where, " byte %llu: ", (unsigned long long)diag->offset);
     const char *const message = *diag->message ? diag->message : dp_result_name(diag->result);
-    progress_clear();
     if (file)
-        fprintf(stderr, "drypoint: %s:%s%s%s\n", file, where, *where ? "" : " ", message);
+        note("%s:%s%s%s", file, where, *where ? "" : " ", message);
     else
-        fprintf(stderr, "drypoint: %s\n", message);
+        note("%s", message);
     return diag->result == DP_ERR_ARGUMENT ? EXIT_USAGE : EXIT_FAILED;
 }
 

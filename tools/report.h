@@ -18,6 +18,10 @@ void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* "drypoint: …": something worth knowing, and not wrong. */
 void note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* From now on all that is said on stderr is told to `hear` as well, without the program's name, from whatever thread says
+ * it. NULL: to nobody. */
+void report_to(void (*hear)(const char *text));
+
 /* Prints a JSON string; names of files may contain any byte. */
 void print_json_string(FILE *out, const char *text);
 

@@ -195,7 +195,7 @@ dp_style make_style(const tool_settings *s) {
     style.hidden.smooth = s->hidden_smooth;
     style.xray = (float)s->xray;
     style.xray_layers = s->xray_layers;
-    style.detail = s->has_detail ? (float)s->detail : 1;
+    style.detail = s->has_detail ? (float)s->detail : s->gl ? 0 : 1; /* OpenGL's are exact */
     if (s->smooth > 1) { /* the first word is off, the second auto */
         style.smooth = s->smooth_what == 2 ? DP_SMOOTH_SILHOUETTES : DP_SMOOTH_SURFACE;
         style.smooth_level = (uint32_t)s->smooth - 2;

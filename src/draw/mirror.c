@@ -7,9 +7,10 @@
  * before the mirror hides it, edges and strokes lie over it, and its outline is anti-aliased like
  * any other. The reflected scene is lit by the reflected light, so that it looks as the scene
  * does. */
-#include "draw/context.h"
+#include "draw/mirror.h"
 
 #include "base/diag.h"
+#include "draw/context.h"
 #include "mesh/reflect.h"
 
 #include <string.h>
@@ -28,8 +29,7 @@ uint64_t dp_mirror_store_bytes(const dp_mirror_store *store) {
            dp_reflection_bytes(store->reflection);
 }
 
-/* The plane, its normal turned to the eye. */
-static dp_plane_equation plane_of(const dp_mirror *m, const dp_view *view) {
+dp_plane_equation dp_mirror_plane(const dp_mirror *m, const dp_view *view) {
     const dp_vec3 n = dp_unit(dp_v3(m->normal[0], m->normal[1], m->normal[2]));
     dp_plane_equation p = {{n.x, n.y, n.z}, m->offset};
     const double side =
@@ -39,9 +39,7 @@ static dp_plane_equation plane_of(const dp_mirror *m, const dp_view *view) {
     return p;
 }
 
-/* A square around the mirror's centre, facing along n. Its sides run along the axes as far as they
- * can. */
-static void make_square(const dp_mirror *m, const dp_plane_equation *plane, double corners[4][3]) {
+void dp_mirror_square(const dp_mirror *m, const dp_plane_equation *plane, double corners[4][3]) {
     const dp_vec3 n = dp_v3(plane->n[0], plane->n[1], plane->n[2]);
     const dp_vec3 c = dp_v3(m->center[0], m->center[1], m->center[2]);
     const dp_vec3 axis = fabs(n.x) > 0.9 ? dp_v3(0, 0, 1) : dp_v3(1, 0, 0);
@@ -61,7 +59,7 @@ static void axes_of(const dp_camera *camera, dp_vec3 axes[3]) {
         axes[r] = dp_unit(dp_v3(camera->view[r], camera->view[4 + r], camera->view[8 + r]));
 }
 
-static void reflect_light(const dp_camera *camera, const dp_plane_equation *plane, float light[3]) {
+void dp_mirror_light(const dp_camera *camera, const dp_plane_equation *plane, float light[3]) {
     dp_vec3 axes[3], world = {0, 0, 0};
     const dp_vec3 n = dp_v3(plane->n[0], plane->n[1], plane->n[2]);
     axes_of(camera, axes);
@@ -134,7 +132,7 @@ static dp_result draw_image(dp_context *c, dp_source *source, const dp_camera *c
                              .distance = fades ? c->mirror.distance : NULL};
     dp_source *const other = dp_reflect_source(c->mirror.reflection, source, plane);
     const dp_shade shade = style->shade;
-    reflect_light(camera, plane, style->shade.light);
+    dp_mirror_light(camera, plane, style->shade.light);
     exchange_normals(c);
     const dp_result result = dp_draw_groups(c, other, camera, styles, style_count, &image, diag);
     exchange_normals(c);
@@ -166,8 +164,8 @@ dp_result dp_draw_mirrored(dp_context *c, dp_source *source, const dp_camera *ca
     dp_reflection **const reflection = &c->mirror.reflection;
     if (!*reflection && !(*reflection = dp_reflection_create(&c->memory)))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror");
-    const dp_plane_equation plane = plane_of(&styles[0].mirror, &view);
-    make_square(&styles[0].mirror, &plane, corners);
+    const dp_plane_equation plane = dp_mirror_plane(&styles[0].mirror, &view);
+    dp_mirror_square(&styles[0].mirror, &plane, corners);
     c->share_to = 0.5; /* two pictures, of much the same work */
     result = draw_image(c, source, camera, styles, style_count, target, &plane, &view, diag);
     c->share_to = 1;

@@ -47,9 +47,8 @@ static void place_planes(dp_gbuffer *g, size_t plane) {
     g->share = (uint8_t *)(ids + plane) + origin;
 }
 
-/* Takes rays and rotation from the view; camera space is that of its view matrix, without scale. */
-static void take_camera(dp_gbuffer *g, const dp_frame *frame) {
-    const dp_view *const view = &frame->view;
+/* Camera space is that of the view matrix, without scale. */
+void dp_gbuffer_take_camera(dp_gbuffer *g, const dp_view *view) {
     const double w = 1, d = view->perspective ? 1 / w : -w; /* at distance 1 */
     const dp_vec3 o = dp_unproject(view, (dp_pointd){0, 0, d});
     const dp_vec3 x = dp_sub(dp_unproject(view, (dp_pointd){1, 0, d}), o);
@@ -72,7 +71,7 @@ bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured, bool 
     const bool same = g->block && g->width == width && g->height == height &&
                       g->textured == textured && g->colored == colored &&
                       g->perspective == frame->view.perspective;
-    take_camera(g, frame);
+    dp_gbuffer_take_camera(g, &frame->view);
     g->normals = NULL;
     g->detectors = dp_detectors_for(dp_lanes_best());
     g->fillers = dp_fillers_for(dp_lanes_best());

@@ -71,6 +71,9 @@ uint64_t dp_gbuffer_bytes(const dp_gbuffer *g);
  * memory is out. */
 bool dp_gbuffer_begin(dp_gbuffer *g, const dp_frame *frame, bool textured, bool colored);
 
+/* Takes rays and rotation from a view. */
+void dp_gbuffer_take_camera(dp_gbuffer *g, const dp_view *view);
+
 /* First pass: fills a tile from its samples (fill.c). */
 void dp_gbuffer_fill(dp_gbuffer *g, const dp_tile *worker, dp_normals normals);
 

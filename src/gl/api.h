@@ -57,6 +57,7 @@
     X(DepthFunc, PFNGLDEPTHFUNCPROC)                                                               \
     X(DepthMask, PFNGLDEPTHMASKPROC)                                                               \
     X(DepthRangef, PFNGLDEPTHRANGEFPROC)                                                           \
+    X(DepthRangeIndexed, PFNGLDEPTHRANGEINDEXEDPROC)                                               \
     X(DetachShader, PFNGLDETACHSHADERPROC)                                                         \
     X(Disable, PFNGLDISABLEPROC)                                                                   \
     X(DisableVertexAttribArray, PFNGLDISABLEVERTEXATTRIBARRAYPROC)                                 \
@@ -89,8 +90,10 @@
     X(GetBooleanv, PFNGLGETBOOLEANVPROC)                                                           \
     X(GetBufferParameteri64v, PFNGLGETBUFFERPARAMETERI64VPROC)                                     \
     X(GetBufferSubData, PFNGLGETBUFFERSUBDATAPROC)                                                 \
+    X(GetDoublei_v, PFNGLGETDOUBLEI_VPROC)                                                         \
     X(GetDoublev, PFNGLGETDOUBLEVPROC)                                                             \
     X(GetError, PFNGLGETERRORPROC)                                                                 \
+    X(GetFloati_v, PFNGLGETFLOATI_VPROC)                                                           \
     X(GetFloatv, PFNGLGETFLOATVPROC)                                                               \
     X(GetFramebufferAttachmentParameteriv, PFNGLGETFRAMEBUFFERATTACHMENTPARAMETERIVPROC)           \
     X(GetInteger64i_v, PFNGLGETINTEGER64I_VPROC)                                                   \
@@ -98,6 +101,7 @@
     X(GetIntegeri_v, PFNGLGETINTEGERI_VPROC)                                                       \
     X(GetIntegerv, PFNGLGETINTEGERVPROC)                                                           \
     X(GetMultisamplefv, PFNGLGETMULTISAMPLEFVPROC)                                                 \
+    X(GetPointerv, PFNGLGETPOINTERVPROC)                                                           \
     X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)                                               \
     X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                                                         \
     X(GetQueryObjectui64v, PFNGLGETQUERYOBJECTUI64VPROC)                                           \
@@ -111,6 +115,7 @@
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                                             \
     X(IsEnabled, PFNGLISENABLEDPROC)                                                               \
     X(IsEnabledi, PFNGLISENABLEDIPROC)                                                             \
+    X(IsFramebuffer, PFNGLISFRAMEBUFFERPROC)                                                       \
     X(LineWidth, PFNGLLINEWIDTHPROC)                                                               \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                                                           \
     X(LogicOp, PFNGLLOGICOPPROC)                                                                   \
@@ -123,6 +128,7 @@
     X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                                       \
     X(PrimitiveRestartIndex, PFNGLPRIMITIVERESTARTINDEXPROC)                                       \
     X(ProvokingVertex, PFNGLPROVOKINGVERTEXPROC)                                                   \
+    X(QueryCounter, PFNGLQUERYCOUNTERPROC)                                                         \
     X(ReadBuffer, PFNGLREADBUFFERPROC)                                                             \
     X(ReadPixels, PFNGLREADPIXELSPROC)                                                             \
     X(SampleCoverage, PFNGLSAMPLECOVERAGEPROC)                                                     \
@@ -140,6 +146,7 @@
     X(TexParameterf, PFNGLTEXPARAMETERFPROC)                                                       \
     X(TexStorage2D, PFNGLTEXSTORAGE2DPROC)                                                         \
     X(TexStorage2DMultisample, PFNGLTEXSTORAGE2DMULTISAMPLEPROC)                                   \
+    X(TexStorage3DMultisample, PFNGLTEXSTORAGE3DMULTISAMPLEPROC)                                   \
     X(TexStorage3D, PFNGLTEXSTORAGE3DPROC)                                                         \
     X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                                                       \
     X(TexSubImage3D, PFNGLTEXSUBIMAGE3DPROC)                                                       \

@@ -6,9 +6,15 @@
 
 enum { DEFAULT_MOST = 1 << 30 /* bytes: dp_gl_desc.memory */ };
 
+static size_t allowed(const dp_gl *gl) { return gl->desc.memory ? gl->desc.memory : DEFAULT_MOST; }
+
 static size_t most_of(const dp_gl *gl) {
-    const size_t most = gl->desc.memory ? gl->desc.memory : DEFAULT_MOST;
-    return most < gl->storage_most ? most : gl->storage_most;
+    return allowed(gl) < gl->storage_most ? allowed(gl) : gl->storage_most;
+}
+
+static dp_result too_large(uint64_t size, size_t most, const char *what, dp_diag *diag) {
+    return dp_fail(diag, DP_ERR_LIMIT, "%s would take %.1f MB of the device; %.1f MB are allowed",
+                   what, (double)size / 1048576, (double)most / 1048576);
 }
 
 /* A buffer of `size` bytes; what it held is gone. */
@@ -20,16 +26,16 @@ static dp_result make(dp_gl *gl, dp_gl_buffer *buffer, size_t size, const void *
     a->BufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size, data, GL_DYNAMIC_COPY);
     gl->stats.bytes += size - buffer->size;
     buffer->size = size;
-    return dp_gl_check(gl, what, diag);
+    const dp_result result = dp_gl_check(gl, what, diag);
+    if (result) dp_gl_buffer_free(gl, buffer);
+    return result;
 }
 
 dp_result dp_gl_buffer_reserve(dp_gl *gl, dp_gl_buffer *buffer, size_t size, const char *what,
                                dp_diag *diag) {
     const size_t most = most_of(gl), half = buffer->size / 2;
     if (buffer->name && size <= buffer->size) return DP_OK;
-    if (size > most)
-        return dp_fail(diag, DP_ERR_LIMIT, "%s would take %zu MB of the device; %zu MB are allowed",
-                       what, size >> 20, most >> 20);
+    if (size > most) return too_large(size, most, what, diag);
     size_t grown = size > buffer->size + half ? size : buffer->size + half;
     if (grown > most) grown = most;
     return make(gl, buffer, grown < 64 ? 64 : (grown + 15) / 16 * 16, NULL, what, diag);
@@ -37,9 +43,7 @@ dp_result dp_gl_buffer_reserve(dp_gl *gl, dp_gl_buffer *buffer, size_t size, con
 
 dp_result dp_gl_buffer_fill(dp_gl *gl, dp_gl_buffer *buffer, const void *data, size_t size,
                             const char *what, dp_diag *diag) {
-    if (size > most_of(gl))
-        return dp_fail(diag, DP_ERR_LIMIT, "%s would take %zu MB of the device; %zu MB are allowed",
-                       what, size >> 20, most_of(gl) >> 20);
+    if (size > most_of(gl)) return too_large(size, most_of(gl), what, diag);
     if (!size) return dp_gl_buffer_reserve(gl, buffer, 16, what, diag);
     if (buffer->name && size <= buffer->size && size > buffer->size / 2) {
         gl->api.BindBuffer(GL_COPY_WRITE_BUFFER, buffer->name);
@@ -90,6 +94,11 @@ dp_result dp_gl_texture_reserve(dp_gl *gl, dp_gl_texture *texture, uint32_t form
                                .width = width,
                                .height = height,
                                .samples = samples};
+    if (bytes_of(texture) > allowed(gl)) {
+        const uint64_t bytes = bytes_of(texture);
+        *texture = (dp_gl_texture){0};
+        return too_large(bytes, allowed(gl), what, diag);
+    }
     a->GenTextures(1, &texture->name);
     a->ActiveTexture(GL_TEXTURE0);
     a->BindTexture(texture->target, texture->name);
@@ -104,7 +113,9 @@ dp_result dp_gl_texture_reserve(dp_gl *gl, dp_gl_texture *texture, uint32_t form
         a->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
     gl->stats.bytes += bytes_of(texture);
-    return dp_gl_check(gl, what, diag);
+    const dp_result result = dp_gl_check(gl, what, diag);
+    if (result) dp_gl_texture_free(gl, texture);
+    return result;
 }
 
 void dp_gl_texture_bind(dp_gl *gl, const dp_gl_texture *texture, uint32_t unit) {

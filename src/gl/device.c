@@ -1,6 +1,7 @@
 /* A dp_gl: what the context can do, and what all stages share. */
 #include "gl/ink.h"
 #include "gl/lines.h"
+#include "gl/mirror.h"
 #include "gl/scene.h"
 #include "gl/surface.h"
 
@@ -10,7 +11,8 @@
 static void forward_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                             const GLchar *text, const void *user) {
     const dp_gl *const gl = user;
-    (void)source, (void)type, (void)id, (void)length;
+    (void)type, (void)id, (void)length;
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return; /* program.c tells it, with names */
     if (severity != GL_DEBUG_SEVERITY_NOTIFICATION && gl->desc.message)
         gl->desc.message(gl->desc.user, text);
 }
@@ -69,6 +71,8 @@ static dp_result ask_device(dp_gl *gl, dp_diag *diag) {
                        gl->device);
     gl->has_clip_control =
         a->ClipControl && (gl->version >= 450 || has_extension(gl, "GL_ARB_clip_control"));
+    gl->has_reset_status =
+        a->GetGraphicsResetStatus && (gl->version >= 450 || has_extension(gl, "GL_KHR_robustness"));
     gl->samples_most =
         least(least(ask(gl, GL_MAX_COLOR_TEXTURE_SAMPLES), ask(gl, GL_MAX_INTEGER_SAMPLES)),
               ask(gl, GL_MAX_DEPTH_TEXTURE_SAMPLES));
@@ -79,11 +83,14 @@ static dp_result ask_device(dp_gl *gl, dp_diag *diag) {
     return check_limits(gl, diag);
 }
 
-/* Debug contexts tell what is wrong as it happens, and nothing is asked after each call. */
+/* Debug contexts tell what is wrong as it happens, and nothing is asked after each call. An application that listens
+ * itself goes on doing so. */
 static void listen(dp_gl *gl) {
     GLint flags = 0;
+    void *other = NULL;
     gl->api.GetIntegerv(GL_CONTEXT_FLAGS, &flags);
-    gl->has_debug = (flags & GL_CONTEXT_FLAG_DEBUG_BIT) && gl->desc.message;
+    gl->api.GetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &other);
+    gl->has_debug = (flags & GL_CONTEXT_FLAG_DEBUG_BIT) && gl->desc.message && !other;
     if (!gl->has_debug) return;
     gl->api.Enable(GL_DEBUG_OUTPUT);
     gl->api.DebugMessageCallback(forward_message, gl);
@@ -101,12 +108,12 @@ dp_result dp_gl_create(const dp_gl_desc *desc, dp_gl **out, dp_diag *diag) {
     gl->lines.topology = UINT64_MAX;
     dp_result result = dp_gl_api_load(&gl->api, desc, diag);
     if (!result) result = ask_device(gl, diag);
+    if (!result) dp_gl_forget_errors(gl); /* the application's own */
+    if (!result && gl->is_lost) result = dp_gl_check(gl, "creating a dp_gl", diag);
     if (result) {
         dp_free(&memory, gl);
         return result;
     }
-    while (gl->api.GetError() != GL_NO_ERROR) {
-    } /* the application's own */
     listen(gl);
     gl->api.GenVertexArrays(1, &gl->vertex_array);
     *out = gl;
@@ -115,6 +122,7 @@ dp_result dp_gl_create(const dp_gl_desc *desc, dp_gl **out, dp_diag *diag) {
 
 static void free_host(dp_gl *gl) {
     const dp_allocator memory = gl->memory;
+    dp_gl_mirror_free(gl);
     dp_gl_scene_free_host(gl);
     dp_gl_read_free(gl);
     dp_free(&memory, gl->programs.entries);
@@ -124,7 +132,12 @@ static void free_host(dp_gl *gl) {
 
 void dp_gl_destroy(dp_gl *gl) {
     if (!gl) return;
+    if (gl->is_lost) {
+        dp_gl_abandon(gl);
+        return;
+    }
     dp_gl_programs_free(gl);
+    dp_gl_mirror_free(gl);
     dp_gl_scene_free(gl);
     dp_gl_faces_free(gl);
     dp_gl_lines_free(gl);
@@ -132,7 +145,7 @@ void dp_gl_destroy(dp_gl *gl) {
     dp_gl_ink_free(gl);
     dp_gl_buffer_free(gl, &gl->block_buffer);
     gl->api.DeleteVertexArrays(1, &gl->vertex_array);
-    if (gl->queries[0]) gl->api.DeleteQueries(DP_GL_STAGE_COUNT, gl->queries);
+    if (gl->queries[0][0]) gl->api.DeleteQueries(2 * DP_GL_STAGE_COUNT, gl->queries[0]);
     if (gl->has_debug) gl->api.DebugMessageCallback(NULL, NULL);
     free_host(gl);
 }
@@ -143,15 +156,33 @@ void dp_gl_abandon(dp_gl *gl) {
     free_host(gl);
 }
 
+/* The first error that the context remembers; it may hold several, and a broken one no end of them. */
+static GLenum take_errors(dp_gl *gl) {
+    enum { MOST = 32 };
+    GLenum first = GL_NO_ERROR;
+    if (gl->has_reset_status && gl->api.GetGraphicsResetStatus() != GL_NO_ERROR)
+        first = GL_CONTEXT_LOST;
+    for (int i = 0; i < MOST && first != GL_CONTEXT_LOST; i++) {
+        const GLenum error = gl->api.GetError();
+        if (error == GL_NO_ERROR) break;
+        if (first == GL_NO_ERROR || error == GL_CONTEXT_LOST) first = error;
+    }
+    gl->is_lost |= first == GL_CONTEXT_LOST;
+    return first;
+}
+
+void dp_gl_forget_errors(dp_gl *gl) {
+    if (!gl->is_lost) (void)take_errors(gl);
+}
+
 dp_result dp_gl_check(dp_gl *gl, const char *what, dp_diag *diag) {
-    const GLenum error = gl->api.GetError();
+    const GLenum error = gl->is_lost ? GL_CONTEXT_LOST : take_errors(gl);
     switch (error) {
     case GL_NO_ERROR:
         return DP_OK;
     case GL_OUT_OF_MEMORY:
         return dp_fail(diag, DP_ERR_MEMORY, "the device's memory is out: %s", what);
     case GL_CONTEXT_LOST:
-        gl->is_lost = true;
         return dp_fail(diag, DP_ERR_IO, "the OpenGL context was lost: %s", what);
     default:
         return dp_fail(diag, DP_ERR_UNSUPPORTED, "%s reports error 0x%04x: %s", gl->device,

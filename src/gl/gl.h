@@ -16,6 +16,7 @@
 
 #include "base/diag.h"
 #include "base/memory.h"
+#include "core/precision.h"
 #include "core/view.h"
 
 /* Storage buffers, by binding: no shader uses more than eight. Those of a stage alone are its own, from
@@ -30,6 +31,9 @@ enum {
 
 /* Texture units, of which a stage may use all from DP_GL_UNIT_OWN on. */
 enum { DP_GL_UNIT_IDS = 0, DP_GL_UNIT_DEPTH = 1, DP_GL_UNIT_OWN = 2, DP_GL_UNITS = 12 };
+
+/* Draw buffers that the application's framebuffer may have; OpenGL allows as many at least. */
+enum { DP_GL_DRAW_BUFFERS = 8 };
 
 enum { DP_GL_GROUP_SIZE = 64 /* invocations of a compute shader's group, along x */ };
 
@@ -53,6 +57,16 @@ typedef struct dp_gl_picture_block {
     uint32_t style[4];                   /* lines, perspective, cull_back_faces, free */
 } dp_gl_picture_block;
 
+/* Normals of a mesh, and how up to date they are (attributes.c). */
+typedef struct dp_gl_mesh_normals {
+    dp_gl_buffer made;  /* computed: [3 * triangle] as dp_gl_mesh.normals */
+    uint64_t made_from; /* `version` of the positions that they are of; 0: none are made */
+    float crease;       /* degrees */
+    uint64_t version;   /* changes with the source's positions and attributes */
+    bool lacks;         /* some corners have no normal of their own, and get one that is made */
+    bool is_foreign;    /* the positions are the application's: none are computed */
+} dp_gl_mesh_normals;
+
 /* A mesh on the device. */
 struct dp_gl_mesh {
     dp_gl *gl;
@@ -61,13 +75,16 @@ struct dp_gl_mesh {
     bool owned;              /* the buffers are the library's: */
     dp_gl_buffer positions, corners, triangles, normals, texcoords, colors;
     bool has_normals, has_texcoords, has_colors;
-    uint64_t topology;  /* changes with the indices: a number that no other state has had */
-    uint64_t placement; /* the same of `matrix` and the positions of owned buffers */
-    double origin[3];   /* world space: what positions count from */
+    dp_gl_mesh_normals shading; /* what normals, texcoords and colors are of */
+    bool keeps_groups;          /* its groups have the same numbers in the picture */
+    uint64_t topology;          /* changes with the indices: a number that no other state has had */
+    uint64_t placement;         /* the same of `matrix` and the positions of owned buffers */
+    double origin[3];           /* world space: what positions count from */
     double matrix[16];
-    bool placed;       /* there is a matrix */
-    uint64_t polygons; /* of the source */
-    uint32_t pieces;   /* convex ones, which triangles are numbered by */
+    dp_written written; /* of a source's positions, in its own space (core/precision.h) */
+    bool placed;        /* there is a matrix */
+    uint64_t polygons;  /* of the source */
+    uint32_t pieces;    /* convex ones, which triangles are numbered by */
     uint32_t vertex_count, triangle_count;
     uint32_t *
         polygon_firsts; /* [triangle]: the first triangle of its polygon; NULL: all are their own */
@@ -76,6 +93,12 @@ struct dp_gl_mesh {
     uint32_t group_count;
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
+
+/* Groups in a picture, as dp_source_join numbers them: k is group 0 of mesh k, then come the others of each mesh. A mesh's
+ * group g is `zero` if it is 0, else `others` + g. */
+typedef struct dp_gl_group_numbers {
+    uint32_t zero, others;
+} dp_gl_group_numbers;
 
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {
@@ -99,7 +122,10 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
-    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
+    dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
+    uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
+    uint32_t sampler; /* for the application's depth */
+    float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -145,6 +171,18 @@ typedef struct dp_gl_candidate {
     uint32_t level;  /* 0 */
 } dp_gl_candidate;
 
+/* Edges where the eye decides (emerge.c), and crossings (crossings.c). */
+typedef struct dp_gl_eye {
+    dp_gl_buffer words;    /* counts and rooms, bits of half-edges and cells, lists of cells */
+    dp_gl_buffer looked;   /* half-edges that are looked at */
+    dp_gl_buffer chunks;   /* parts of these */
+    dp_gl_buffer nodes;    /* of the cells' lists: polygons */
+    dp_gl_buffer findings; /* by sample point: what is seen there */
+    dp_gl_buffer pairs;    /* the table of polygons that may cross */
+    dp_gl_buffer crossed;  /* those, and where they do */
+    dp_gl_buffer along;    /* crossings by cells */
+} dp_gl_eye;
+
 typedef struct dp_gl_surface {
     dp_gl_texture
         picture; /* RGBA8, the picture as it grows: surface, then ink; not premultiplied */
@@ -159,6 +197,7 @@ typedef struct dp_gl_ink {
 typedef struct dp_gl_quads dp_gl_quads;     /* quads.c */
 typedef struct dp_gl_shading dp_gl_shading; /* shading.c: G-buffer, edge map, styles of surfaces */
 typedef struct dp_gl_fins dp_gl_fins;       /* fins.c: textured silhouettes, pencil */
+typedef struct dp_gl_mirror dp_gl_mirror;   /* mirror.c: the reflected scene, and its picture */
 
 struct dp_gl {
     dp_allocator memory;
@@ -170,10 +209,14 @@ struct dp_gl {
 
     char device[160];
     int version; /* 430, 450, … */
-    bool has_clip_control, has_debug, is_lost;
+    bool has_clip_control, has_reset_status, has_debug, is_lost;
     uint32_t samples_most; /* of colour, integer and depth at once */
     uint32_t texture_most, storage_most;
     uint32_t vertex_array;
+    /* For tests: as if the context had no geometry shader; stroke textures by the texture unit, by four texels in float32, or by
+     * these with shares in steps of 1/256 (fins_texture.c). */
+    bool no_geometry_shader;
+    enum { DP_GL_LOOKUPS_UNIT, DP_GL_LOOKUPS_EXACT, DP_GL_LOOKUPS_STEPS } lookups;
 
     /* the picture that is drawn */
     dp_view view;
@@ -188,21 +231,25 @@ struct dp_gl {
     dp_gl_scene scene;
     dp_gl_faces faces;
     dp_gl_lines_store lines;
+    dp_gl_eye eye;
     dp_gl_surface surface;
     dp_gl_ink ink;
     dp_gl_quads *quads;     /* made when first used */
     dp_gl_shading *shading; /* the same */
     dp_gl_fins *fins;       /* the same */
+    dp_gl_mirror *mirror;   /* the same */
 
     dp_gl_stats stats;
     bool timed;
-    uint32_t queries[DP_GL_STAGE_COUNT];
+    uint32_t queries[DP_GL_STAGE_COUNT][2]; /* timestamps: when it began and ended */
     bool queried[DP_GL_STAGE_COUNT];
 };
 
 /* The error that the device remembers, as a result: memory, a lost context; DP_OK if there is none. It
  * is asked once a picture, not after each call. `what` was being done. */
 dp_result dp_gl_check(dp_gl *gl, const char *what, dp_diag *diag);
+/* Forgets errors that are not ours; notices a lost context. */
+void dp_gl_forget_errors(dp_gl *gl);
 
 /* Before and after what a call does: remembers and restores the application's state (state.c). */
 typedef struct dp_gl_state dp_gl_state;

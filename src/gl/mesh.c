@@ -85,7 +85,7 @@ static dp_result upload_topology(dp_gl_mesh *m, const fan *f, dp_diag *diag) {
     if (!result)
         result = dp_gl_buffer_fill(gl, &m->triangles, f->kinds, 8 * (size_t)f->count,
                                    "triangles of a mesh", diag);
-    m->fingerprint = print;
+    m->fingerprint = result ? 0 : print;
     m->topology = dp_gl_number(gl);
     gl->drawn = false; /* numbers of the last picture's triangles lead nowhere now */
     return result;
@@ -95,6 +95,7 @@ static dp_result upload_positions(dp_gl_mesh *m, const dp_polygons *p, dp_diag *
     const dp_allocator *const memory = &m->gl->memory;
     float *packed = NULL;
     const float *positions = p->positions;
+    m->written = dp_written_of(p);
     if (p->stride != 12) {
         packed = dp_alloc_array(memory, (size_t)p->vertex_count + 1, 12);
         if (!packed) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mesh's positions");
@@ -145,6 +146,15 @@ static dp_result take_colors(dp_gl_mesh *m, dp_source *source, const dp_polygons
     return DP_OK;
 }
 
+/* What could not be read whole is empty. */
+static void clear(dp_gl_mesh *m) {
+    m->polygons = 0;
+    m->vertex_count = m->triangle_count = 0;
+    m->fingerprint = 0;
+    if (!m->group_colors) m->group_count = 0;
+    m->topology = dp_gl_number(m->gl);
+}
+
 static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {
     dp_polygon_store store = {0};
     dp_polygons polygons = {0};
@@ -158,6 +168,7 @@ static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {
     if (!result) result = dp_gl_mesh_take_attributes(m, &polygons, diag);
     if (!result) result = take_colors(m, source, &polygons, diag);
     m->polygons = stats.polygons, m->pieces = polygons.count;
+    if (result) clear(m);
     m->owned = true;
     m->placement = dp_gl_number(m->gl);
     m->from = (dp_gl_buffers){.positions = m->positions.name,
@@ -247,6 +258,10 @@ static dp_result check_buffers(dp_gl *gl, dp_gl_buffers *b, dp_diag *diag) {
     return result;
 }
 
+dp_result dp_gl_mesh_check(dp_gl_mesh *mesh, dp_diag *diag) {
+    return mesh->owned ? DP_OK : check_buffers(mesh->gl, &mesh->from, diag);
+}
+
 dp_result dp_gl_mesh_from_buffers(dp_gl *gl, const dp_gl_buffers *buffers, dp_gl_mesh **out,
                                   dp_diag *diag) {
     dp_gl_state *state;
@@ -266,6 +281,7 @@ dp_result dp_gl_mesh_from_buffers(dp_gl *gl, const dp_gl_buffers *buffers, dp_gl
     m->vertex_count = from.vertex_count, m->triangle_count = from.triangle_count;
     m->polygons = m->pieces = from.triangle_count;
     m->topology = dp_gl_number(gl), m->placement = dp_gl_number(gl);
+    m->shading.version = dp_gl_number(gl), m->shading.is_foreign = true;
     *out = m;
     return DP_OK;
 }
@@ -300,8 +316,9 @@ void dp_gl_mesh_destroy(dp_gl_mesh *mesh) {
     if (*at) *at = mesh->next;
     gl->scene.count = 0; /* it may be among them */
     gl->drawn = false;
-    dp_gl_buffer *const buffers[] = {&mesh->positions, &mesh->corners,   &mesh->triangles,
-                                     &mesh->normals,   &mesh->texcoords, &mesh->colors};
+    dp_gl_buffer *const buffers[] = {&mesh->positions,   &mesh->corners,   &mesh->triangles,
+                                     &mesh->normals,     &mesh->texcoords, &mesh->colors,
+                                     &mesh->shading.made};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers && !gl->is_lost; i++)
         dp_gl_buffer_free(gl, buffers[i]);
     dp_free(&gl->memory, mesh->polygon_firsts);

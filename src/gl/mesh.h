@@ -11,4 +11,7 @@
 /* Uploads normals, texture coordinates and colours, if the polygons have some (attributes.c). */
 dp_result dp_gl_mesh_take_attributes(dp_gl_mesh *mesh, const dp_polygons *polygons, dp_diag *diag);
 
+/* Are the application's buffers still there, and as large as they must be? DP_ERR_ARGUMENT. */
+dp_result dp_gl_mesh_check(dp_gl_mesh *mesh, dp_diag *diag);
+
 #endif

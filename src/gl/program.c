@@ -81,11 +81,56 @@ static dp_result source_of(dp_gl *gl, const char *file, const dp_gl_program_desc
     return t->failed ? dp_fail(diag, DP_ERR_MEMORY, "out of memory for shader %s", file) : DP_OK;
 }
 
+/* If a line of a compiler's begins with a file's number, as in "3:12(8): error: …" (Mesa), "3(12) : error …" (NVIDIA) or
+ * "ERROR: 3:12: …" (others), that number's place, and how long it is; else NULL. */
+static const char *file_in_line(const char *line, int *number, size_t *length) {
+    static const char *const before[] = {"ERROR: ", "WARNING: "};
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        if (!strncmp(line, before[i], strlen(before[i]))) line += strlen(before[i]);
+    *length = strspn(line, "0123456789");
+    const char *const rest = line + *length;
+    if (!*length || *length > 3 || !(*rest == ':' || *rest == '(')) return NULL;
+    if (rest[1] < '0' || rest[1] > '9') return NULL;
+    *number = 0;
+    for (size_t i = 0; i < *length; i++) *number = 10 * *number + (line[i] - '0');
+    return line;
+}
+
+static int file_count(void) {
+    int count = 0;
+    while (dp_gl_shader_files[count].name) count++;
+    return count;
+}
+
+/* A compiler's words, with files' names in place of their numbers. */
+static void put_named(text *t, const char *log) {
+    while (*log) {
+        const char *const end = strchr(log, '\n');
+        const size_t size = end ? (size_t)(end - log) + 1 : strlen(log);
+        size_t length;
+        int number;
+        const char *const at = file_in_line(log, &number, &length);
+        if (at && number < file_count()) {
+            put_bytes(t, log, (size_t)(at - log));
+            put(t, dp_gl_shader_files[number].name);
+            put_bytes(t, at + length, size - (size_t)(at - log) - length);
+        } else {
+            put_bytes(t, log, size);
+        }
+        log += size;
+    }
+}
+
 /* What a compiler or linker said: to the application whole, and its beginning as an error. */
 static dp_result refused(dp_gl *gl, const char *file, const char *log, dp_diag *diag) {
-    if (gl->desc.message) gl->desc.message(gl->desc.user, log);
-    return dp_fail(diag, DP_ERR_UNSUPPORTED, "%s does not compile on this device (%s): %.120s",
-                   file, gl->device, log[0] ? log : "its compiler says nothing");
+    text t = {.memory = &gl->memory};
+    put_named(&t, log[0] ? log : "its compiler says nothing");
+    const char *const said = t.failed ? log : t.at;
+    if (gl->desc.message) gl->desc.message(gl->desc.user, said);
+    dp_fail(diag, DP_ERR_UNSUPPORTED, "%s does not compile on this device (%s): %.120s", file,
+            gl->device, said);
+    dp_free(&gl->memory, t.at);
+    return DP_ERR_UNSUPPORTED;
 }
 
 static dp_result compile(dp_gl *gl, GLenum stage, const char *file, const dp_gl_program_desc *desc,
@@ -145,7 +190,7 @@ static uint64_t hash_text(uint64_t hash, const char *s) {
 }
 
 static uint64_t key_of(const dp_gl *gl, const dp_gl_program_desc *d) {
-    uint64_t hash = 0xcbf29ce484222325u ^ gl->samples;
+    uint64_t hash = 0xcbf29ce484222325u ^ (d->any_samples ? 0 : gl->samples);
     const char *const parts[5] = {d->compute, d->vertex, d->geometry, d->fragment, d->defines};
     for (int i = 0; i < 5; i++) hash = hash_text(hash, parts[i]);
     return hash;

@@ -59,13 +59,26 @@ void dp_gl_scene_bind(dp_gl *gl) {
     dp_gl_buffer_bind(gl, &gl->scene.triangles, DP_GL_BIND_TRIANGLES);
 }
 
+dp_gl_group_numbers dp_gl_groups_of(const dp_gl_scene *scene, size_t index) {
+    uint32_t meshes = 0, before = 0;
+    if (scene->meshes[index]->keeps_groups) return (dp_gl_group_numbers){0, 0};
+    for (size_t i = 0; i < scene->count; i++) {
+        const dp_gl_mesh *const m = scene->meshes[i];
+        meshes += !m->keeps_groups;
+        before += i < index && m->group_count ? m->group_count - 1 : 0;
+    }
+    return (dp_gl_group_numbers){(uint32_t)index, meshes + before - 1};
+}
+
 /* Writes one mesh's corners and triangles behind those before it. */
 static void put_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t first_vertex,
-                     uint32_t first_triangle, uint64_t first_polygon) {
+                     uint32_t first_triangle, uint64_t first_polygon, dp_gl_group_numbers groups) {
     const dp_gl_api *const a = &gl->api;
     dp_gl_uniform_u(gl, program, "first_vertex", first_vertex);
     dp_gl_uniform_u(gl, program, "first_triangle", first_triangle);
     dp_gl_uniform_u(gl, program, "first_polygon", (uint32_t)first_polygon);
+    dp_gl_uniform_u(gl, program, "zero_group", groups.zero);
+    dp_gl_uniform_u(gl, program, "other_groups", groups.others);
     dp_gl_uniform_u(gl, program, "vertex_count", m->vertex_count);
     dp_gl_uniform_u(gl, program, "triangle_count", m->triangle_count);
     dp_gl_uniform_u(gl, program, "indices_at",
@@ -88,7 +101,7 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
     dp_gl_scene_bind(gl);
     for (size_t i = 0; i < gl->scene.count; i++) {
         const dp_gl_mesh *const m = gl->scene.meshes[i];
-        put_mesh(gl, program, m, vertices, triangles, polygons);
+        put_mesh(gl, program, m, vertices, triangles, polygons, dp_gl_groups_of(&gl->scene, i));
         vertices += m->vertex_count, triangles += m->triangle_count, polygons += m->pieces;
     }
     return DP_OK;
@@ -96,7 +109,7 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
 
 dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, dp_diag *diag) {
     dp_gl_scene *const s = &gl->scene;
-    s->new_topology = !is_known(s, meshes, count);
+    s->new_topology = !count || !is_known(s, meshes, count); /* none are known once one is gone */
     if (!s->new_topology) return DP_OK;
     s->count = 0;
     s->topology = dp_gl_number(gl);
@@ -119,8 +132,7 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
     return result;
 }
 
-/* Rows of the map from a mesh's own space to the scene's; false if it changes nothing. */
-static bool placement_of(const dp_gl_mesh *m, const double origin[3], double rows[3][4]) {
+bool dp_gl_placement_of(const dp_gl_mesh *m, const double origin[3], double rows[3][4]) {
     bool moves = m->placed;
     for (int r = 0; r < 3; r++) {
         rows[r][3] = m->origin[r] - origin[r];
@@ -138,7 +150,7 @@ static bool placement_of(const dp_gl_mesh *m, const double origin[3], double row
 static dp_result place_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t first,
                             dp_gl_buffer *placement, dp_diag *diag) {
     double rows[3][4];
-    const bool moves = placement_of(m, gl->scene.origin, rows);
+    const bool moves = dp_gl_placement_of(m, gl->scene.origin, rows);
     const dp_result result =
         dp_gl_buffer_fill(gl, placement, rows, sizeof rows, "a mesh's place", diag);
     if (result) return result;

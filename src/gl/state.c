@@ -6,16 +6,24 @@
  * Invariant: whatever a pass enables, binds or sets is in one of these tables. */
 #include "gl/gl.h"
 
-enum { SWITCHES = 20, COLOR_MASKS = 4, IMAGES = 4, UNIFORM_BLOCKS = 3 };
+enum {
+    SWITCHES = 28,
+    VIEWPORTS = 16, /* glViewport sets all */
+    IMAGES = 4,
+    UNIFORM_BLOCKS = 3,
+    PACKS = 7,
+    UNPACKS = 7
+};
 
 /* Switches that passes use, all off when a call begins. */
 static const GLenum switches[] = {GL_BLEND,
                                   GL_CULL_FACE,
                                   GL_DEPTH_TEST,
                                   GL_STENCIL_TEST,
-                                  GL_SCISSOR_TEST,
                                   GL_COLOR_LOGIC_OP,
                                   GL_POLYGON_OFFSET_FILL,
+                                  GL_POLYGON_OFFSET_LINE, /* llvmpipe offsets all by them */
+                                  GL_POLYGON_OFFSET_POINT,
                                   GL_POLYGON_SMOOTH,
                                   GL_RASTERIZER_DISCARD,
                                   GL_SAMPLE_ALPHA_TO_COVERAGE,
@@ -28,7 +36,14 @@ static const GLenum switches[] = {GL_BLEND,
                                   GL_DEPTH_CLAMP,
                                   GL_FRAMEBUFFER_SRGB,
                                   GL_DITHER,
-                                  GL_CLIP_DISTANCE0};
+                                  GL_CLIP_DISTANCE0,
+                                  GL_CLIP_DISTANCE0 + 1,
+                                  GL_CLIP_DISTANCE0 + 2,
+                                  GL_CLIP_DISTANCE0 + 3,
+                                  GL_CLIP_DISTANCE0 + 4,
+                                  GL_CLIP_DISTANCE0 + 5,
+                                  GL_CLIP_DISTANCE0 + 6,
+                                  GL_CLIP_DISTANCE0 + 7};
 
 typedef struct unit {
     GLint plain, multisample, layered, sampler;
@@ -47,30 +62,36 @@ typedef struct stencil {
     GLint func, ref, value_mask, write_mask, fail, depth_fail, depth_pass;
 } stencil;
 
+/* Of one draw buffer. */
+typedef struct blending {
+    GLboolean mask[4], on;
+    GLint rgb, alpha, source_rgb, source_alpha, target_rgb, target_alpha;
+} blending;
+
 struct dp_gl_state {
-    GLboolean on[SWITCHES], multisample, depth_mask, color_masks[COLOR_MASKS][4],
-        blends[COLOR_MASKS];
+    GLboolean on[SWITCHES], scissor, multisample, depth_mask;
+    blending buffers[DP_GL_DRAW_BUFFERS];
     GLint program, vertex_array, draw_framebuffer, read_framebuffer, active_unit;
-    GLint viewport[4], scissor[4], polygon_mode[2], front_face, cull_face, depth_func, provoking;
-    GLint blend_rgb, blend_alpha, source_rgb, source_alpha, target_rgb, target_alpha;
+    GLint polygon_mode[2], front_face, cull_face, depth_func, provoking;
     GLint clip_origin, clip_depth;
-    GLfloat depth_range[2];
+    GLfloat viewports[VIEWPORTS][4];
+    GLdouble depth_range[2];
     GLint array_buffer, storage_buffer, uniform_buffer, indirect_buffer, dispatch_buffer;
     GLint copy_read, copy_write, pack_buffer, unpack_buffer;
-    GLint pack[4], unpack[6];
+    GLint pack[PACKS], unpack[UNPACKS];
     stencil faces[2];
     unit units[DP_GL_UNITS];
     block storage[DP_GL_BINDINGS], uniforms[UNIFORM_BLOCKS];
     image images[IMAGES];
 };
 
-static const GLenum pack_names[4] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
-                                     GL_PACK_SKIP_PIXELS};
-static const GLint pack_values[4] = {1, 0, 0, 0};
-static const GLenum unpack_names[6] = {GL_UNPACK_ALIGNMENT,    GL_UNPACK_ROW_LENGTH,
-                                       GL_UNPACK_SKIP_ROWS,    GL_UNPACK_SKIP_PIXELS,
-                                       GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES};
-static const GLint unpack_values[6] = {1, 0, 0, 0, 0, 0};
+static const GLenum pack_names[PACKS] = {
+    GL_PACK_ALIGNMENT,   GL_PACK_ROW_LENGTH,   GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
+    GL_PACK_SKIP_IMAGES, GL_PACK_IMAGE_HEIGHT, GL_PACK_SWAP_BYTES};
+static const GLenum unpack_names[UNPACKS] = {
+    GL_UNPACK_ALIGNMENT,    GL_UNPACK_ROW_LENGTH,  GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+    GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES};
+static const GLint pack_values[PACKS] = {1}; /* the others are 0; the same for both */
 
 /* Buffers that are bound to targets without an index. */
 static void for_buffers(dp_gl_state *s, void (*visit)(dp_gl *, GLenum, GLenum, GLint *),
@@ -100,9 +121,21 @@ static void ask_switches(dp_gl *gl, dp_gl_state *s) {
     for (size_t i = 0; i < SWITCHES; i++) s->on[i] = a->IsEnabled(switches[i]);
     s->multisample = a->IsEnabled(GL_MULTISAMPLE);
     a->GetBooleanv(GL_DEPTH_WRITEMASK, &s->depth_mask);
-    for (GLuint i = 0; i < COLOR_MASKS; i++) {
-        a->GetBooleani_v(GL_COLOR_WRITEMASK, i, s->color_masks[i]);
-        s->blends[i] = a->IsEnabledi(GL_BLEND, i);
+    s->scissor = a->IsEnabledi(GL_SCISSOR_TEST, 0);
+}
+
+static void ask_blending(dp_gl *gl, dp_gl_state *s) {
+    const dp_gl_api *const a = &gl->api;
+    for (GLuint i = 0; i < DP_GL_DRAW_BUFFERS; i++) {
+        blending *const b = &s->buffers[i];
+        a->GetBooleani_v(GL_COLOR_WRITEMASK, i, b->mask);
+        b->on = a->IsEnabledi(GL_BLEND, i);
+        a->GetIntegeri_v(GL_BLEND_EQUATION_RGB, i, &b->rgb);
+        a->GetIntegeri_v(GL_BLEND_EQUATION_ALPHA, i, &b->alpha);
+        a->GetIntegeri_v(GL_BLEND_SRC_RGB, i, &b->source_rgb);
+        a->GetIntegeri_v(GL_BLEND_SRC_ALPHA, i, &b->source_alpha);
+        a->GetIntegeri_v(GL_BLEND_DST_RGB, i, &b->target_rgb);
+        a->GetIntegeri_v(GL_BLEND_DST_ALPHA, i, &b->target_alpha);
     }
 }
 
@@ -112,26 +145,19 @@ static void ask_values(dp_gl *gl, dp_gl_state *s) {
     a->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &s->vertex_array);
     a->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &s->draw_framebuffer);
     a->GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &s->read_framebuffer);
-    a->GetIntegerv(GL_VIEWPORT, s->viewport);
-    a->GetIntegerv(GL_SCISSOR_BOX, s->scissor);
+    for (GLuint i = 0; i < VIEWPORTS; i++) a->GetFloati_v(GL_VIEWPORT, i, s->viewports[i]);
     a->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
     a->GetIntegerv(GL_FRONT_FACE, &s->front_face);
     a->GetIntegerv(GL_CULL_FACE_MODE, &s->cull_face);
     a->GetIntegerv(GL_DEPTH_FUNC, &s->depth_func);
     a->GetIntegerv(GL_PROVOKING_VERTEX, &s->provoking);
-    a->GetIntegerv(GL_BLEND_EQUATION_RGB, &s->blend_rgb);
-    a->GetIntegerv(GL_BLEND_EQUATION_ALPHA, &s->blend_alpha);
-    a->GetIntegerv(GL_BLEND_SRC_RGB, &s->source_rgb);
-    a->GetIntegerv(GL_BLEND_SRC_ALPHA, &s->source_alpha);
-    a->GetIntegerv(GL_BLEND_DST_RGB, &s->target_rgb);
-    a->GetIntegerv(GL_BLEND_DST_ALPHA, &s->target_alpha);
-    a->GetFloatv(GL_DEPTH_RANGE, s->depth_range);
+    a->GetDoublei_v(GL_DEPTH_RANGE, 0, s->depth_range);
     if (gl->has_clip_control) {
         a->GetIntegerv(GL_CLIP_ORIGIN, &s->clip_origin);
         a->GetIntegerv(GL_CLIP_DEPTH_MODE, &s->clip_depth);
     }
-    for (int i = 0; i < 4; i++) a->GetIntegerv(pack_names[i], &s->pack[i]);
-    for (int i = 0; i < 6; i++) a->GetIntegerv(unpack_names[i], &s->unpack[i]);
+    for (int i = 0; i < PACKS; i++) a->GetIntegerv(pack_names[i], &s->pack[i]);
+    for (int i = 0; i < UNPACKS; i++) a->GetIntegerv(unpack_names[i], &s->unpack[i]);
 }
 
 static void ask_stencil(dp_gl *gl, dp_gl_state *s) {
@@ -192,11 +218,12 @@ static void ask_blocks(dp_gl *gl, dp_gl_state *s) {
 static void set_plain(dp_gl *gl) {
     const dp_gl_api *const a = &gl->api;
     for (size_t i = 0; i < SWITCHES; i++) a->Disable(switches[i]);
+    a->Disablei(GL_SCISSOR_TEST, 0);
     a->Enable(GL_MULTISAMPLE);
     a->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     a->DepthMask(GL_TRUE);
     a->DepthFunc(GL_LESS);
-    a->DepthRangef(0, 1);
+    a->DepthRangeIndexed(0, 0, 1);
     a->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     a->FrontFace(GL_CCW);
     a->CullFace(GL_BACK);
@@ -204,23 +231,37 @@ static void set_plain(dp_gl *gl) {
     a->BlendEquation(GL_FUNC_ADD);
     a->BlendFunc(GL_ONE, GL_ZERO);
     if (gl->has_clip_control) a->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    for (int i = 0; i < 4; i++) a->PixelStorei(pack_names[i], pack_values[i]);
-    for (int i = 0; i < 6; i++) a->PixelStorei(unpack_names[i], unpack_values[i]);
+    for (int i = 0; i < PACKS; i++) a->PixelStorei(pack_names[i], pack_values[i]);
+    for (int i = 0; i < UNPACKS; i++) a->PixelStorei(unpack_names[i], pack_values[i]);
     a->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     a->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     a->BindVertexArray(gl->vertex_array);
 }
 
-dp_result dp_gl_enter(dp_gl *gl, dp_gl_state **state, dp_diag *diag) {
-    *state = NULL;
-    while (!gl->is_lost && gl->api.GetError() == GL_CONTEXT_LOST) gl->is_lost = true;
+/* What no call can draw under: a lost context, and transform feedback, which forbids other programs. */
+static dp_result check_context(dp_gl *gl, dp_diag *diag) {
+    GLboolean feeds = GL_FALSE, paused = GL_FALSE;
+    dp_gl_forget_errors(gl);
     if (gl->is_lost)
         return dp_fail(diag, DP_ERR_IO,
                        "the OpenGL context was lost: make another one, and another dp_gl for it");
+    gl->api.GetBooleanv(GL_TRANSFORM_FEEDBACK_ACTIVE, &feeds);
+    gl->api.GetBooleanv(GL_TRANSFORM_FEEDBACK_PAUSED, &paused);
+    if (feeds && !paused)
+        return dp_fail(diag, DP_ERR_ARGUMENT,
+                       "transform feedback is active: end or pause it before this call");
+    return DP_OK;
+}
+
+dp_result dp_gl_enter(dp_gl *gl, dp_gl_state **state, dp_diag *diag) {
+    *state = NULL;
+    const dp_result result = check_context(gl, diag);
+    if (result) return result;
     if (!gl->desc.leaves_state_changed) {
         dp_gl_state *const s = dp_alloc_zeroed(&gl->memory, sizeof *s);
         if (!s) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for the context's state");
         ask_switches(gl, s);
+        ask_blending(gl, s);
         ask_values(gl, s);
         ask_stencil(gl, s);
         for_buffers(s, ask_buffer, gl);
@@ -239,12 +280,20 @@ static void give_switches(dp_gl *gl, const dp_gl_state *s) {
             a->Enable(switches[i]);
         else
             a->Disable(switches[i]);
+    if (s->scissor) a->Enablei(GL_SCISSOR_TEST, 0);
     if (!s->multisample) a->Disable(GL_MULTISAMPLE);
     a->DepthMask(s->depth_mask);
-    for (GLuint i = 0; i < COLOR_MASKS; i++) {
-        const GLboolean *const m = s->color_masks[i];
-        a->ColorMaski(i, m[0], m[1], m[2], m[3]);
-        if (s->blends[i])
+}
+
+static void give_blending(dp_gl *gl, const dp_gl_state *s) {
+    const dp_gl_api *const a = &gl->api;
+    for (GLuint i = 0; i < DP_GL_DRAW_BUFFERS; i++) {
+        const blending *const b = &s->buffers[i];
+        a->ColorMaski(i, b->mask[0], b->mask[1], b->mask[2], b->mask[3]);
+        a->BlendEquationSeparatei(i, (GLenum)b->rgb, (GLenum)b->alpha);
+        a->BlendFuncSeparatei(i, (GLenum)b->source_rgb, (GLenum)b->target_rgb,
+                              (GLenum)b->source_alpha, (GLenum)b->target_alpha);
+        if (b->on)
             a->Enablei(GL_BLEND, i);
         else
             a->Disablei(GL_BLEND, i);
@@ -300,20 +349,18 @@ static void give_values(dp_gl *gl, const dp_gl_state *s) {
     a->BindVertexArray((GLuint)s->vertex_array);
     a->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)s->draw_framebuffer);
     a->BindFramebuffer(GL_READ_FRAMEBUFFER, (GLuint)s->read_framebuffer);
-    a->Viewport(s->viewport[0], s->viewport[1], s->viewport[2], s->viewport[3]);
-    a->Scissor(s->scissor[0], s->scissor[1], s->scissor[2], s->scissor[3]);
+    for (GLuint i = 0; i < VIEWPORTS; i++)
+        a->ViewportIndexedf(i, s->viewports[i][0], s->viewports[i][1], s->viewports[i][2],
+                            s->viewports[i][3]);
     a->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
     a->FrontFace((GLenum)s->front_face);
     a->CullFace((GLenum)s->cull_face);
     a->DepthFunc((GLenum)s->depth_func);
     a->ProvokingVertex((GLenum)s->provoking);
-    a->BlendEquationSeparate((GLenum)s->blend_rgb, (GLenum)s->blend_alpha);
-    a->BlendFuncSeparate((GLenum)s->source_rgb, (GLenum)s->target_rgb, (GLenum)s->source_alpha,
-                         (GLenum)s->target_alpha);
-    a->DepthRangef(s->depth_range[0], s->depth_range[1]);
+    a->DepthRangeIndexed(0, s->depth_range[0], s->depth_range[1]);
     if (gl->has_clip_control) a->ClipControl((GLenum)s->clip_origin, (GLenum)s->clip_depth);
-    for (int i = 0; i < 4; i++) a->PixelStorei(pack_names[i], s->pack[i]);
-    for (int i = 0; i < 6; i++) a->PixelStorei(unpack_names[i], s->unpack[i]);
+    for (int i = 0; i < PACKS; i++) a->PixelStorei(pack_names[i], s->pack[i]);
+    for (int i = 0; i < UNPACKS; i++) a->PixelStorei(unpack_names[i], s->unpack[i]);
 }
 
 void dp_gl_leave(dp_gl *gl, dp_gl_state *state) {
@@ -323,6 +370,7 @@ void dp_gl_leave(dp_gl *gl, dp_gl_state *state) {
     give_units(gl, state);
     give_stencil(gl, state);
     give_switches(gl, state);
+    give_blending(gl, state);
     give_values(gl, state);
     dp_free(&gl->memory, state);
 }

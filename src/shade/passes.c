@@ -20,7 +20,7 @@
 enum { SHADE, CARTOON, STORE, EDGES, RESOLVE };
 
 /* Toon, from N·L = -1 to 1. All that the light does not reach has one shade. */
-static const uint8_t built_in_shades[8][4] = {
+const uint8_t dp_toon_shades[DP_TOON_SHADES][4] = {
     {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},    {96, 96, 96, 255},
     {156, 156, 156, 255}, {208, 208, 208, 255}, {208, 208, 208, 255}, {255, 255, 255, 255}};
 
@@ -101,19 +101,17 @@ static bool choose_strokes(dp_shade_store *s, const dp_allocator *memory) {
     return true;
 }
 
-/* Where world space begins elsewhere than positions do. A float of the exponent e is a power of two,
- * 2^(e - 127). */
-static void anchor_strokes(dp_shade_store *s, const double origin[3]) {
-    if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return;
+/* A float of the exponent e is a power of two, 2^(e - 127). */
+void dp_anchor_strokes(const double origin[3], uint32_t width, uint32_t height,
+                       dp_hatch_anchor *out) {
     const double a = (double)DP_HATCH_COSINE, b = (double)DP_HATCH_SINE;
     for (int k = 0; k < 3; k++)
         for (int e = 0; e < 256; e++) {
             const double u = ldexp(origin[(k + 1) % 3], e - 127),
                          v = ldexp(origin[(k + 2) % 3], e - 127);
-            s->anchor[k][0][e] = (float)fmod(a * u + b * v, s->setup.strokes.width);
-            s->anchor[k][1][e] = (float)fmod(a * v - b * u, s->setup.strokes.height);
+            (*out)[k][0][e] = (float)fmod(a * u + b * v, width);
+            (*out)[k][1][e] = (float)fmod(a * v - b * u, height);
         }
-    s->setup.anchor = (const dp_hatch_anchor *)&s->anchor;
 }
 
 /* Do strokes stick to the surface along the model's texture coordinates? */
@@ -150,8 +148,8 @@ static void set_up(dp_shade_store *s, const dp_frame *frame) {
     for (int k = 0; k < 3; k++) s->setup.ink[k] = (float)(ink >> (24 - 8 * k) & 0xff) / 255;
     s->setup.ink_alpha = (float)(ink & 0xff) / 255;
     if (s->setup.shades) return;
-    s->setup.shades = built_in_shades[0];
-    s->setup.shade_count = 8;
+    s->setup.shades = dp_toon_shades[0];
+    s->setup.shade_count = DP_TOON_SHADES;
 }
 
 bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
@@ -170,7 +168,11 @@ bool dp_shade_begin(dp_shade_store *s, const dp_frame *frame) {
         (s->colored && smooth &&
          !dp_reserve(frame->memory, &s->smooth, &s->smooth_cap, dp_times(4, pixels), 1)))
         return false;
-    anchor_strokes(s, frame->origin);
+    if (frame->origin[0] != 0 || frame->origin[1] != 0 || frame->origin[2] != 0) {
+        dp_anchor_strokes(frame->origin, s->setup.strokes.width, s->setup.strokes.height,
+                          &s->anchor);
+        s->setup.anchor = (const dp_hatch_anchor *)&s->anchor;
+    }
     s->shown = smooth ? s->smooth : s->color;
     return true;
 }

@@ -100,6 +100,15 @@ enum { DP_STROKES_SIZE = 256 };
 void dp_make_hatching(uint8_t *values);
 void dp_make_halftone(uint8_t *values);
 
+/* The built-in shades of toon, from N·L = -1 to 1 (passes.c). */
+enum { DP_TOON_SHADES = 8 };
+extern const uint8_t dp_toon_shades[DP_TOON_SHADES][4];
+
+/* Where world space begins elsewhere than positions do, at `origin`, not 0: what that moves a texture of
+ * this size by (passes.c). */
+void dp_anchor_strokes(const double origin[3], uint32_t width, uint32_t height,
+                       dp_hatch_anchor *out);
+
 /* ------- passes ------- */
 
 /* What pencil rendering keeps (pencil.c). Zero is empty. */

@@ -1,11 +1,15 @@
 /* accuracy: a Markdown table of how well pictures agree with the exact visible lines.
  *
- *     accuracy [--quads] [--paper] [--size WxH] [MODEL or FOLDER]...
+ *     accuracy [--gl] [--quads] [--paper] [--size WxH] [MODEL or FOLDER]...
  *
  * Draws every generated model, and every OBJ or PLY file named or found in the folders named (and
- * in $DRYPOINT_MODELS), in four views: each class alone at four widths, and all together. Exit code
+ * in $DRYPOINT_MODELS), in four views: each class alone at four widths, and all together; with --gl by OpenGL (where the tests were built with it). Exit code
  * 0 unless something could not be drawn: figures are judged by test_accuracy. */
 #include "suite.h"
+
+#if DP_TEST_HAS_GL
+#include "gl/context.h"
+#endif
 
 #include <dirent.h>
 #include <stdio.h>
@@ -20,6 +24,7 @@ typedef struct options {
     dp_style base;
     dp_context *context;
     uint8_t *rgba;
+    void *gl; /* gl_test; NULL: the CPU draws */
     bool failed;
 } options;
 
@@ -63,14 +68,40 @@ static void print_row(const char *model, const char *set, double px, table_row *
     fflush(stdout);
 }
 
+static dp_result draw(const options *o, const suite_model *model, const ref_truth *truth,
+                      const suite_class *set, double px, dp_diag *diag) {
+#if DP_TEST_HAS_GL
+    if (o->gl) {
+        const dp_style style = suite_style(set, px, &o->base);
+        const dp_gl_target target = gl_test_target(o->gl, truth->width, truth->height, 0);
+        dp_gl *const gl = ((gl_test *)o->gl)->gl;
+        dp_gl_mesh *mesh = NULL;
+        dp_result result = dp_gl_mesh_from_source(gl, model->source, &mesh, diag);
+        if (!result) result = dp_gl_draw(gl, &mesh, 1, &truth->camera, &style, &target, diag);
+        if (!result) result = dp_gl_read(gl, &target, o->rgba, 0, diag);
+        dp_gl_mesh_destroy(mesh);
+        return result;
+    }
+#endif
+    return suite_draw(o->context, model, truth, set, px, &o->base, o->rgba, diag);
+}
+
+static bool open_gl(options *o) {
+#if DP_TEST_HAS_GL
+    if (gl_test_setup(&o->gl) == 0 && ((gl_test *)o->gl)->gl) return true;
+#endif
+    fprintf(stderr, "accuracy: there is no OpenGL here\n");
+    o->gl = NULL;
+    return false;
+}
+
 static void score_set(options *o, const suite_model *model, const suite_class *set) {
     table_row rows[SUITE_WIDTHS] = {0};
     for (unsigned v = 0; v < SUITE_VIEWS; v++) {
         ref_truth *truth = suite_truth(model, &suite_views[v], set, o->width, o->height);
         for (unsigned w = 0; w < set->widths; w++) {
             dp_diag diag = {0};
-            if (suite_draw(o->context, model, truth, set, suite_widths[w], &o->base, o->rgba,
-                           &diag) != DP_OK) {
+            if (draw(o, model, truth, set, suite_widths[w], &diag) != DP_OK) {
                 fprintf(stderr, "accuracy: %s: %s\n", model->name, diag.message);
                 o->failed = true;
                 continue;
@@ -154,7 +185,9 @@ int main(int argc, char **argv) {
     options o = {.width = 1280, .height = 960};
     int i = 1;
     for (; i < argc && argv[i][0] == '-'; i++) {
-        if (!strcmp(argv[i], "--quads"))
+        if (!strcmp(argv[i], "--gl")) {
+            if (!open_gl(&o)) return 1;
+        } else if (!strcmp(argv[i], "--quads"))
             o.base.ink = DP_INK_QUADS;
         else if (!strcmp(argv[i], "--paper"))
             o.base.method = DP_METHOD_PAPER;
@@ -162,8 +195,9 @@ int main(int argc, char **argv) {
                  sscanf(argv[i + 1], "%ux%u", &o.width, &o.height) == 2)
             i++;
         else {
-            fprintf(stderr,
-                    "usage: accuracy [--quads] [--paper] [--size WxH] [MODEL or FOLDER]...\n");
+            fprintf(
+                stderr,
+                "usage: accuracy [--gl] [--quads] [--paper] [--size WxH] [MODEL or FOLDER]...\n");
             return 2;
         }
     }
@@ -177,6 +211,9 @@ int main(int argc, char **argv) {
     for (; i < argc; i++) score_path(&o, argv[i]);
     const char *const folder = getenv("DRYPOINT_MODELS");
     if (folder) score_path(&o, folder);
+#if DP_TEST_HAS_GL
+    if (o.gl) gl_test_teardown(&o.gl);
+#endif
     dp_context_destroy(o.context);
     free(o.rgba);
     return o.failed ? 1 : 0;

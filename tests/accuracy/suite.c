@@ -186,15 +186,20 @@ ref_truth *suite_truth(const suite_model *model, const suite_view *view, const s
                             set->valley_angle);
 }
 
-dp_result suite_draw(dp_context *context, const suite_model *model, const ref_truth *truth,
-                     const suite_class *set, double px, const dp_style *base, uint8_t *rgba,
-                     dp_diag *diag) {
+dp_style suite_style(const suite_class *set, double px, const dp_style *base) {
     dp_style style = *base;
-    const dp_target target = {.width = truth->width, .height = truth->height, .rgba = rgba};
     style.lines = set->lines;
     for (int k = 0; k < DP_LINE_COUNT; k++) style.line[k].width = (float)px;
     style.ridge_angle = (float)set->ridge_angle;
     style.valley_angle = (float)set->valley_angle;
+    return style;
+}
+
+dp_result suite_draw(dp_context *context, const suite_model *model, const ref_truth *truth,
+                     const suite_class *set, double px, const dp_style *base, uint8_t *rgba,
+                     dp_diag *diag) {
+    const dp_style style = suite_style(set, px, base);
+    const dp_target target = {.width = truth->width, .height = truth->height, .rgba = rgba};
     return dp_draw(context, model->source, &truth->camera, &style, &target, diag);
 }
 

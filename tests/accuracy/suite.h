@@ -51,6 +51,9 @@ dp_camera suite_camera(const suite_model *model, const suite_view *view, uint32_
 ref_truth *suite_truth(const suite_model *model, const suite_view *view, const suite_class *set,
                        uint32_t width, uint32_t height);
 
+/* The style of a picture with these classes alone, black on white. */
+dp_style suite_style(const suite_class *set, double px, const dp_style *base);
+
 /* Draws into rgba with these classes alone, black on white. */
 dp_result suite_draw(dp_context *context, const suite_model *model, const ref_truth *truth,
                      const suite_class *set, double px, const dp_style *base, uint8_t *rgba,

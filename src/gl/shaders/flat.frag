@@ -10,7 +10,7 @@ void main() {
     vec4 sum = vec4(0.0); // premultiplied
     for (int i = 0; i < SAMPLES; i++) {
         uint id = id_at(p, i);
-        vec4 c = is_triangle(id) ? surface_color(id - 1u) : picture.paper;
+        vec4 c = is_triangle(id) ? surface_color(id - 1u) : paper_color(id);
         sum += vec4(c.rgb * c.a, c.a);
     }
     sum /= float(SAMPLES);

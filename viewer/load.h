@@ -1,0 +1,31 @@
+/* Opens models in a thread of its own, so that the window goes on. */
+#ifndef VIEWER_LOAD_H
+#define VIEWER_LOAD_H
+
+#include "cmdline.h"
+#include "commands.h"
+
+/* A model that is there. Zero is none. */
+typedef struct loaded {
+    dp_source *source; /* NULL: none */
+    measured seen;     /* no camera is fitted in it */
+    bool moves;        /* it is another at another time */
+    double lasts;      /* s; 0: without end, or it does not move */
+    double time;       /* s: where it is */
+} loaded;
+
+typedef struct load_job load_job;
+
+/* Begins; NULL: after a message. The line is copied. `wake` is called from the thread at its end. */
+load_job *load_begin(const cmdline *line, void (*wake)(void));
+/* Has it ended? */
+bool load_ended(const load_job *job);
+/* In [0, 1]; negative: not known. */
+double load_fraction(void);
+/* Waits for its end, and frees it. False: it has failed, after a message, or was told to stop. */
+bool load_end(load_job *job, loaded *out);
+/* Tells all jobs to stop. */
+void load_stop(void);
+void loaded_free(loaded *model);
+
+#endif
