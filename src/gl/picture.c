@@ -8,6 +8,7 @@
  *
  * Nothing comes back to the host but counters: were the lists of candidates and of segments large enough? If not,
  * they grow, and those stages run again. */
+#include "gl/fins.h"
 #include "gl/ink.h"
 #include "gl/lines.h"
 #include "gl/mesh.h"
@@ -73,7 +74,8 @@ static void put_style(dp_gl *gl) {
     }
     put_color(s->paper, b->paper);
     put_color(s->surface, b->surface);
-    b->style[0] = s->lines & DP_ALL_LINES;
+    b->style[0] =
+        s->lines & DP_ALL_LINES & ~(uint32_t)(dp_gl_draws_fins(gl) ? DP_SILHOUETTE | DP_BORDER : 0);
     b->style[1] = gl->view.perspective;
     b->style[2] = s->cull_back_faces;
 }
@@ -180,8 +182,14 @@ static dp_result find_candidates(dp_gl *gl, dp_diag *diag) {
 }
 
 static bool finds_lines(const dp_gl *gl) {
-    const bool strokes = gl->style.ink == DP_INK_STROKES && gl->style.edges == DP_EDGES_EMERGENT;
-    return strokes && gl->scene.triangle_count && (gl->style.lines & DP_ALL_LINES);
+    const bool strokes = gl->style.ink == DP_INK_STROKES || gl->style.edges == DP_EDGES_ADJACENCY;
+    return strokes && gl->scene.triangle_count && gl->block.style[0];
+}
+
+/* Vertices, and if lines are looked for how triangles lie to the eye. */
+static dp_result place(dp_gl *gl, dp_diag *diag) {
+    const dp_result result = dp_gl_scene_place(gl, diag);
+    return result || !finds_lines(gl) ? result : dp_gl_find_sides(gl, diag);
 }
 
 static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
@@ -205,9 +213,9 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
     dp_result result = DP_OK;
     if (!gl->scene.triangle_count || !(gl->style.lines & DP_ALL_LINES))
         result = DP_OK;
-    else if (gl->style.edges == DP_EDGES_ADJACENCY)
+    else if (dp_gl_draws_fins(gl))
         result = dp_gl_ink_fins(gl, diag);
-    else if (gl->style.ink == DP_INK_QUADS)
+    else if (gl->style.ink == DP_INK_QUADS && gl->style.edges != DP_EDGES_ADJACENCY)
         result = dp_gl_ink_quads(gl, diag);
     else
         result = dp_gl_ink_strokes(gl, diag);
@@ -216,7 +224,9 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
 
 static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     dp_result result = dp_gl_upload_block(gl, diag);
-    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, dp_gl_scene_place, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, place, diag);
+    if (!result && dp_gl_fins_in_one_pass(gl))
+        result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
     if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);
     if (!result) put_places(gl); /* which the framebuffer tells */
     if (!result) result = dp_gl_upload_block(gl, diag);
