@@ -315,7 +315,7 @@ void act_backend(viewer *v, int arg) {
     (void)arg;
     if (!v->line.gl && !v->gl) {
         if (gl_adopt(view_function, NULL, &v->gl, &diag)) {
-            report_failure("OpenGL", &diag);
+            report_failure(NULL, &diag);
             return;
         }
         v->gl_taken = false;
@@ -481,7 +481,9 @@ void view_take(viewer *v) {
         v->playing = false;
         v->gl_taken = false;
         v->restyle = true;
+        v->code = 0;
         if (picture_aim(&v->picture, &v->line, &v->model, true)) name_window(v);
+        if (first) messages_say("Drag turns it, the wheel zooms, ? lists the keys");
     } else if (first) {
         v->code = EXIT_FAILED;
     }

@@ -116,7 +116,7 @@ static bool take_by_gl(viewer *v) {
     dp_diag diag = {0};
     if (v->gl_taken) return true;
     if (gl_take(v->gl, v->model.source, v->playing, &diag))
-        return report_failure("OpenGL", &diag), false;
+        return report_failure(NULL, &diag), false;
     return v->gl_taken = true;
 }
 
@@ -294,7 +294,7 @@ static void set_callbacks(viewer *v) {
 static bool begin_window(viewer *v, const tool_settings *s) {
     uint32_t width, height;
     float scale = 1, other;
-    int w, h;
+    int w, h, points, other_points;
     choose_size(s, &width, &height);
     v->window = open_window(width, height);
     if (!v->window) return wrong_usage("no window with OpenGL 3.2 or later can be opened");
@@ -307,6 +307,9 @@ static bool begin_window(viewer *v, const tool_settings *s) {
     if (!v->screen) return wrong_usage("this OpenGL lacks framebuffers; 3.0 or later is needed");
     set_callbacks(v);
     glfwGetWindowContentScale(v->window, &scale, &other);
+    glfwGetWindowSize(v->window, &points, &other_points);
+    scale *= (float)points / (float)v->line.width; /* where points are large, so are letters */
+    v->panel = points >= 700 * scale;
     return panel_create(v->window, scale) || wrong_usage("the panel cannot be made");
 }
 
@@ -324,7 +327,7 @@ static int run(viewer *v, const tool_settings *s) {
         }
         wait_for_events(v, &more);
     }
-    return v->model.source || !v->line.model_count ? 0 : v->code;
+    return v->code;
 }
 
 static void end(viewer *v) {
@@ -355,7 +358,6 @@ static int answer(const tool_settings *s) {
 
 static int view(const tool_settings *s, int count, char **words) {
     static viewer v; /* its plan of pages is large */
-    v.panel = true;
     if (!cmdline_read(&v.line, count, words) || !cmdline_copy(&v.at_start, &v.line.options))
         return wrong_usage("out of memory"), EXIT_FAILED;
     glfwSetErrorCallback(on_error);

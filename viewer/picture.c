@@ -142,7 +142,7 @@ bool picture_draw(picture *p, const loaded *model, tool_gl *gl, picture_quality 
     target.rgba = gl ? NULL : p->rgba;
     const double start = now_ms();
     const dp_result result = draw(p, model, gl, &style, &target, &diag);
-    if (result) return report_failure(gl ? "OpenGL" : NULL, &diag), false;
+    if (result) return report_failure(NULL, &diag), false;
     p->ms = now_ms() - start;
     p->width = target.width, p->height = target.height;
     p->by_gl = gl != NULL;

@@ -36,7 +36,7 @@ typedef struct viewer {
     double x, y; /* of the pointer, window coordinates */
     enum { DRAG_NONE = 0, DRAG_TURN, DRAG_PAN } drag;
     bool panel, help; /* are they shown? */
-    int code;         /* exit code */
+    int code;         /* exit code: no model could be read */
 } viewer;
 
 /* ------- main.c ------- */
