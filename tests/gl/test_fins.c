@@ -287,6 +287,28 @@ static void strokes_by_adjacency(void **state) {
     }
 }
 
+/* Added triangles are no segments, and those of the picture before are gone. */
+static void has_no_segments(void **state) {
+    gl_test *const t = *state;
+    const look k = {"none", "torus", NULL, 3, 1, false, 0};
+    const dp_segment *segments;
+    size_t count[2];
+    scene s;
+    if (!t->gl) skip();
+    open_scene(&k, &s);
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 1);
+    dp_gl_mesh *mesh;
+    assert_int_equal(dp_gl_mesh_from_source(t->gl, s.source, &mesh, NULL), DP_OK);
+    for (int i = 0; i < 2; i++) {
+        s.style.ink = i ? DP_INK_QUADS : DP_INK_STROKES;
+        assert_int_equal(dp_gl_draw(t->gl, &mesh, 1, &s.camera, &s.style, &target, NULL), DP_OK);
+        assert_int_equal(dp_gl_segments(t->gl, &segments, &count[i], NULL), DP_OK);
+    }
+    assert_true(count[0] > 10 && count[1] == 0);
+    dp_gl_mesh_destroy(mesh);
+    close_scene(&s);
+}
+
 /* What is not drawn is named. */
 static void refuses_the_rest(void **state) {
     gl_test *const t = *state;
@@ -328,6 +350,7 @@ int main(void) {
                                        cmocka_unit_test(brings_colours),
                                        cmocka_unit_test(is_mirrored),
                                        cmocka_unit_test(strokes_by_adjacency),
+                                       cmocka_unit_test(has_no_segments),
                                        cmocka_unit_test(refuses_the_rest)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }
