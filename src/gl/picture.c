@@ -192,6 +192,15 @@ static dp_result place(dp_gl *gl, dp_diag *diag) {
     return result || !finds_lines(gl) ? result : dp_gl_find_sides(gl, diag);
 }
 
+/* The last picture's segments are none of this one's. */
+static void forget_lines(dp_gl *gl) {
+    static const GLuint none = 0;
+    if (!gl->lines.counters.name) return;
+    gl->api.BindBuffer(GL_COPY_WRITE_BUFFER, gl->lines.counters.name);
+    gl->api.BufferSubData(GL_COPY_WRITE_BUFFER, offsetof(dp_gl_counters, segments), sizeof none,
+                          &none);
+}
+
 static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
     bool again = true;
     dp_result result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
@@ -231,6 +240,7 @@ static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     if (!result) put_places(gl); /* which the framebuffer tells */
     if (!result) result = dp_gl_upload_block(gl, diag);
     if (!result && finds_lines(gl)) result = find_lines(gl, diag);
+    if (!result && !finds_lines(gl)) forget_lines(gl);
     if (!result) result = run(gl, DP_GL_STAGE_SHADE, surface, diag);
     if (!result) result = run(gl, DP_GL_STAGE_INK, ink, diag);
     return result ? result : dp_gl_check(gl, "drawing a picture", diag);

@@ -269,15 +269,43 @@ static void is_mirrored(void **state) {
 /* Strokes by adjacency are those that the table of edges finds, whose mates are an adjacency. */
 static void strokes_by_adjacency(void **state) {
     gl_test *const t = *state;
-    const look k = {"strokes", "bracket", NULL, 3, 4, false, 0.995};
+    static const look looks[] = {{"strokes", "bracket", NULL, 3, 4, false, 0.995},
+                                 {"strokes-open", "terrain", NULL, 3, 4, false, 0.99}};
+    if (!t->gl) skip();
+    for (size_t i = 0; i < 2; i++) {
+        const look *const k = &looks[i];
+        scene s;
+        open_scene(k, &s);
+        s.style.ink = DP_INK_STROKES, s.style.lines = DP_ALL_LINES;
+        uint8_t *const gpu = gl_test_draw(t, s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
+        uint8_t *const cpu = gl_test_draw_cpu(s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
+        const double share = gl_test_alike(gpu, cpu, WIDTH, HEIGHT, 2);
+        keep(k, "once", gpu), keep(k, "cpu", cpu);
+        free(gpu), free(cpu);
+        close_scene(&s);
+        if (share < k->least) fail_msg("%s: %.4f of the pixels are alike", k->name, share);
+    }
+}
+
+/* Added triangles are no segments, and those of the picture before are gone. */
+static void has_no_segments(void **state) {
+    gl_test *const t = *state;
+    const look k = {"none", "torus", NULL, 3, 1, false, 0};
+    const dp_segment *segments;
+    size_t count[2];
     scene s;
     if (!t->gl) skip();
     open_scene(&k, &s);
-    s.style.ink = DP_INK_STROKES, s.style.lines = DP_ALL_LINES;
-    uint8_t *const gpu = gl_test_draw(t, s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
-    uint8_t *const cpu = gl_test_draw_cpu(s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
-    assert_true(gl_test_alike(gpu, cpu, WIDTH, HEIGHT, 2) > k.least);
-    free(gpu), free(cpu);
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 1);
+    dp_gl_mesh *mesh;
+    assert_int_equal(dp_gl_mesh_from_source(t->gl, s.source, &mesh, NULL), DP_OK);
+    for (int i = 0; i < 2; i++) {
+        s.style.ink = i ? DP_INK_QUADS : DP_INK_STROKES;
+        assert_int_equal(dp_gl_draw(t->gl, &mesh, 1, &s.camera, &s.style, &target, NULL), DP_OK);
+        assert_int_equal(dp_gl_segments(t->gl, &segments, &count[i], NULL), DP_OK);
+    }
+    assert_true(count[0] > 10 && count[1] == 0);
+    dp_gl_mesh_destroy(mesh);
     close_scene(&s);
 }
 
@@ -322,6 +350,7 @@ int main(void) {
                                        cmocka_unit_test(brings_colours),
                                        cmocka_unit_test(is_mirrored),
                                        cmocka_unit_test(strokes_by_adjacency),
+                                       cmocka_unit_test(has_no_segments),
                                        cmocka_unit_test(refuses_the_rest)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }
