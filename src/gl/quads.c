@@ -296,6 +296,7 @@ static dp_result count_faces(dp_gl *gl, dp_diag *diag) {
     dp_result result = begin_count(gl, diag);
     if (!result) result = use(gl, &desc, stay, 0, DP_LINE_INTERSECTION, &program, diag);
     if (!result) {
+        gl->api.Enable(GL_DEPTH_CLAMP); /* what is nearer than the near plane counts in both */
         dp_gl_uniform_f(gl, program, "nearer", same);
         count_by(gl, GL_DECR_WRAP);
         draw_scene(gl, true);
@@ -303,6 +304,7 @@ static dp_result count_faces(dp_gl *gl, dp_diag *diag) {
         dp_gl_uniform_2f(gl, program, "depth_move", nearer);
         count_by(gl, GL_INCR_WRAP);
         draw_scene(gl, true);
+        gl->api.Disable(GL_DEPTH_CLAMP);
     }
     end_count(gl);
     return result;
