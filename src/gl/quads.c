@@ -427,8 +427,8 @@ void dp_gl_quads_free(dp_gl *gl) {
     if (!gl->is_lost) {
         dp_gl_texture *const textures[] = {&q->lines, &q->depth, &q->trapped, &q->stencil,
                                            &q->under};
-        dp_gl_buffer *const buffers[] = {&q->records, &q->commands, &q->counts, &q->order,
-                                         &q->states};
+        dp_gl_buffer *const buffers[] = {&q->records, &q->commands, &q->blocks,
+                                         &q->counts,  &q->order,    &q->states};
         for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
             dp_gl_texture_free(gl, textures[i]);
         for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
