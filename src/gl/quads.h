@@ -16,6 +16,7 @@ struct dp_gl_quads {
     uint32_t framebuffer;
     dp_gl_buffer records;  /* Added, of one portion of half-edges */
     dp_gl_buffer commands; /* a DrawArraysIndirectCommand a list and portion */
+    dp_gl_buffer faces;    /* Face in quads_faces.glsl: planes of all triangles */
     dp_gl_buffer blocks;   /* float: the farthest depth of the surface in each 8 x 8 px */
     dp_gl_buffer counts, order, states; /* one pass: quads_once.c */
     float range[2];                     /* dp_gl_depth_range */

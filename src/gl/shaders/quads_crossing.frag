@@ -21,7 +21,7 @@ bool touch(uint a, uint b) {
 bool may_intersect(uint a, uint b) {
     Crossing x;
     if (touch(first_of(a), first_of(b))) return false;
-    return (is_front(a) && is_front(b)) || cross_polygons(first_of(a), first_of(b), x);
+    return (faces_eye(a) && faces_eye(b)) || cross_polygons(first_of(a), first_of(b), x);
 }
 
 void main() {
@@ -30,11 +30,11 @@ void main() {
     uint other = id - 1u;
     if (other == triangle) discard;
     vec2 p = sample_at();
-    Plane s = plane_of(other);
+    Plane s = face_plane(other);
     float surface = plane_at(s, p), limit = surface * trap.x + trap.y;
     // most are far behind, as the device's own depth tells
     if ((gl_FragCoord.z - depth_range.y) / depth_range.x < limit - 3.0 * (surface - limit)) discard;
-    Plane own = plane_of(triangle);
+    Plane own = face_plane(triangle);
     float d = plane_at(own, p), off = 2.0 * hold_off(d);
 #ifdef INTERVAL // moved nearer, so that the surface itself and its duplicates are none
     d += off;

@@ -34,7 +34,7 @@ void main() {
     float d = min(at.z + dot(slope, p - at.xy), nearest);
     uint mine = state_of(to_window(d), (line & ADDED_LINE) + 1u),
          place = place_in_states(ivec2(gl_FragCoord.xy), gl_SampleID);
-    bool may_be_trapped = face ? intersections != 0u && is_front(triangle)
+    bool may_be_trapped = face ? intersections != 0u && faces_eye(triangle)
                                : (line & ADDED_VALLEY) != 0u;
 #ifdef GL_ARB_fragment_shader_interlock
     beginInvocationInterlockARB();
