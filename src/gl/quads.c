@@ -283,7 +283,7 @@ static void end_count(dp_gl *gl) {
 
 /* Valleys that are nearer than the surface count down; moved nearer by the offset, up. */
 static dp_result count_valleys(dp_gl *gl, uint32_t portion, dp_diag *diag) {
-    static const dp_gl_program_desc desc = {.vertex = "quads.vert"};
+    static const dp_gl_program_desc desc = {.vertex = "quads.vert", .fragment = "quads_line.frag"};
     static const float stay[2] = {1, 0};
     float nearer[2];
     uint32_t program;

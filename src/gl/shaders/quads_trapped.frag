@@ -9,11 +9,13 @@ flat in vec3 at;
 flat in vec2 slope;
 flat in vec4 root;
 flat in float nearest;
+flat in vec3 outward;
 
 void main() {
     uint id = surface_id();
     if (!is_triangle(id)) discard;
     vec2 p = sample_at();
+    p += outward.xy * max(-dot(outward.xy, p) - outward.z, 0.0) * 2.0; // see quads_line.frag
     Plane s = face_plane(id - 1u);
     float surface = plane_at(s, p), d = min(at.z + dot(slope, p - at.xy), nearest),
           gap = surface - d;
