@@ -68,6 +68,7 @@ static dp_result draw(dp_gl *gl, uint32_t i, dp_diag *diag) {
     dp_gl_buffer_bind(gl, &q->records, DP_GL_BIND_OWN);
     dp_gl_buffer_bind(gl, &q->order, DP_GL_BIND_OWN + 1);
     dp_gl_buffer_bind(gl, &q->states, DP_GL_BIND_OWN + 2);
+    dp_gl_buffer_bind(gl, &q->faces, DP_GL_BIND_OWN + 3);
     dp_gl_uniform_2f(gl, program, "depth_range", q->range);
     dp_gl_uniform_4f(gl, program, "traps", (const float[4]){move[0], move[1], move[0], move[1]});
     dp_gl_uniform_u(gl, program, "intersections", (s->lines & DP_INTERSECTION) != 0);

@@ -15,6 +15,7 @@ flat in uint line, triangle;
 flat in vec3 at;
 flat in vec2 slope;
 flat in float nearest;
+flat in vec3 outward;
 
 // A sample's state after this fragment. Nothing is trapped behind a line that stands before the surface.
 uint after(uint old, uint mine, float d, bool face, bool may_be_trapped) {
@@ -30,11 +31,12 @@ uint after(uint old, uint mine, float d, bool face, bool may_be_trapped) {
 
 void main() {
     vec2 p = sample_at();
+    if (dot(outward.xy, p) + outward.z < 0.0) discard; // see quads_line.frag
     bool face = (line & ADDED_FACE) != 0u;
     float d = min(at.z + dot(slope, p - at.xy), nearest);
     uint mine = state_of(to_window(d), (line & ADDED_LINE) + 1u),
          place = place_in_states(ivec2(gl_FragCoord.xy), gl_SampleID);
-    bool may_be_trapped = face ? intersections != 0u && is_front(triangle)
+    bool may_be_trapped = face ? intersections != 0u && faces_eye(triangle)
                                : (line & ADDED_VALLEY) != 0u;
 #ifdef GL_ARB_fragment_shader_interlock
     beginInvocationInterlockARB();

@@ -16,9 +16,11 @@ uniform uint ridge_line;             // NONE: neither ridges nor borders are dra
 uniform uint joint_list;             // 1: joints of ridges are put apart
 uniform vec4 reach;                  // px: of silhouettes, ridges, valleys; how far anything reaches
 uniform uvec2 reflex;                // is theta, is phi above 180 degrees?
-
+uniform vec3 hide; // d * x + y: how near that may be drawn which grows from depth d; z 0: unknown
+uniform uint blocks_x;
 uniform uint ordered;
 
+layout(std430, binding = 4) readonly buffer Blocks { float blocks[]; }; // quads_blocks.comp
 layout(std430, binding = 6) writeonly buffer Counts { uint counts[]; };
 uniform uint places; // ordered: of a half-edge
 uint put_count = 0u;
@@ -84,8 +86,24 @@ bool is_beside(uint half_edge) {
     return any(lessThan(high, vec2(0.0))) || any(greaterThan(low, picture.size.xy));
 }
 
+// Is the surface all around the edge nearer by more than what it adds reaches? Then nothing of that shows.
+bool is_hidden(uint half_edge) {
+    vec4 a = screen_of(corners[half_edge]), b = screen_of(corners[next_in(half_edge)]);
+    if (hide.z == 0.0 || is_off_screen(a) || is_off_screen(b)) return false;
+    vec2 last = picture.size.xy - 1.0;
+    uvec2 from = uvec2(clamp(min(a.xy, b.xy) - reach.w, vec2(0.0), last)) / 8u,
+          to = uvec2(clamp(max(a.xy, b.xy) + reach.w, vec2(0.0), last)) / 8u;
+    uvec2 size = to - from + 1u;
+    if (size.x * size.y > 64u) return false;
+    float limit = max(a.z, b.z) * hide.x + hide.y;
+    for (uint y = from.y; y <= to.y; y++)
+        for (uint x = from.x; x <= to.x; x++)
+            if (blocks[y * blocks_x + x] <= limit) return false;
+    return true;
+}
+
 void shade(uint half_edge) {
-    if (is_beside(half_edge) || !may_be_line(half_edge)) return;
+    if (is_beside(half_edge) || !may_be_line(half_edge) || is_hidden(half_edge)) return;
     uint t = half_edge / 3u;
     Polygon p = polygon_with(t);
     if (!is_outer(p, half_edge) || (p.front && is_diagonal(half_edge))) return;
