@@ -1,7 +1,9 @@
 /* Intersections: where the interiors of two polygons cross in sight (find/intersect.c).
  *
- *    seed    neighbouring samples show two polygons whose planes cross between them: cross these exactly, each pair
- *            once; from there on along the crossing, over the edges that it leaves them by
+ *    pixels  in or beside which neighbouring samples show two polygons
+ *    near    of these, pairs whose planes cross between the samples
+ *    seed    cross them exactly, each pair once; from there on along the crossing, over the edges that it leaves
+ *            them by
  *    link    crossings → lists of the cells of the screen that they run through
  *    add     what no earlier crossing covers → candidates
  *
@@ -16,10 +18,11 @@
 typedef struct crossing_head {
     uint32_t pairs, nodes, pairs_room, nodes_room;
     uint32_t slots, cells_x, cells_y, candidates_room;
-    uint32_t groups[4];
+    uint32_t pixels, hits, hits_room, free;
+    uint32_t groups[3][4];
 } crossing_head;
 
-enum { CELL = 16 /* px */, PAIR_SIZE = 48, NODE_SIZE = 8, FIRST_ROOM = 1 << 12 };
+enum { CELL = 16 /* px */, PAIR_SIZE = 48, NODE_SIZE = 8, HIT_SIZE = 8, FIRST_ROOM = 1 << 12 };
 
 /* As many slots as keep the table half empty: a power of two. */
 static uint32_t slots_for(uint32_t pairs) {
@@ -36,9 +39,17 @@ static dp_result begin(dp_gl *gl, dp_diag *diag) {
     if (!result)
         result = dp_gl_buffer_reserve(gl, &e->along, FIRST_ROOM * (size_t)NODE_SIZE,
                                       "crossings by cells", diag);
+    if (!result)
+        result = dp_gl_buffer_reserve(gl, &e->hits, FIRST_ROOM * (size_t)HIT_SIZE,
+                                      "triangles whose planes cross", diag);
+    if (!result)
+        result =
+            dp_gl_buffer_reserve(gl, &e->pixels, 4 * (size_t)gl->target.width * gl->target.height,
+                                 "pixels of several polygons", diag);
     if (result) return result;
     crossing_head h = {.pairs_room = (uint32_t)(e->crossed.size / PAIR_SIZE),
                        .nodes_room = (uint32_t)(e->along.size / NODE_SIZE),
+                       .hits_room = (uint32_t)(e->hits.size / HIT_SIZE),
                        .cells_x = (gl->target.width + CELL - 1) / CELL,
                        .cells_y = (gl->target.height + CELL - 1) / CELL,
                        .candidates_room =
@@ -52,46 +63,69 @@ static dp_result begin(dp_gl *gl, dp_diag *diag) {
     return DP_OK;
 }
 
-static dp_result use(dp_gl *gl, const char *file, dp_diag *diag) {
-    const dp_gl_program_desc desc = {.compute = file};
-    const dp_gl_eye *const e = &gl->eye;
+/* A pass over what `groups` counts, -1: over all pixels; bound to what it reads and writes beside the table and the pairs. */
+typedef struct pass {
+    const char *file;
+    const dp_gl_buffer *own[3]; /* bindings 4, 6, 7 */
+    int groups;
+} pass;
+
+static dp_result run_pass(dp_gl *gl, const pass *p, dp_diag *diag) {
+    static const uint32_t at[3] = {DP_GL_BIND_OWN + 1, DP_GL_BIND_OWN + 3, DP_GL_BIND_OWN + 4};
+    const dp_gl_program_desc desc = {.compute = p->file};
     uint32_t program;
     const dp_result result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
     dp_gl_use(gl, program);
     dp_gl_faces_bind(gl, program);
-    dp_gl_buffer_bind(gl, &e->pairs, DP_GL_BIND_OWN);
-    dp_gl_buffer_bind(gl, &e->crossed, DP_GL_BIND_OWN + 2);
-    dp_gl_buffer_bind(gl, &e->along, DP_GL_BIND_OWN + 3);
-    return DP_OK;
-}
-
-static dp_result over_pairs(dp_gl *gl, const char *file, dp_diag *diag) {
-    const dp_result result = use(gl, file, diag);
-    if (result) return result;
-    dp_gl_buffer_bind(gl, &gl->lines.counters, DP_GL_BIND_OWN + 1);
-    dp_gl_buffer_bind(gl, &gl->lines.candidates, DP_GL_BIND_OWN + 4);
+    dp_gl_buffer_bind(gl, &gl->eye.pairs, DP_GL_BIND_OWN);
+    dp_gl_buffer_bind(gl, &gl->eye.crossed, DP_GL_BIND_OWN + 2);
+    for (int i = 0; i < 3; i++)
+        if (p->own[i]) dp_gl_buffer_bind(gl, p->own[i], at[i]);
+    if (p->groups < 0) {
+        dp_gl_dispatch_pixels(gl);
+        return DP_OK;
+    }
     gl->api.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl->eye.pairs.name);
-    gl->api.DispatchComputeIndirect((GLintptr)offsetof(crossing_head, groups));
+    gl->api.DispatchComputeIndirect(
+        (GLintptr)(offsetof(crossing_head, groups) + 16 * (size_t)p->groups));
     gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     return DP_OK;
 }
 
+/* How many groups the passes after this have. */
+static dp_result prepare(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.compute = "crossings_prepare.comp"};
+    uint32_t program;
+    const dp_result result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
+    dp_gl_use(gl, program);
+    dp_gl_buffer_bind(gl, &gl->eye.pairs, DP_GL_BIND_OWN);
+    gl->api.DispatchCompute(1, 1, 1);
+    gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    return DP_OK;
+}
+
+enum { GROUPS_PIXELS = -1, GROUPS_LISTED, GROUPS_HITS, GROUPS_PAIRS };
+
 dp_result dp_gl_find_crossings(dp_gl *gl, dp_diag *diag) {
+    const dp_gl_lines_store *const l = &gl->lines;
+    const dp_gl_eye *const e = &gl->eye;
+    const pass passes[] = {
+        {"crossings_pixels.comp", {NULL, &e->pixels}, GROUPS_PIXELS},
+        {"crossings_near.comp", {NULL, &e->pixels, &e->hits}, GROUPS_LISTED},
+        {"crossings_seed.comp", {&l->mates, NULL, &e->hits}, GROUPS_HITS},
+        {"crossings_link.comp", {NULL, &e->along, NULL}, GROUPS_PAIRS},
+        {"crossings_add.comp", {&l->counters, &e->along, &l->candidates}, GROUPS_PAIRS}};
     if (!(gl->style.lines & DP_INTERSECTION)) return DP_OK;
     dp_result result = begin(gl, diag);
     if (result) return result;
     dp_gl_scene_bind(gl);
-    result = use(gl, "crossings_seed.comp", diag);
-    if (result) return result;
-    dp_gl_buffer_bind(gl, &gl->lines.mates, DP_GL_BIND_OWN + 1);
-    dp_gl_dispatch_pixels(gl);
-    result = use(gl, "crossings_prepare.comp", diag);
-    if (result) return result;
-    gl->api.DispatchCompute(1, 1, 1);
-    gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    result = over_pairs(gl, "crossings_link.comp", diag);
-    return result ? result : over_pairs(gl, "crossings_add.comp", diag);
+    for (size_t i = 0; i < sizeof passes / sizeof *passes && !result; i++) {
+        if (i > 0 && i < 4) result = prepare(gl, diag);
+        if (!result) result = run_pass(gl, &passes[i], diag);
+    }
+    return result;
 }
 
 dp_result dp_gl_grow_crossings(dp_gl *gl, bool *again, dp_diag *diag) {
@@ -104,6 +138,11 @@ dp_result dp_gl_grow_crossings(dp_gl *gl, bool *again, dp_diag *diag) {
         *again = true;
         result = dp_gl_buffer_reserve(gl, &e->crossed, h.pairs * (size_t)PAIR_SIZE,
                                       "polygons that may cross", diag);
+    }
+    if (!result && h.hits > h.hits_room) {
+        *again = true;
+        result = dp_gl_buffer_reserve(gl, &e->hits, h.hits * (size_t)HIT_SIZE,
+                                      "triangles whose planes cross", diag);
     }
     if (!result && h.nodes > h.nodes_room) {
         *again = true;

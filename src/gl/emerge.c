@@ -256,6 +256,7 @@ dp_result dp_gl_grow_emerging(dp_gl *gl, bool *again, dp_diag *diag) {
 void dp_gl_eye_free(dp_gl *gl) {
     dp_gl_eye *const e = &gl->eye;
     dp_gl_buffer *const buffers[] = {&e->words,    &e->looked, &e->chunks,  &e->nodes,
-                                     &e->findings, &e->pairs,  &e->crossed, &e->along};
+                                     &e->findings, &e->pairs,  &e->crossed, &e->along,
+                                     &e->pixels,   &e->hits,   &e->listed};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) dp_gl_buffer_free(gl, buffers[i]);
 }

@@ -122,8 +122,10 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
-    dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
-    uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
+    dp_gl_texture ink,
+        ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
+    uint32_t
+        layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
     uint32_t sampler; /* for the application's depth */
     float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
@@ -181,6 +183,9 @@ typedef struct dp_gl_eye {
     dp_gl_buffer pairs;    /* the table of polygons that may cross */
     dp_gl_buffer crossed;  /* those, and where they do */
     dp_gl_buffer along;    /* crossings by cells */
+    dp_gl_buffer pixels;   /* that show several polygons */
+    dp_gl_buffer hits;     /* pairs of triangles whose planes cross there */
+    dp_gl_buffer listed;   /* what a cheap pass leaves to a dear one */
 } dp_gl_eye;
 
 typedef struct dp_gl_surface {

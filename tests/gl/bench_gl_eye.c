@@ -157,9 +157,20 @@ static void draw_file(gl_test *t, dp_context *context, char **words, look looks[
     dp_camera_look_at(&camera, v, v + 3, v + 6);
     dp_camera_perspective(&camera, v[9], (double)how.width / how.height, distance / 100,
                           100 * distance);
+    dp_gl_time_stages(t->gl, true);
     draw_both(t, context, source, &camera, &how, looks);
+    draw_both(t, context, source, &camera, &how, looks); /* all is compiled, and large enough */
     for (int i = 0; i < 2; i++)
         dp_io_write_png(words[3 + i], looks[i].rgba, how.width, how.height, 0, NULL);
+    for (int k = 0; k < DP_LINE_COUNT; k++)
+        if (looks[CPU].length[k] + looks[GL].length[k] > 0)
+            printf("%s: %.1f and %.1f px\n", dp_line_name((dp_line)k), looks[CPU].length[k],
+                   looks[GL].length[k]);
+    dp_gl_stats stats;
+    dp_gl_stats_of(t->gl, &stats, NULL);
+    for (int i = 0; i < DP_GL_STAGE_COUNT; i++)
+        printf("%s %.1f ms%s", dp_gl_stage_name((dp_gl_stage)i), stats.stage_ms[i],
+               i + 1 == DP_GL_STAGE_COUNT ? "\n" : ", ");
     dp_source_destroy(source);
 }
 

@@ -5,7 +5,8 @@
 struct CrossingHead {
     uint pairs, nodes, pairs_room, nodes_room; // the first two: wanted
     uint slots, cells_x, cells_y, candidates_room;
-    uvec4 groups;
+    uint pixels, hits, hits_room, free_;
+    uvec4 groups[3];
 };
 // Slots of the table of pairs, 1 + number; then lists of cells, 1 + node.
 layout(std430, binding = 3) coherent buffer Crossings {
@@ -18,6 +19,12 @@ struct Pair {
     vec4 p, q;
 };
 layout(std430, binding = 5) coherent buffer Pairs { Pair pairs[]; };
+
+bool is_fan(uint triangle) {
+    uint polygon = polygon_of(triangle);
+    return (triangle > 0u && polygon_of(triangle - 1u) == polygon) ||
+           (triangle + 1u < picture.counts.y && polygon_of(triangle + 1u) == polygon);
+}
 
 const float CELL = 16.0; // px
 

@@ -1,10 +1,10 @@
-// Where neighbouring samples show two polygons whose planes cross between them, these are asked whether they cross, and
-// from there on their neighbours, as the crossing leads over the surfaces.
-#define COMPUTE_PIXELS
+// Pairs of polygons whose planes cross in sight are asked whether they cross, each once, and from there on their neighbours,
+// as the crossing leads over the surfaces.
+#define COMPUTE 64
 #include "crossings.glsl"
-#include "ids.glsl"
 
 layout(std430, binding = 4) readonly buffer Mates { uint mates[]; };
+layout(std430, binding = 7) readonly buffer Hits { uvec2 hits[]; };
 
 const int STEPS = 64;        // of a walk, each way
 const uint NO_PAIR = 0xFFFFFFFFu;
@@ -79,53 +79,11 @@ void follow(uint a, uint b, Crossing x, int end) {
     }
 }
 
-// Do all corners of the triangle lie on one side of a plane, but for those that another one has, too?
-bool is_beside(uint triangle, Plane plane, uint other) {
-    bool nearer = false, further = false;
-    for (uint i = 0u; i < 3u; i++) {
-        uint v = corners[3u * triangle + i], key = key_at(v);
-        vec4 s = screen_of(v);
-        if (is_off_screen(s)) return false;
-        bool apart = key != key_at(corners[3u * other]) && key != key_at(corners[3u * other + 1u]) &&
-                     key != key_at(corners[3u * other + 2u]);
-        float gap = s.z - plane_at(plane, s.xy);
-        nearer = nearer || (apart && gap >= 0.0), further = further || (apart && gap <= 0.0);
-    }
-    return !(nearer && further);
-}
-// Two samples show two triangles. Is each the nearer one where it is seen?
-bool planes_cross(uint t, vec2 at_t, uint u, vec2 at_u, out Plane p, out Plane q) {
-    p = plane_of(t), q = plane_of(u);
-    float slopes = abs(p.slope.x) + abs(p.slope.y) + abs(q.slope.x) + abs(q.slope.y),
-          gap_t = plane_at(p, at_t) - plane_at(q, at_t), gap_u = plane_at(q, at_u) - plane_at(p, at_u);
-    float tolerance = 0.02 * (depth_steps(plane_at(p, at_t), 1.0) + slopes);
-    return gap_t >= -tolerance && gap_u >= -tolerance;
-}
-
-void test(uint id, vec2 at, uint other, vec2 other_at) {
-    if (id == other || !is_triangle(id) || !is_triangle(other)) return;
-    uint t = id - 1u, u = other - 1u;
-    if (polygon_of(t) == polygon_of(u)) return;
-    Plane p, q;
-    if (!planes_cross(t, at, u, other_at, p, q)) return;
-    uint a = first_of(t), b = first_of(u);
-    bool triangles_ = corner_count(a) == 3u && corner_count(b) == 3u;
-    if (triangles_ && (is_beside(t, q, u) || is_beside(u, p, t))) return;
+void main() {
+    uint i = dp_item();
+    if (i >= min(head.hits, head.hits_room)) return;
+    uint a = first_of(hits[i].x), b = first_of(hits[i].y), least = min(a, b), most = max(a, b);
     Crossing x;
     if (!ask(a, b, x)) return;
-    a = min(a, b), b = max(first_of(t), first_of(u));
-    follow(a, b, x, 0);
-    follow(a, b, x, 1);
-}
-
-void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (!is_in_picture(p)) return;
-    vec2 at = vec2(p) + place_of(0);
-    uint id = id_at(p, 0);
-    for (int i = 1; i < SAMPLES; i++) test(id, at, id_at(p, i), vec2(p) + place_of(i));
-    for (int k = 0; k < 2; k++) {
-        ivec2 q = p + ivec2(1 - k, k);
-        if (is_in_picture(q)) test(id, at, id_at(q, 0), vec2(q) + place_of(0));
-    }
+    for (int end = 0; end < 2; end++) follow(least, most, x, end);
 }
