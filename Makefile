@@ -20,6 +20,7 @@ help:
 	@echo 'make demo       install what is missing, build, and draw demo.png'
 	@echo 'make check      install what is missing, build in all ways, run all tests'
 	@echo 'make test       build and run the tests once, without sanitizers and fuzzers'
+	@echo 'make check-gl   run the tests of drawings by OpenGL under the sanitizers, by Mesa without a window'
 	@echo 'make sanitize   run the tests under the sanitizers and in the hostile build'
 	@echo 'make fuzz       run every fuzzer for long: MINUTES=10 each'
 	@echo 'make mutants    plant faults, list those no quick test notices: SEED=1 FAULTS=100 ONLY=N'
@@ -48,6 +49,9 @@ check check-all: setup-check
 
 test: setup-check
 	@scripts/check.sh gcc
+
+check-gl: setup-check
+	@scripts/check.sh gl
 
 sanitize: setup-check
 	@scripts/check.sh asan tsan hostile
@@ -88,5 +92,5 @@ format-check:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all help setup setup-check demo check check-all test sanitize fuzz mutants accuracy twins bench bench-big gallery \
+.PHONY: all help setup setup-check demo check check-all check-gl test sanitize fuzz mutants accuracy twins bench bench-big gallery \
         install format format-check clean

@@ -25,9 +25,11 @@ static size_t last_upload;
 
 /* ---- programs ---- */
 
-static GLuint compile(GLenum type, const char *text) {
+static GLuint compile(GLenum type, const char *const *text) {
+    GLsizei parts = 0;
+    while (parts < SHADER_PARTS && text[parts]) parts++;
     const GLuint shader = gl.glCreateShader(type);
-    gl.glShaderSource(shader, 1, &text, NULL);
+    gl.glShaderSource(shader, parts, text, NULL);
     gl.glCompileShader(shader);
     GLint good = 0;
     gl.glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -40,11 +42,12 @@ static GLuint compile(GLenum type, const char *text) {
 }
 
 /* geometry: may be NULL. 0 when it does not link. */
-static GLuint link_program(const char *vertex, const char *geometry, const char *fragment) {
+static GLuint link_program(const char *const *vertex, const char *const *geometry,
+                           const char *const *fragment) {
     const GLuint program = gl.glCreateProgram();
     const struct {
         GLenum type;
-        const char *text;
+        const char *const *text;
     } parts[] = {
         {GL_VERTEX_SHADER, vertex}, {GL_GEOMETRY_SHADER, geometry}, {GL_FRAGMENT_SHADER, fragment}};
     for (int i = 0; i < 3; i++) {
@@ -78,7 +81,7 @@ void lines_set_constants(struct painter *painter) {
     const GLuint lines = painter->lines;
     gl.glUniform1i(gl.glGetUniformLocation(lines, "depth"), 0);
     gl.glUniform1f(gl.glGetUniformLocation(lines, "half_width"), set->width / 2);
-    gl.glUniform1f(gl.glGetUniformLocation(lines, "reach"), set->width / 2 + 1);
+    gl.glUniform1f(gl.glGetUniformLocation(lines, "reach"), set->width / 2 + 0.6f);
     gl.glUniform4f(gl.glGetUniformLocation(lines, "angles"), cosf(theta), sinf(theta), cosf(phi),
                    sinf(phi));
     gl.glUniform3f(gl.glGetUniformLocation(lines, "kinds"), (set->lines & LINES_SILHOUETTE) != 0,
@@ -104,7 +107,7 @@ bool lines_create_programs(struct painter *painter) {
     painter->u_range = gl.glGetUniformLocation(painter->lines, "range");
     painter->u_viewpoint = gl.glGetUniformLocation(painter->lines, "viewpoint");
     painter->u_facing = gl.glGetUniformLocation(painter->lines, "facing");
-    painter->u_step = gl.glGetUniformLocation(painter->lines, "step");
+    painter->u_step = gl.glGetUniformLocation(painter->lines, "step_depth");
     return true;
 }
 

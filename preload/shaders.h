@@ -2,8 +2,12 @@
 #ifndef PRELOAD_SHADERS_H
 #define PRELOAD_SHADERS_H
 
-extern const char shader_paper_vertex[], shader_paper_fragment[];
-extern const char shader_lines_vertex[], shader_lines_geometry[], shader_lines_fragment[];
-extern const char shader_cover_vertex[], shader_cover_fragment[];
+/* The parts of a shader, in order; the others are NULL. */
+enum { SHADER_PARTS = 5 };
+typedef const char *const shader_text[SHADER_PARTS];
+
+extern const shader_text shader_paper_vertex, shader_paper_fragment;
+extern const shader_text shader_lines_vertex, shader_lines_geometry, shader_lines_fragment;
+extern const shader_text shader_cover_vertex, shader_cover_fragment;
 
 #endif

@@ -29,6 +29,7 @@ usual() {
     tsan) seconds=130 ;;
     fuzz) seconds=120 ;;
     accuracy) seconds=60 ;;
+    gl) seconds=60 ;;
     *) seconds=1 ;;
     esac
     [ "$jobs" -le 2 ] || seconds=$((seconds * 2 / jobs))
@@ -187,6 +188,23 @@ structure() {
     fi
 }
 
+# What OpenGL's tests lack here: headers, EGL, or a driver that needs no display. Mesa is all of these.
+no_gl() {
+    any '/usr/include/GL/glcorearb.h' || { echo libgl-dev; return; }
+    any '/usr/include/EGL/egl.h' || { echo libegl-dev; return; }
+    any '/usr/lib*/libEGL.so.1' '/usr/lib/*/libEGL.so.1' || { echo libegl1; return; }
+    any '/usr/lib*/dri/swrast_dri.so' '/usr/lib/*/dri/swrast_dri.so' '/usr/lib*/libgallium*.so' \
+        '/usr/lib/*/libgallium*.so' || echo libgl1-mesa-dri
+}
+any() { # PATTERN...: is there a file of one of these names?
+    local pattern
+    for pattern; do
+        ! compgen -G "$pattern" >/dev/null || return 0
+    done
+    return 1
+}
+has_gl() { [ -z "$(no_gl)" ]; }
+
 run_phase() {
     case $1 in
     format) format ;;
@@ -204,11 +222,11 @@ run_phase() {
         # slowest of all programs, and every mode's pictures are drawn here once by the golden ones.
         # Counted bytes are the same counts as under gcc. Pairs of features are thousands of pictures; sources in
         # sources (test_wrapped, fuzz.wrapped) and each feature's own tests are drawn here.
-        phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy' \
+        phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy|^gl$' \
             -E 'unit.test_(determinism|stats_bytes)|cli.pairs'
         ;;
     tsan) # failing allocations are the same in any thread
-        phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context|stream$' -E context_memory
+        phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context|stream$' -E context_memory -LE '^gl$'
         ;;
     hostile)
         : >"$logs/reference.log"
@@ -219,16 +237,25 @@ run_phase() {
         -L 'unit|golden' -E 'write_mesh|shapes|number|context_memory|stats_bytes|progress|locale|sort|own_memory|assimp|moving|wrapped'
         # those are large, and slow in tiny steps, or count what tiny steps do not change, or draw what others draw
         ;;
+    gl)
+        # In the sanitizers' build, of which only these tests are built if the phase runs alone.
+        if has_gl; then
+            phase check-asan "OpenGL without a window, under the sanitizers" gl_tests -L '^gl$'
+        else
+            printf "%-${width}s" "OpenGL without a window"
+            echo "skipped (no $(no_gl): make setup-check installs it where it can)"
+        fi
+        ;;
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
     accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)
-        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, tsan, hostile, fuzz)" >&2
+        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, tsan, hostile, fuzz)" >&2
         exit 2
         ;;
     esac
 }
 
-[ $# -gt 0 ] || set -- format structure gcc clang asan tsan hostile fuzz
+[ $# -gt 0 ] || set -- format structure gcc clang asan gl tsan hostile fuzz
 total=0
 for name; do total=$((total + $(usual "$name"))); done
 echo "check: $*: about $(spoken $total) with $jobs processors; longer where much is to be built"

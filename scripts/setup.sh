@@ -2,7 +2,7 @@
 # setup.sh [build|check]: installs what is missing to build, or also to run all checks.
 #
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
-# rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
+# rest comes from Debian's packages, with sudo when not root.
 set -eu
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -27,21 +27,28 @@ compiler_rt() {
     echo "libclang-rt-${version:-14}-dev"
 }
 
-loadable() { [ -n "$(find /usr/lib /usr/local/lib -name "$1" -print -quit 2>/dev/null)" ]; }
+header() { have cc && echo "#include <$1>" | cc -E -x c - >/dev/null 2>&1; }
+any_file() {
+    for file; do
+        [ ! -e "$file" ] || return 0
+    done
+    return 1
+}
 
-# What is left out where it is missing: drawing by OpenGL (its headers, 1 MB; a way to it without a window and drivers, 25 MB,
-# and 120 MB of LLVM for them), the viewer (GLFW 1 MB, Dear ImGui 4 MB), and the test of the viewer's window.
-find_extra() {
-    extra=
-    [ -e /usr/include/GL/glcorearb.h ] || extra="$extra libgl-dev"
-    loadable libEGL.so.1 || extra="$extra libegl1"
-    { loadable swrast_dri.so || loadable 'libgallium*.so'; } || extra="$extra libgl1-mesa-dri"
-    module glfw3 || extra="$extra libglfw3-dev"
-    module imgui || extra="$extra libimgui-dev"
+# Without these a component, or its tests, is left out, and all else goes on.
+find_optional() {
+    optional=
+    header GL/glcorearb.h || optional="$optional libgl-dev"
+    module glfw3 || optional="$optional libglfw3-dev" # the viewer, 1 MB; and its panel, 4 MB
+    module imgui || optional="$optional libimgui-dev"
     [ "${1:-build}" = check ] || return 0
-    have Xvfb || extra="$extra xvfb xauth" # a screen nobody sees
-    have xdotool || extra="$extra xdotool"
-    have import || extra="$extra imagemagick"
+    have Xvfb || optional="$optional xvfb xauth" # these press its keys
+    have xdotool || optional="$optional xdotool"
+    have import || optional="$optional imagemagick"
+    header EGL/egl.h || optional="$optional libegl-dev"
+    any_file /usr/lib*/libEGL.so.1 /usr/lib/*/libEGL.so.1 || optional="$optional libegl1"
+    any_file /usr/lib*/dri/swrast_dri.so /usr/lib/*/dri/swrast_dri.so /usr/lib*/libgallium*.so \
+        /usr/lib/*/libgallium*.so || optional="$optional libgl1-mesa-dri"
 }
 
 find_missing() {
@@ -69,20 +76,20 @@ find_missing() {
     numpy || missing="$missing python3-numpy"
     [ -d /usr/share/assimp/models ] || missing="$missing assimp-testmodels" # some of them move
     fuzzer_runtime || missing="$missing $(compiler_rt)"
-}
-
-# without_extra WHY: nothing more is needed than what cannot be installed.
-without_extra() {
-    echo "setup: $1; without$extra the viewer, or drawing by OpenGL, is left out" >&2
-    exit 0
+    # Programs under libdrypoint-preload.so: headers and a server, and hacks to draw (8 MB, 20 MB unpacked).
+    { [ -e /usr/include/GL/glx.h ] && [ -e /usr/include/X11/Xlib.h ]; } || missing="$missing libgl-dev libx11-dev"
+    have Xvfb || missing="$missing xvfb"
+    have glxgears || missing="$missing mesa-utils"
+    [ -x /usr/libexec/xscreensaver/gears ] || [ -x /usr/lib/xscreensaver/gears ] || missing="$missing xscreensaver-gl"
 }
 
 find_missing "$@"
-find_extra "$@"
-[ -n "$missing$extra" ] || exit 0
+find_optional "$@"
+[ -n "$missing$optional" ] || exit 0
 
 if ! have apt-get; then
-    [ -n "$missing" ] || without_extra "there is no apt-get here"
+    [ -z "$optional" ] || echo "setup: drawing by OpenGL lacks what these Debian packages hold:$optional" >&2
+    [ -n "$missing" ] || exit 0
     echo "setup: this machine lacks what these Debian packages hold:$missing" >&2
     echo "setup: there is no apt-get here; install the same by its own package manager." >&2
     exit 1
@@ -90,8 +97,8 @@ fi
 root=
 if [ "$(id -u)" -ne 0 ]; then
     if ! have sudo; then
-        [ -n "$missing" ] || without_extra "this is not root"
-        echo "setup: as root, please run: apt-get install$missing" >&2
+        echo "setup: as root, please run: apt-get install$missing$optional" >&2
+        [ -n "$missing" ] || exit 0
         exit 1
     fi
     root="sudo"
@@ -107,20 +114,22 @@ apt update >"$log" 2>&1 || {
     tail -n 3 "$log" >&2
 }
 find_missing "$@" # the lists may name another compiler-rt
-echo "setup: installing$missing$extra${root:+, as root through sudo}"
+if [ -n "$optional" ]; then
+    echo "setup: installing$optional${root:+, as root through sudo}"
+    # shellcheck disable=SC2086
+    apt install --no-install-recommends $optional >"$log" 2>&1 ||
+        echo "setup: that did not work; drawing by OpenGL, or its tests, are left out" >&2
+fi
+[ -n "$missing" ] || exit 0
+echo "setup: installing$missing${root:+, as root through sudo}"
 # shellcheck disable=SC2086
-if [ -n "$missing" ] && ! apt install --no-install-recommends $missing >"$log" 2>&1; then
+if ! apt install --no-install-recommends $missing >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     echo "setup: that did not work. As root, please run: apt-get install$missing" >&2
     exit 1
 fi
 
 find_missing "$@"
-find_extra "$@"
-# shellcheck disable=SC2086
-if [ -n "$extra" ] && ! apt install --no-install-recommends $extra >"$log" 2>&1; then
-    [ -n "$missing" ] || without_extra "these could not be installed"
-fi
 if [ -n "$missing" ]; then
     echo "setup: still missing after the installation:$missing" >&2
     exit 1

@@ -1,4 +1,5 @@
-/* Everything in the core library. drypoint/io.h (files through libpng and Assimp) stands apart. */
+/* Everything in the core library. drypoint/io.h (files through libpng and Assimp) and drypoint/gl.h (drawings by
+ * OpenGL) stand apart. */
 #ifndef DRYPOINT_DRYPOINT_H
 #define DRYPOINT_DRYPOINT_H
 

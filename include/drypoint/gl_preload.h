@@ -23,4 +23,7 @@
  * history, so no extension can meet it; and it is no sum of bits that a bit field uses. */
 #define GL_SIL_RIDGE_VALLEY 0x44525950
 
+/* The same as an enumerant, for debuggers and bindings, which see no macros. */
+enum dp_gl_capability { DP_GL_SIL_RIDGE_VALLEY = GL_SIL_RIDGE_VALLEY };
+
 #endif

@@ -146,6 +146,7 @@
     X(TexParameterf, PFNGLTEXPARAMETERFPROC)                                                       \
     X(TexStorage2D, PFNGLTEXSTORAGE2DPROC)                                                         \
     X(TexStorage2DMultisample, PFNGLTEXSTORAGE2DMULTISAMPLEPROC)                                   \
+    X(TexStorage3DMultisample, PFNGLTEXSTORAGE3DMULTISAMPLEPROC)                                   \
     X(TexStorage3D, PFNGLTEXSTORAGE3DPROC)                                                         \
     X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                                                       \
     X(TexSubImage3D, PFNGLTEXSUBIMAGE3DPROC)                                                       \

@@ -313,16 +313,16 @@ static dp_result gather_groups(dp_gl *gl, dp_diag *diag) {
     const dp_style *const style = &gl->style;
     const dp_color base = style->surface & 0xff ? style->surface : style->paper;
     uint32_t *const colors = dp_alloc_array(&gl->memory, 65536, sizeof *colors);
-    uint32_t first = 0;
     if (!colors) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for colours of groups");
     for (uint32_t g = 0; g < 65536; g++) colors[g] = base;
     for (size_t i = 0; i < gl->scene.count; i++) {
         const dp_gl_mesh *const m = gl->scene.meshes[i];
-        for (uint32_t g = 0; !m->keeps_groups && g < m->group_count && first + g < 65536; g++) {
+        const dp_gl_group_numbers numbers = dp_gl_groups_of(&gl->scene, i);
+        for (uint32_t g = 0; !m->keeps_groups && g < m->group_count; g++) {
             const dp_color own = m->group_colors[g];
-            if (own) colors[first + g] = own & 0xff ? own : style->paper;
+            const uint32_t number = g ? numbers.others + g : numbers.zero;
+            if (own && number < 65536) colors[number] = own & 0xff ? own : style->paper;
         }
-        first += dp_gl_groups_of(m);
     }
     const dp_result result = dp_gl_buffer_fill(gl, &gl->shading->attributes.groups, colors,
                                                65536 * sizeof *colors, "colours of groups", diag);

@@ -4,6 +4,7 @@
  * Depth is d (core/view.h), which is larger when nearer, scaled into [0, 1]: in perspective 1 / distance, so that float32
  * is fine where it matters. Where the application gives a depth texture, it is put there first, as DP_GL_ID_FOREIGN.
  * Invariant: texel (x, y) is the picture's pixel from the upper left corner. */
+#include "gl/fins.h"
 #include "gl/scene.h"
 
 #include <math.h>
@@ -27,20 +28,29 @@ void dp_gl_depth_range(const dp_gl *gl, float out[2]) {
     }
 }
 
-static dp_result reserve(dp_gl *gl, dp_diag *diag) {
+/* Textures of their own, attached to the bound framebuffer. */
+static dp_result reserve_textures(dp_gl *gl, dp_diag *diag) {
     dp_gl_faces *const f = &gl->faces;
     const uint32_t w = gl->target.width, h = gl->target.height,
                    samples = gl->samples > 1 ? gl->samples : 0;
+    if (f->layers[0]) dp_gl_fins_free_ink(gl);
     dp_result result = dp_gl_texture_reserve(gl, &f->ids, GL_R32UI, w, h, samples,
                                              "numbers of the samples' polygons", diag);
     if (!result)
         result = dp_gl_texture_reserve(gl, &f->depth, GL_DEPTH_COMPONENT32F, w, h, samples,
                                        "depth of the samples", diag);
-    if (result) return result;
-    if (!f->framebuffer) gl->api.GenFramebuffers(1, &f->framebuffer);
-    gl->api.BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
     gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, f->ids.name, 0);
     gl->api.FramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, f->depth.name, 0);
+    return result;
+}
+
+static dp_result reserve(dp_gl *gl, dp_diag *diag) {
+    dp_gl_faces *const f = &gl->faces;
+    if (!f->framebuffer) gl->api.GenFramebuffers(1, &f->framebuffer);
+    gl->api.BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
+    const dp_result result = dp_gl_fins_in_one_pass(gl) ? dp_gl_fins_reserve_layers(gl, diag)
+                                                        : reserve_textures(gl, diag);
+    if (result) return result;
     gl->api.DrawBuffer(GL_COLOR_ATTACHMENT0);
     if (gl->api.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return dp_fail(diag, DP_ERR_UNSUPPORTED,
@@ -137,23 +147,15 @@ static dp_result put_foreign(dp_gl *gl, const float range[2], dp_diag *diag) {
     return DP_OK;
 }
 
-dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag) {
+static dp_result draw_triangles(dp_gl *gl, const float range[2], dp_diag *diag) {
     static const dp_gl_program_desc desc = {.vertex = "faces.vert", .fragment = "faces.frag"};
     const dp_gl_api *const a = &gl->api;
-    float range[2];
     uint32_t program;
-    dp_result result = reserve(gl, diag);
-    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
-    if (result) return result;
-    dp_gl_depth_range(gl, range);
-    gl->faces.range[0] = range[0], gl->faces.range[1] = range[1];
-    clear(gl);
-    if (gl->target.depth_texture) result = put_foreign(gl, range, diag);
+    const dp_result result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
     dp_gl_use(gl, program);
     dp_gl_scene_bind(gl);
     a->Uniform2f(a->GetUniformLocation(program, "depth_range"), range[0], range[1]);
-    a->Enable(GL_CLIP_DISTANCE0);
     if (gl->style.cull_back_faces) {
         a->FrontFace(GL_CW); /* rows run from the top down here */
         a->Enable(GL_CULL_FACE);
@@ -161,10 +163,26 @@ dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag) {
     a->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(3 * gl->scene.triangle_count));
     a->Disable(GL_CULL_FACE);
     a->FrontFace(GL_CCW);
+    return DP_OK;
+}
+
+dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag) {
+    const dp_gl_api *const a = &gl->api;
+    float range[2];
+    dp_result result = reserve(gl, diag);
+    if (result) return result;
+    dp_gl_depth_range(gl, range);
+    gl->faces.range[0] = range[0], gl->faces.range[1] = range[1];
+    clear(gl);
+    if (gl->target.depth_texture) result = put_foreign(gl, range, diag);
+    if (result) return result;
+    a->Enable(GL_CLIP_DISTANCE0);
+    result = dp_gl_fins_in_one_pass(gl) ? dp_gl_fins_draw_once(gl, diag)
+                                        : draw_triangles(gl, range, diag);
     a->Disable(GL_CLIP_DISTANCE0);
     a->Disable(GL_DEPTH_TEST);
     a->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    return DP_OK;
+    return result;
 }
 
 void dp_gl_faces_bind(dp_gl *gl, uint32_t program) {
@@ -175,6 +193,7 @@ void dp_gl_faces_bind(dp_gl *gl, uint32_t program) {
 }
 
 void dp_gl_faces_free(dp_gl *gl) {
+    dp_gl_fins_free_ink(gl);
     dp_gl_texture_free(gl, &gl->faces.ids);
     dp_gl_texture_free(gl, &gl->faces.depth);
     if (gl->faces.framebuffer) gl->api.DeleteFramebuffers(1, &gl->faces.framebuffer);

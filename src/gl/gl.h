@@ -92,10 +92,11 @@ struct dp_gl_mesh {
     uint64_t fingerprint; /* of the topology of owned buffers */
 };
 
-/* Groups of the meshes of a picture are numbered one mesh after the other. */
-static inline uint32_t dp_gl_groups_of(const dp_gl_mesh *mesh) {
-    return mesh->keeps_groups ? 0 : mesh->group_count ? mesh->group_count : 1;
-}
+/* Groups in a picture, as dp_source_join numbers them: k is group 0 of mesh k, then come the others of each mesh. A mesh's
+ * group g is `zero` if it is 0, else `others` + g. */
+typedef struct dp_gl_group_numbers {
+    uint32_t zero, others;
+} dp_gl_group_numbers;
 
 /* All meshes of a picture, one after the other. */
 typedef struct dp_gl_scene {
@@ -119,8 +120,10 @@ typedef struct dp_gl_faces {
     dp_gl_texture ids;   /* [height][width] samples: 1 + triangle, 0: none, DP_GL_ID_FOREIGN */
     dp_gl_texture depth; /* DEPTH_COMPONENT32F, larger is nearer; see picture.glsl */
     uint32_t framebuffer;
+    dp_gl_texture ink, ink_depth; /* of silhouettes by adjacency (fins.c): RGBA in 32 bits, 0: none */
+    uint32_t layers[2]; /* arrays of two layers, which ids and ink, depth and ink_depth are; 0: none */
     uint32_t sampler; /* for the application's depth */
-    float range[2]; /* depth as it is stored: d * range[0] + range[1] */
+    float range[2];   /* depth as it is stored: d * range[0] + range[1] */
 } dp_gl_faces;
 #define DP_GL_ID_FOREIGN 0xFFFFFFFFu /* something of the application's is nearer */
 
@@ -165,6 +168,18 @@ typedef struct dp_gl_candidate {
     uint32_t level;  /* 0 */
 } dp_gl_candidate;
 
+/* Edges where the eye decides (emerge.c), and crossings (crossings.c). */
+typedef struct dp_gl_eye {
+    dp_gl_buffer words;    /* counts and rooms, bits of half-edges and cells, lists of cells */
+    dp_gl_buffer looked;   /* half-edges that are looked at */
+    dp_gl_buffer chunks;   /* parts of these */
+    dp_gl_buffer nodes;    /* of the cells' lists: polygons */
+    dp_gl_buffer findings; /* by sample point: what is seen there */
+    dp_gl_buffer pairs;    /* the table of polygons that may cross */
+    dp_gl_buffer crossed;  /* those, and where they do */
+    dp_gl_buffer along;    /* crossings by cells */
+} dp_gl_eye;
+
 typedef struct dp_gl_surface {
     dp_gl_texture
         picture; /* RGBA8, the picture as it grows: surface, then ink; not premultiplied */
@@ -195,6 +210,10 @@ struct dp_gl {
     uint32_t samples_most; /* of colour, integer and depth at once */
     uint32_t texture_most, storage_most;
     uint32_t vertex_array;
+    /* For tests: as if the context had no geometry shader; stroke textures by the texture unit, by four texels in float32, or by
+     * these with shares in steps of 1/256 (fins_texture.c). */
+    bool no_geometry_shader;
+    enum { DP_GL_LOOKUPS_UNIT, DP_GL_LOOKUPS_EXACT, DP_GL_LOOKUPS_STEPS } lookups;
 
     /* the picture that is drawn */
     dp_view view;
@@ -209,6 +228,7 @@ struct dp_gl {
     dp_gl_scene scene;
     dp_gl_faces faces;
     dp_gl_lines_store lines;
+    dp_gl_eye eye;
     dp_gl_surface surface;
     dp_gl_ink ink;
     dp_gl_quads *quads;     /* made when first used */

@@ -12,6 +12,10 @@ dp_result dp_gl_find_edges(dp_gl *gl, dp_diag *diag);
 /* emerge.c: candidates beside which something else is seen become disputed, too; what the eye sees at all of those
  * → candidates. */
 dp_result dp_gl_find_emerging(dp_gl *gl, dp_diag *diag);
+/* Was a buffer of emerge.c or crossings.c full? Then it has been made larger, and *again is set. */
+dp_result dp_gl_grow_emerging(dp_gl *gl, bool *again, dp_diag *diag);
+dp_result dp_gl_grow_crossings(dp_gl *gl, bool *again, dp_diag *diag);
+void dp_gl_eye_free(dp_gl *gl);
 /* crossings.c: where triangles cross → candidates. */
 dp_result dp_gl_find_crossings(dp_gl *gl, dp_diag *diag);
 /* visibility.c: candidates → segments. */

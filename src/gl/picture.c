@@ -8,6 +8,7 @@
  *
  * Nothing comes back to the host but counters: were the lists of candidates and of segments large enough? If not,
  * they grow, and those stages run again. */
+#include "gl/fins.h"
 #include "gl/ink.h"
 #include "gl/lines.h"
 #include "gl/mesh.h"
@@ -16,9 +17,9 @@
 #include "gl/shading.h"
 #include "gl/surface.h"
 
+#include "base/elementary.h"
 #include "core/outline.h"
 
-#include <math.h>
 #include <string.h>
 
 const char *dp_gl_stage_name(dp_gl_stage stage) {
@@ -38,8 +39,8 @@ static void put_vector(dp_vec3 v, double last, double out[4]) {
 /* Half a degree short of the least fold that is drawn, a right angle at the most; 2 where flat edges are lines too. As in
  * draw/draw.c. */
 static float flat_cosine(const dp_style *s) {
-    const float least = fminf(180 - s->ridge_angle, s->valley_angle - 180);
-    return least > 1 ? (float)cos(((double)fminf(least, 90) - 0.5) * 0.017453292519943295) : 2;
+    const float least = dp_minf(180 - s->ridge_angle, s->valley_angle - 180);
+    return least > 1 ? (float)dp_cos(((double)dp_minf(least, 90) - 0.5) * 0.017453292519943295) : 2;
 }
 
 static void put_view(dp_gl *gl) {
@@ -65,15 +66,16 @@ static void put_style(dp_gl *gl) {
     dp_gl_picture_block *const b = &gl->block;
     const double theta = (double)s->ridge_angle * 0.017453292519943295,
                  phi = (double)s->valley_angle * 0.017453292519943295;
-    b->angles[0] = cos(theta), b->angles[1] = sin(theta);
-    b->angles[2] = cos(phi), b->angles[3] = sin(phi);
+    b->angles[0] = dp_cos(theta), b->angles[1] = dp_sin(theta);
+    b->angles[2] = dp_cos(phi), b->angles[3] = dp_sin(phi);
     for (int i = 0; i < DP_LINE_COUNT; i++) {
         b->widths[i][0] = s->line[i].width;
         put_color(s->line[i].color, b->colors[i]);
     }
     put_color(s->paper, b->paper);
     put_color(s->surface, b->surface);
-    b->style[0] = s->lines & DP_ALL_LINES;
+    b->style[0] =
+        s->lines & DP_ALL_LINES & ~(uint32_t)(dp_gl_draws_fins(gl) ? DP_SILHOUETTE | DP_BORDER : 0);
     b->style[1] = gl->view.perspective;
     b->style[2] = s->cull_back_faces;
 }
@@ -180,8 +182,8 @@ static dp_result find_candidates(dp_gl *gl, dp_diag *diag) {
 }
 
 static bool finds_lines(const dp_gl *gl) {
-    const bool strokes = gl->style.ink == DP_INK_STROKES && gl->style.edges == DP_EDGES_EMERGENT;
-    return strokes && gl->scene.triangle_count && (gl->style.lines & DP_ALL_LINES);
+    const bool strokes = gl->style.ink == DP_INK_STROKES || gl->style.edges == DP_EDGES_ADJACENCY;
+    return strokes && gl->scene.triangle_count && gl->block.style[0];
 }
 
 static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
@@ -205,9 +207,9 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
     dp_result result = DP_OK;
     if (!gl->scene.triangle_count || !(gl->style.lines & DP_ALL_LINES))
         result = DP_OK;
-    else if (gl->style.edges == DP_EDGES_ADJACENCY)
+    else if (dp_gl_draws_fins(gl))
         result = dp_gl_ink_fins(gl, diag);
-    else if (gl->style.ink == DP_INK_QUADS)
+    else if (gl->style.ink == DP_INK_QUADS && gl->style.edges != DP_EDGES_ADJACENCY)
         result = dp_gl_ink_quads(gl, diag);
     else
         result = dp_gl_ink_strokes(gl, diag);
@@ -217,6 +219,8 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
 static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     dp_result result = dp_gl_upload_block(gl, diag);
     if (!result) result = run(gl, DP_GL_STAGE_VERTICES, dp_gl_scene_place, diag);
+    if (!result && dp_gl_fins_in_one_pass(gl))
+        result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
     if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);
     if (!result) put_places(gl); /* which the framebuffer tells */
     if (!result) result = dp_gl_upload_block(gl, diag);

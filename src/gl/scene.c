@@ -59,14 +59,26 @@ void dp_gl_scene_bind(dp_gl *gl) {
     dp_gl_buffer_bind(gl, &gl->scene.triangles, DP_GL_BIND_TRIANGLES);
 }
 
+dp_gl_group_numbers dp_gl_groups_of(const dp_gl_scene *scene, size_t index) {
+    uint32_t meshes = 0, before = 0;
+    if (scene->meshes[index]->keeps_groups) return (dp_gl_group_numbers){0, 0};
+    for (size_t i = 0; i < scene->count; i++) {
+        const dp_gl_mesh *const m = scene->meshes[i];
+        meshes += !m->keeps_groups;
+        before += i < index && m->group_count ? m->group_count - 1 : 0;
+    }
+    return (dp_gl_group_numbers){(uint32_t)index, meshes + before - 1};
+}
+
 /* Writes one mesh's corners and triangles behind those before it. */
 static void put_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t first_vertex,
-                     uint32_t first_triangle, uint64_t first_polygon, uint32_t first_group) {
+                     uint32_t first_triangle, uint64_t first_polygon, dp_gl_group_numbers groups) {
     const dp_gl_api *const a = &gl->api;
     dp_gl_uniform_u(gl, program, "first_vertex", first_vertex);
     dp_gl_uniform_u(gl, program, "first_triangle", first_triangle);
     dp_gl_uniform_u(gl, program, "first_polygon", (uint32_t)first_polygon);
-    dp_gl_uniform_u(gl, program, "first_group", m->keeps_groups ? 0 : first_group);
+    dp_gl_uniform_u(gl, program, "zero_group", groups.zero);
+    dp_gl_uniform_u(gl, program, "other_groups", groups.others);
     dp_gl_uniform_u(gl, program, "vertex_count", m->vertex_count);
     dp_gl_uniform_u(gl, program, "triangle_count", m->triangle_count);
     dp_gl_uniform_u(gl, program, "indices_at",
@@ -81,7 +93,7 @@ static void put_mesh(dp_gl *gl, uint32_t program, const dp_gl_mesh *m, uint32_t 
 
 static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
     static const dp_gl_program_desc desc = {.compute = "scene_corners.comp"};
-    uint32_t program, vertices = 0, triangles = 0, groups = 0;
+    uint32_t program, vertices = 0, triangles = 0;
     uint64_t polygons = 0;
     const dp_result result = dp_gl_program(gl, &desc, &program, diag);
     if (result) return result;
@@ -89,16 +101,15 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
     dp_gl_scene_bind(gl);
     for (size_t i = 0; i < gl->scene.count; i++) {
         const dp_gl_mesh *const m = gl->scene.meshes[i];
-        put_mesh(gl, program, m, vertices, triangles, polygons, groups);
+        put_mesh(gl, program, m, vertices, triangles, polygons, dp_gl_groups_of(&gl->scene, i));
         vertices += m->vertex_count, triangles += m->triangle_count, polygons += m->pieces;
-        groups += dp_gl_groups_of(m);
     }
     return DP_OK;
 }
 
 dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, dp_diag *diag) {
     dp_gl_scene *const s = &gl->scene;
-    s->new_topology = !is_known(s, meshes, count);
+    s->new_topology = !count || !is_known(s, meshes, count); /* none are known once one is gone */
     if (!s->new_topology) return DP_OK;
     s->count = 0;
     s->topology = dp_gl_number(gl);

@@ -11,6 +11,8 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
 dp_result dp_gl_scene_place(dp_gl *gl, dp_diag *diag);
 /* Rows of the map from a mesh's own space to the scene's; false if it changes nothing. */
 bool dp_gl_placement_of(const dp_gl_mesh *mesh, const double origin[3], double rows[3][4]);
+/* The numbers of groups of mesh `index` of the scene. */
+dp_gl_group_numbers dp_gl_groups_of(const dp_gl_scene *scene, size_t index);
 /* Binds vertices, corners and triangles. */
 void dp_gl_scene_bind(dp_gl *gl);
 void dp_gl_scene_free(dp_gl *gl);

@@ -7,7 +7,7 @@
 #include "gl/gl.h"
 
 enum {
-    SWITCHES = 26,
+    SWITCHES = 28,
     VIEWPORTS = 16, /* glViewport sets all */
     IMAGES = 4,
     UNIFORM_BLOCKS = 3,
@@ -22,6 +22,8 @@ static const GLenum switches[] = {GL_BLEND,
                                   GL_STENCIL_TEST,
                                   GL_COLOR_LOGIC_OP,
                                   GL_POLYGON_OFFSET_FILL,
+                                  GL_POLYGON_OFFSET_LINE, /* llvmpipe offsets all by them */
+                                  GL_POLYGON_OFFSET_POINT,
                                   GL_POLYGON_SMOOTH,
                                   GL_RASTERIZER_DISCARD,
                                   GL_SAMPLE_ALPHA_TO_COVERAGE,

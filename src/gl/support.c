@@ -9,6 +9,10 @@ dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *dia
         bool asked;
         const char *what;
     } rules[] = {
+        {style->edges == DP_EDGES_ADJACENCY && style->ink == DP_INK_QUADS &&
+             style->method == DP_METHOD_EXACT,
+         "silhouettes as geometry beside their visible chains (method exact), but as printed or as "
+         "strokes"},
         {style->hidden.look != DP_HIDDEN_NONE, "hidden lines"},
         {style->xray > 0 && style->xray < 1, "x-rays"},
         {style->detail > 0, "a detail of lines other than exact"},
@@ -16,7 +20,6 @@ dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *dia
         {style->exact_ends, "exact ends"},
         {style->pattern.texture != NULL, "patterns on lines"},
         {style->line_light.lighting != DP_LINE_LIGHT_OFF, "light on lines"},
-        {style->edge_table_off, "the switch edge_table_off"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (rules[i].asked)

@@ -140,6 +140,7 @@ dp_result dp_gl_grow_lines(dp_gl *gl, bool *again, dp_diag *diag) {
         result = grow(gl, &l->words, c.wanted[0], WORD, "sample points of lines", again, diag);
     if (!result)
         result = grow(gl, &l->segments, c.segments, sizeof(dp_gl_segment), "segments", again, diag);
+    if (!result) result = dp_gl_grow_emerging(gl, again, diag);
     return result;
 }
 
@@ -150,4 +151,5 @@ void dp_gl_lines_free(dp_gl *gl) {
                                      &l->words};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) dp_gl_buffer_free(gl, buffers[i]);
     for (size_t i = 0; i < sizeof l->own / sizeof *l->own; i++) dp_gl_buffer_free(gl, &l->own[i]);
+    dp_gl_eye_free(gl);
 }

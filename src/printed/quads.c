@@ -370,7 +370,8 @@ static void between_depths_twice(dp_printer *w) {
         w->ink_depth[i] = dp_maxf(w->ink_depth[i], w->tile->depth[i]);
     add_all(w, dp_fill_interval, NULL);
     add_all(w, NULL, dp_fill_trap_in_interval);
-    add_faces(w, false, SAME, dp_fill_trap_in_interval);
+    add_faces(w, false, -SAME,
+              dp_fill_trap_in_interval); /* nor are the surface itself and its duplicates */
 }
 
 /* Inks samples where something is trapped and no nearer line is, in the colour of the surface's

@@ -478,9 +478,18 @@ static void call_all(gl_test *t, const dp_gl_target *target, answers *before, ui
     if (before) ask(t->gl, &after), compare(before, &after, what)
     AFTER("dp_gl_mesh_from_source", dp_gl_mesh_from_source(t->gl, source, &mesh, &diag));
     dp_gl_time_stages(t->gl, true);
+    dp_texture *texture = NULL;
+    assert_int_equal(dp_texture_named("charcoal", 0, NULL, &texture, NULL), DP_OK);
+    const dp_style fins = {.edges = DP_EDGES_ADJACENCY,
+                           .ink = DP_INK_QUADS,
+                           .method = DP_METHOD_PAPER,
+                           .shade.shading = DP_SHADING_PENCIL,
+                           .stroke.texture = texture};
+    AFTER("textured silhouettes", dp_gl_draw(t->gl, &mesh, 1, &camera, &fins, target, &diag));
     for (int i = 0; i < 2; i++) {
         AFTER("dp_gl_draw", dp_gl_draw(t->gl, &mesh, 1, &camera, &style, target, &diag));
     }
+    dp_texture_destroy(texture);
     AFTER("dp_gl_stats_of", dp_gl_stats_of(t->gl, &stats, &diag));
     assert_true(stats.stage_ms[DP_GL_STAGE_FACES] > 0 && stats.stage_ms[DP_GL_STAGE_FACES] < 1e5);
     AFTER("dp_gl_mesh_update", dp_gl_mesh_update(mesh, source, &diag));

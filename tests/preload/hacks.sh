@@ -7,7 +7,7 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 shown=0 failed=0
 for name in glxgears gears moebiusgears glknots morph3d superquadrics topblock; do
-    program= size="-geometry 300x300+0+0"
+    program='' size="-geometry 300x300+0+0"
     for folder in /usr/libexec/xscreensaver /usr/lib/xscreensaver; do
         [ ! -x $folder/$name ] || program="$folder/$name -window"
     done

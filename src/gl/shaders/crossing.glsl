@@ -5,8 +5,8 @@
 //                                            space, and the unit mean of the normals turned to the eye
 //
 // Not handled: polygons in one plane, and those that merely touch; they do not cross.
-#include "facing.glsl"
 #include "polygons.glsl"
+#include "facing.glsl"
 
 struct Cut {
     dvec3 from, to;

@@ -37,11 +37,17 @@ float limit_at(double d) {
 struct Query {
     vec2 at;     // px
     float limit; // d
-    uint a, b;   // polygons that do not hide it
+    uint a, b;   // triangles whose polygons do not hide it; b: NONE
 };
 bool is_own(uint triangle, Query q) {
     uint polygon = polygon_of(triangle);
-    return polygon == q.a || polygon == q.b;
+    return polygon == polygon_of(q.a) || (q.b != NONE && polygon == polygon_of(q.b));
+}
+// What lies beside the line's own triangles, as a sample's number: n < 6.
+uint neighbour_of(Query q, uint n) {
+    uint own = n < 3u ? q.a : q.b;
+    uint mate = own == NONE ? MATE_NONE : mates[3u * own + n % 3u];
+    return is_mate(mate) ? 1u + mate_of(mate) / 3u : 0u;
 }
 
 // A triangle about a point of the screen: on which side of edge k (from corner k) the point lies, times the sign of the
@@ -146,11 +152,13 @@ bool is_hidden(Query q, out uint hider) {
     int foreign = 0;
     bool any_clear = false;
     hider = NONE;
-    for (int n = 0; n < 4 * SAMPLES; n++) {
+    for (int n = 0; n < 4 * SAMPLES + 6; n++) {
         // the point's own pixel first
         int k = n / SAMPLES, i = n % SAMPLES;
         ivec2 p = corner + ivec2((k & 1) ^ (own.x - corner.x), (k >> 1) ^ (own.y - corner.y));
-        uint id = is_in_picture(p) ? id_at(p, i) : NOTHING;
+        bool is_sample = n < 4 * SAMPLES;
+        if (!is_sample && !any_clear) return true;
+        uint id = !is_sample ? neighbour_of(q, uint(n - 4 * SAMPLES)) : is_in_picture(p) ? id_at(p, i) : NOTHING;
         if (any(equal(uvec4(id), last)) || id == NOTHING) continue;
         if (id == ID_FOREIGN) {
             bool hides = q.limit * depth_range.x + depth_range.y < texelFetch(depths, p, i).x;
@@ -166,8 +174,8 @@ bool is_hidden(Query q, out uint hider) {
             hider = at;
             return true;
         }
-        if (found == UNSURE && votes) hider = id - 1u;
+        if (found == UNSURE && votes && is_sample) hider = id - 1u;
         else any_clear = true;
     }
-    return foreign * 2 >= SAMPLES + int(SAMPLES == 1) || !any_clear;
+    return foreign * 2 >= SAMPLES + int(SAMPLES == 1);
 }

@@ -8,7 +8,7 @@
 layout(std430, binding = 3) readonly buffer Indices { uint indices[]; };
 layout(std430, binding = 4) readonly buffer Kinds { uvec2 kinds[]; }; // as `triangles`
 
-uniform uint first_vertex, first_triangle, first_polygon, first_group, vertex_count, triangle_count;
+uniform uint first_vertex, first_triangle, first_polygon, zero_group, other_groups, vertex_count, triangle_count;
 uniform uint indices_at;  // words; NONE: there are no indices
 uniform uint has_kinds;
 
@@ -25,7 +25,8 @@ void main() {
         corners[3u * (first_triangle + t) + k] = first_vertex + (good ? v[k] : 0u);
     uvec2 kind = has_kinds != 0u ? kinds[t] : uvec2(t, 7u);
     kind.x += first_polygon;
-    kind.y = (kind.y & 0xffffu) | min((kind.y >> 16) + first_group, 65535u) << 16;
+    uint group = kind.y >> 16;
+    kind.y = (kind.y & 0xffffu) | min(group != 0u ? other_groups + group : zero_group, 65535u) << 16;
     if (!good) kind.y &= ~63u;
     triangles[first_triangle + t] = kind;
 }

@@ -12,7 +12,6 @@ void main() {
     if (i >= min(counters[1], picture.counts.w) || segments[i].hider[end] == ENDS) return;
     Segment s = segments[i];
     vec3 along = (s.b - s.a) / float(s.k1 - s.k0), at = end == 0u ? s.a - along * 0.5 : s.b + along * 0.5;
-    Query q = Query(at.xy, limit_at(double(at.z)) + depth_steps(at.z, 0.1), polygon_of(s.triangle),
-                    s.other == NONE ? NONE : polygon_of(s.other));
+    Query q = Query(at.xy, limit_at(double(at.z)) + depth_steps(at.z, 0.1), s.triangle, s.other);
     segments[i].hider[end] = is_hidden(q, hider) ? hider : NONE;
 }

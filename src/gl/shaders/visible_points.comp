@@ -32,9 +32,8 @@ void main() {
     uint line = words[w].x;
     if (lines[line].first == NONE) return;
     Candidate c = candidates[line];
-    uint a = polygon_of(c.a), b = c.b == NONE ? NONE : polygon_of(c.b), bits = 0u;
-    uint first = 32u * (w - lines[line].first), last = min(min(first + 32u, lines[line].n), c.k1);
+    uint bits = 0u, first = 32u * (w - lines[line].first), last = min(min(first + 32u, lines[line].n), c.k1);
     for (uint k = max(first, c.k0); k < last; k++)
-        if (is_visible(line, k, a, b)) bits |= 1u << (k - first);
+        if (is_visible(line, k, c.a, c.b)) bits |= 1u << (k - first);
     words[w].y = bits;
 }

@@ -19,3 +19,8 @@ $cc -std=c99 "$sources/moving.c" -o moving $(flags drypoint)
 # shellcheck disable=SC2046
 $cc -std=c99 "$sources/files.c" -o files $(flags drypoint-io)
 ./files
+if pkg-config --exists drypoint-gl; then
+    # shellcheck disable=SC2046
+    $cc -std=c99 -DDRYPOINT_HAS_GL "$sources/context.c" -o context $(flags drypoint-gl)
+    ./context
+fi
