@@ -118,7 +118,7 @@ if [ -n "$optional" ]; then
     echo "setup: installing$optional${root:+, as root through sudo}"
     # shellcheck disable=SC2086
     apt install --no-install-recommends $optional >"$log" 2>&1 ||
-        echo "setup: that did not work; drawing by OpenGL, or its tests, are left out" >&2
+        echo "setup: that did not work; drawing by OpenGL, the viewer, or their tests are left out" >&2
 fi
 [ -n "$missing" ] || exit 0
 echo "setup: installing$missing${root:+, as root through sudo}"

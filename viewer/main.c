@@ -233,10 +233,11 @@ static int spin(viewer *v, uint32_t frames) {
         whole += v->quality == QUALITY_FULL;
     }
     const double seconds = view_now() - start;
-    printf("%.1f frames a second: %u of %u x %u px, %.1f ms each, the picture %.1f of them; %u whole, "
-           "%u with fewer samples\n",
-           frames / seconds, frames, v->line.width, v->line.height, 1000 * seconds / frames,
-           drawn / frames, whole, frames - whole);
+    printf(
+        "%.1f frames a second: %u of %u x %u px, %.1f ms each, the picture %.1f of them; %u whole, "
+        "%u with fewer samples\n",
+        frames / seconds, frames, v->line.width, v->line.height, 1000 * seconds / frames,
+        drawn / frames, whole, frames - whole);
     return 0;
 }
 

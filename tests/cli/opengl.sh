@@ -17,6 +17,9 @@ draws_by_opengl() {
     says out '"stages": {"vertices": '
     cmp -s gl.png again.png || fail "--gl draws lines other than exact ones"
     run 0 shape:cube -q --gl --size 64x48 --preset blueprint -o blue.png
+    run 0 shape:bolt $small -q --gl -o lines.svg -o trace=lines.txt
+    grep -q '<path' lines.svg || fail "no path is in lines.svg"
+    says lines.txt 'silhouette'
     run 0 shape:bracket -q --gl --size 64x48 --turn 360 --frames 2 -o 'film-%d.png'
     cmp -s film-0.png film-1.png && fail "both frames are alike"
 }
