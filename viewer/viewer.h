@@ -33,7 +33,8 @@ typedef struct viewer {
     bool playing;
     double play_last; /* s: when the time went on last */
 
-    double x, y; /* of the pointer, window coordinates */
+    double x, y;                         /* of the pointer, window coordinates */
+    double focus_x, focus_y, focus_time; /* where the wheel turned last, and when */
     enum { DRAG_NONE = 0, DRAG_TURN, DRAG_PAN } drag;
     bool panel, help; /* are they shown? */
     int code;         /* exit code: no model could be read */
