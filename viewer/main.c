@@ -343,12 +343,7 @@ static int run(viewer *v, const tool_settings *s) {
 }
 
 static void end(viewer *v) {
-    loaded none = {0};
-    if (v->job) {
-        load_stop();
-        if (load_end(v->job, &none)) loaded_free(&none);
-        cmdline_free(&v->reading);
-    }
+    view_stop_reading(v);
     gl_close(v->gl);
     screen_destroy(v->screen);
     panel_destroy();

@@ -88,6 +88,8 @@ void view_moved(viewer *v);
 void view_open(viewer *v, uint32_t count, const char *const *files);
 /* Begins to read the command line's models. */
 void view_read(viewer *v);
+/* Stops reading, if anything is read. */
+void view_stop_reading(viewer *v);
 /* Takes a model that has been read. */
 void view_take(viewer *v);
 /* Which of an option's words the settings have, by name. */
