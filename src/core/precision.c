@@ -45,39 +45,42 @@ double dp_precision_of(const dp_polygons *polygons) {
     return decimals > DECIMALS_MOST || !given_count(polygons) ? 0 : unit / 2;
 }
 
-typedef struct box {
-    dp_vec3 least, most;
-} box;
-
-static box box_of(const dp_polygons *polygons) {
+dp_written dp_written_of(const dp_polygons *polygons) {
     const uint32_t step = position_step(polygons);
-    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    dp_written w = {dp_precision_of(polygons),
+                    {INFINITY, INFINITY, INFINITY},
+                    {-INFINITY, -INFINITY, -INFINITY}};
+    if (!(w.precision > 0)) return w;
     for (uint32_t v = 0; v < given_count(polygons); v += step) {
         const dp_vec3 p = dp_v3f(dp_vertex_position(polygons, v));
         if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) continue;
-        b.least = dp_v3(dp_min(b.least.x, p.x), dp_min(b.least.y, p.y), dp_min(b.least.z, p.z));
-        b.most = dp_v3(dp_max(b.most.x, p.x), dp_max(b.most.y, p.y), dp_max(b.most.z, p.z));
+        w.least = dp_v3(dp_min(w.least.x, p.x), dp_min(w.least.y, p.y), dp_min(w.least.z, p.z));
+        w.most = dp_v3(dp_max(w.most.x, p.x), dp_max(w.most.y, p.y), dp_max(w.most.z, p.z));
     }
-    return b;
+    return w;
+}
+
+dp_tolerances dp_tolerances_of(const dp_written *w, const dp_view *view) {
+    dp_tolerances t = {DP_TOUCHING, DP_CRACK, 0};
+    if (!(w->precision > 0)) return t;
+    const double size = dp_length(dp_sub(w->most, w->least)),
+                 known = dp_min(w->precision, COARSEST * size) * SPREAD;
+    const dp_vec3 middle = dp_mix(w->least, w->most, 0.5);
+    const double *const s = view->sight,
+                        distance = s[0] * middle.x + s[1] * middle.y + s[2] * middle.z + s[3];
+    const double scale =
+        view->perspective ? view->focal / dp_max(distance, 0.1 * size) : view->focal;
+    if (!isfinite(scale * known)) return t;
+    t.touching = (float)dp_min(dp_max((double)DP_TOUCHING, known * scale), MOST);
+    t.crack = (float)dp_min(dp_max((double)DP_CRACK, known * scale), MOST);
+    if (known * scale > (double)DP_TOUCHING) t.precision = known;
+    return t;
 }
 
 void dp_find_tolerances(dp_frame *f) {
-    const double precision = dp_precision_of(&f->polygons);
-    f->touching = DP_TOUCHING, f->crack = DP_CRACK;
-    f->precision = 0;
-    if (!(precision > 0)) return;
-    const box b = box_of(&f->polygons);
-    const double size = dp_length(dp_sub(b.most, b.least)),
-                 known = dp_min(precision, COARSEST * size) * SPREAD;
-    const dp_vec3 middle = dp_mix(b.least, b.most, 0.5);
-    const double *const s = f->view.sight,
-                        distance = s[0] * middle.x + s[1] * middle.y + s[2] * middle.z + s[3];
-    const double scale =
-        f->view.perspective ? f->view.focal / dp_max(distance, 0.1 * size) : f->view.focal;
-    if (!isfinite(scale * known)) return;
-    f->touching = (float)dp_min(dp_max((double)DP_TOUCHING, known * scale), MOST);
-    f->crack = (float)dp_min(dp_max((double)DP_CRACK, known * scale), MOST);
-    if (known * scale > (double)DP_TOUCHING) f->precision = known;
+    const dp_written written = dp_written_of(&f->polygons);
+    const dp_tolerances t = dp_tolerances_of(&written, &f->view);
+    f->touching = t.touching, f->crack = t.crack, f->precision = t.precision;
 }
 
 bool dp_is_sliver(const dp_frame *f, uint32_t polygon) {

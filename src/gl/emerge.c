@@ -5,6 +5,7 @@
  *    drawn     marks half-edges that have made lines
  *    cells     marks the cells of 8 x 8 px in which there are sample points
  *    bin       polygons → lists of the marked cells that they touch
+ *    backs     marks the tiles in which back faces are seen
  *    look      for each sample point: what is seen to the left and to the right of the edge, of its cell's polygons
  *    runs      of sample points with one answer → candidates
  *
@@ -15,16 +16,15 @@
 #include "gl/lines.h"
 #include "gl/scene.h"
 
-#include "core/precision.h"
-
 /* The same in shaders/eye.glsl. */
 typedef struct eye_head {
     uint32_t looked, chunks, places, nodes;
     uint32_t looked_room, chunks_room, places_room, nodes_room;
     uint32_t cells_x, cells_y, emerging_at, cells_at, lists_at, candidates_room, disputed_room,
         all_edges;
-    float touching, crack, precision, free;
-    uint32_t groups[6][4];
+    float touching, crack, precision;
+    uint32_t tiles_at;
+    uint32_t groups[7][4];
 } eye_head;
 
 enum {
@@ -42,7 +42,8 @@ enum {
     GROUPS_LOOKED,
     GROUPS_CHUNKS,
     GROUPS_TRIANGLES,
-    GROUPS_DRAWN
+    GROUPS_DRAWN,
+    GROUPS_CELLS
 };
 
 static size_t words_of(size_t bits) { return (bits + 31) / 32; }
@@ -59,7 +60,8 @@ static size_t lay_out(const dp_gl *gl, eye_head *h) {
     const size_t cells = (size_t)h->cells_x * h->cells_y;
     h->emerging_at = (uint32_t)bits;
     h->cells_at = (uint32_t)(2 * bits);
-    h->lists_at = (uint32_t)(2 * bits + words_of(cells));
+    h->tiles_at = (uint32_t)(2 * bits + words_of(cells));
+    h->lists_at = h->tiles_at + (uint32_t)words_of(cells); /* there are fewer tiles */
     return h->lists_at + cells;
 }
 
@@ -86,9 +88,31 @@ static dp_result reserve(dp_gl *gl, dp_diag *diag) {
     return result;
 }
 
+/* What the model's own rounding allows: as the CPU has it of all polygons together (core/precision.c). */
+static dp_tolerances tolerances_of(const dp_gl *gl) {
+    static const dp_written unknown = {0};
+    dp_written all = {0};
+    for (size_t i = 0; i < gl->scene.count; i++) {
+        const dp_gl_mesh *const m = gl->scene.meshes[i];
+        if (!(m->written.precision > 0) || m->placed) return dp_tolerances_of(&unknown, &gl->view);
+        dp_vec3 by;
+        by.x = m->origin[0] - gl->scene.origin[0], by.y = m->origin[1] - gl->scene.origin[1];
+        by.z = m->origin[2] - gl->scene.origin[2];
+        const dp_vec3 least = dp_add(m->written.least, by), most = dp_add(m->written.most, by);
+        if (i == 0) all = (dp_written){m->written.precision, least, most};
+        all.precision = dp_min(all.precision, m->written.precision);
+        all.least = dp_v3(dp_min(all.least.x, least.x), dp_min(all.least.y, least.y),
+                          dp_min(all.least.z, least.z));
+        all.most = dp_v3(dp_max(all.most.x, most.x), dp_max(all.most.y, most.y),
+                         dp_max(all.most.z, most.z));
+    }
+    return dp_tolerances_of(&all, &gl->view);
+}
+
 /* Clears the words, and writes what they begin with. */
 static dp_result begin(dp_gl *gl, dp_diag *diag) {
-    eye_head h = {.touching = DP_TOUCHING, .crack = DP_CRACK};
+    const dp_tolerances t = tolerances_of(gl);
+    eye_head h = {.touching = t.touching, .crack = t.crack, .precision = (float)t.precision};
     const size_t size = sizeof h + 4 * lay_out(gl, &h);
     dp_result result = reserve(gl, diag);
     if (!result)
@@ -191,6 +215,7 @@ dp_result dp_gl_find_emerging(dp_gl *gl, dp_diag *diag) {
         {"eye_drawn.comp", {&l->counters, &l->candidates, NULL, &l->mates}, GROUPS_DRAWN},
         {"eye_cells.comp", {&e->looked, &e->chunks}, GROUPS_CHUNKS},
         {"eye_bin.comp", {&e->nodes}, GROUPS_TRIANGLES},
+        {"eye_backs.comp", {&l->sides}, GROUPS_CELLS},
         {"eye_look.comp", {&e->looked, &e->chunks, &e->nodes, &e->findings}, GROUPS_CHUNKS},
         {"eye_runs.comp", {&e->looked, &l->counters, &e->findings, &l->candidates}, GROUPS_LOOKED}};
     dp_result result = begin(gl, diag);

@@ -16,6 +16,7 @@
 
 #include "base/diag.h"
 #include "base/memory.h"
+#include "core/precision.h"
 #include "core/view.h"
 
 /* Storage buffers, by binding: no shader uses more than eight. Those of a stage alone are its own, from
@@ -80,9 +81,10 @@ struct dp_gl_mesh {
     uint64_t placement;         /* the same of `matrix` and the positions of owned buffers */
     double origin[3];           /* world space: what positions count from */
     double matrix[16];
-    bool placed;       /* there is a matrix */
-    uint64_t polygons; /* of the source */
-    uint32_t pieces;   /* convex ones, which triangles are numbered by */
+    dp_written written; /* of a source's positions, in its own space (core/precision.h) */
+    bool placed;        /* there is a matrix */
+    uint64_t polygons;  /* of the source */
+    uint32_t pieces;    /* convex ones, which triangles are numbered by */
     uint32_t vertex_count, triangle_count;
     uint32_t *
         polygon_firsts; /* [triangle]: the first triangle of its polygon; NULL: all are their own */
@@ -134,7 +136,8 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer candidates; /* dp_gl_candidate */
     dp_gl_buffer segments;   /* dp_gl_segment */
     dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
-    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
+    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (sides.c) */
+    dp_gl_buffer pairs;      /* half-edges that may be lines (edges.c) */
     dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
     dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
@@ -153,8 +156,8 @@ typedef struct dp_gl_lines_store {
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
     uint32_t candidates, disputed, crossings;
-    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
-    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
+    uint32_t wanted[5];    /* [0] to [2]: see passes.h */
+    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0]: see passes.h */
 } dp_gl_counters;
 
 /* A line that may be visible. 32 bytes. */

@@ -95,6 +95,7 @@ static dp_result upload_positions(dp_gl_mesh *m, const dp_polygons *p, dp_diag *
     const dp_allocator *const memory = &m->gl->memory;
     float *packed = NULL;
     const float *positions = p->positions;
+    m->written = dp_written_of(p);
     if (p->stride != 12) {
         packed = dp_alloc_array(memory, (size_t)p->vertex_count + 1, 12);
         if (!packed) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mesh's positions");

@@ -186,6 +186,12 @@ static bool finds_lines(const dp_gl *gl) {
     return strokes && gl->scene.triangle_count && gl->block.style[0];
 }
 
+/* Vertices, and if lines are looked for how triangles lie to the eye. */
+static dp_result place(dp_gl *gl, dp_diag *diag) {
+    const dp_result result = dp_gl_scene_place(gl, diag);
+    return result || !finds_lines(gl) ? result : dp_gl_find_sides(gl, diag);
+}
+
 static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
     bool again = true;
     dp_result result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
@@ -218,7 +224,7 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
 
 static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     dp_result result = dp_gl_upload_block(gl, diag);
-    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, dp_gl_scene_place, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, place, diag);
     if (!result && dp_gl_fins_in_one_pass(gl))
         result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
     if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);

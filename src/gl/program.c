@@ -190,7 +190,7 @@ static uint64_t hash_text(uint64_t hash, const char *s) {
 }
 
 static uint64_t key_of(const dp_gl *gl, const dp_gl_program_desc *d) {
-    uint64_t hash = 0xcbf29ce484222325u ^ gl->samples;
+    uint64_t hash = 0xcbf29ce484222325u ^ (d->any_samples ? 0 : gl->samples);
     const char *const parts[5] = {d->compute, d->vertex, d->geometry, d->fragment, d->defines};
     for (int i = 0; i < 5; i++) hash = hash_text(hash, parts[i]);
     return hash;

@@ -9,6 +9,7 @@
 typedef struct dp_gl_program_desc {
     const char *compute, *vertex, *geometry, *fragment;
     const char *defines; /* lines such as "#define SAMPLES 4\n"; NULL: none */
+    bool any_samples;    /* its shaders do not use SAMPLES, and one program serves all */
 } dp_gl_program_desc;
 
 typedef struct dp_gl_program_entry {

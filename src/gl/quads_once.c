@@ -34,7 +34,7 @@ static dp_result begin(dp_gl *gl, dp_diag *diag) {
 
 /* Puts a portion's polygons in order. */
 static dp_result order(dp_gl *gl, const dp_gl_portions *p, uint32_t i, dp_diag *diag) {
-    static const dp_gl_program_desc desc = {.compute = "quads_order.comp"};
+    static const dp_gl_program_desc desc = {.compute = "quads_order.comp", .any_samples = true};
     dp_gl_quads *const q = gl->quads;
     const uint32_t all = 3 * gl->scene.triangle_count, first = i * p->edges;
     uint32_t program;

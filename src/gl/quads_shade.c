@@ -94,8 +94,8 @@ dp_result dp_gl_quads_portion(dp_gl *gl, bool once, dp_gl_portions *out, dp_diag
     for (int i = 0; i < DP_GL_ADDED_LISTS; i++) out->ends[i] = end += out->edges * out->room[i];
     const size_t most = (size_t)out->edges * out->places;
     dp_result result = dp_gl_buffer_reserve(gl, &q->records, most * RECORD, "added polygons", diag);
-    if (!result && once)
-        result = dp_gl_buffer_reserve(gl, &q->counts, 4 * (size_t)out->edges,
+    if (!result)
+        result = dp_gl_buffer_reserve(gl, &q->counts, once ? 4 * (size_t)out->edges : 64,
                                       "numbers of added polygons", diag);
     if (!result && once)
         result = dp_gl_buffer_reserve(gl, &q->order, 4 * most, "the order of polygons", diag);
@@ -119,10 +119,10 @@ static void set_pens(dp_gl *gl, uint32_t program) {
 
 dp_result dp_gl_quads_shade(dp_gl *gl, const dp_gl_portions *p, uint32_t i, bool once,
                             dp_diag *diag) {
-    static const char *const defines[2][2] = {
-        {"", "#define ORDERED\n"}, {"#define PAPER\n", "#define PAPER\n#define ORDERED\n"}};
-    const dp_gl_program_desc desc = {.compute = "quads_shade.comp",
-                                     .defines = defines[gl->style.method == DP_METHOD_PAPER][once]};
+    const dp_gl_program_desc desc = {
+        .compute = "quads_shade.comp",
+        .defines = gl->style.method == DP_METHOD_PAPER ? "#define PAPER\n" : NULL,
+        .any_samples = true};
     dp_gl_quads *const q = gl->quads;
     const uint32_t all = 3 * gl->scene.triangle_count, first = i * p->edges,
                    count = all - first < p->edges ? all - first : p->edges;
@@ -132,11 +132,12 @@ dp_result dp_gl_quads_shade(dp_gl *gl, const dp_gl_portions *p, uint32_t i, bool
     dp_gl_use(gl, program);
     dp_gl_scene_bind(gl);
     dp_gl_buffer_bind(gl, &q->records, DP_GL_BIND_OWN);
-    if (once) dp_gl_buffer_bind(gl, &q->counts, DP_GL_BIND_OWN + 3);
+    dp_gl_buffer_bind(gl, &q->counts, DP_GL_BIND_OWN + 3);
     dp_gl_buffer_bind(gl, &q->commands, DP_GL_BIND_OWN + 4);
     set_pens(gl, program);
     dp_gl_uniform_u(gl, program, "first_edge", first);
     dp_gl_uniform_u(gl, program, "edge_count", count);
+    dp_gl_uniform_u(gl, program, "ordered", once);
     dp_gl_uniform_u(gl, program, "places", p->places);
     dp_gl_uniform_u(gl, program, "first_command", i * DP_GL_ADDED_LISTS);
     gl->api.Uniform4ui(gl->api.GetUniformLocation(program, "list_ends"), p->ends[0], p->ends[1],

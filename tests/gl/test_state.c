@@ -480,7 +480,8 @@ static void call_all(gl_test *t, const dp_gl_target *target, answers *before, ui
     dp_gl_time_stages(t->gl, true);
     dp_texture *texture = NULL;
     assert_int_equal(dp_texture_named("charcoal", 0, NULL, &texture, NULL), DP_OK);
-    const dp_style fins = {.edges = DP_EDGES_ADJACENCY,
+    const dp_style fins = {.lines = DP_SILHOUETTE | DP_BORDER,
+                           .edges = DP_EDGES_ADJACENCY,
                            .ink = DP_INK_QUADS,
                            .method = DP_METHOD_PAPER,
                            .shade.shading = DP_SHADING_PENCIL,

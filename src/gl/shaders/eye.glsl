@@ -7,14 +7,15 @@ struct Head {
     uint looked, chunks, places, nodes; // wanted; where that is more than there is room for, the passes run again
     uint looked_room, chunks_room, places_room, nodes_room;
     uint cells_x, cells_y, emerging_at, cells_at, lists_at, candidates_room, disputed_room, all_edges;
-    float touching, crack, precision_, free_;
-    uvec4 groups[6]; // arguments of indirect dispatches
+    float touching, crack, precision_;
+    uint tiles_at;
+    uvec4 groups[7]; // arguments of indirect dispatches
 };
 #ifndef EYE_ACCESS
 #define EYE_ACCESS
 #endif
-// Bits of half-edges that have made lines, from word 0 on, and of those that are looked at; bits of cells in which there are
-// sample points; each cell's list, 1 + node.
+// Bits of half-edges that have made lines, from word 0 on, and of those that are looked at; of cells in which there are sample
+// points; of tiles that show back faces; each cell's list, 1 + node.
 layout(std430, binding = 3) EYE_ACCESS buffer Eye {
     Head head;
     uint words[];
@@ -54,6 +55,8 @@ uvec2 cell_of(vec2 px) {
     return uvec2(clamp(ivec2(floor(px)) / CELL, ivec2(0), ivec2(head.cells_x, head.cells_y) - 1));
 }
 uint cell_number(uvec2 cell) { return cell.y * head.cells_x + cell.x; }
+// Of the CPU's tiles, 64 px wide, in which a pixel lies.
+uint tile_of(uvec2 pixel) { return pixel.y / 64u * ((head.cells_x + 7u) / 8u) + pixel.x / 64u; }
 dvec2 middle_of(uvec2 cell) { return dvec2(cell * uint(CELL)) + double(CELL / 2); }
 
 // ------- edges on the screen: core/spine.c -------

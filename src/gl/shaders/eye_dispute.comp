@@ -12,14 +12,15 @@ layout(std430, binding = 6) writeonly buffer Disputed { uint disputed[]; };
 layout(std430, binding = 7) readonly buffer Mates { uint mates[]; };
 
 const uint STEP = 4u;
-const float BESIDE = 0.5, LEAST = 0.02, STEEPEST = 64.0;
+// px: where samples are looked at, and where else if all of that pixel lie on the other side; nearer than LEAST they may be
+// won by either side.
+const float BESIDE[2] = float[2](0.5, 1.25), LEAST = 0.02, STEEPEST = 64.0;
 
 // What is expected on either side of the edge: numbers of polygons, NONE: nothing that is known; and its plane about the
 // sample point.
 struct Expected {
     uint polygon[2], first[2];
 };
-uint expected_number(Expected e, uint side) { return e.polygon[side]; }
 
 bool reaches(uint first, uint n, uint flags, Lookout at, vec2 side, bool past_cracks) {
     return covers(first, n, flags, at.at + dvec2(NEAR * side)) ||
@@ -43,15 +44,15 @@ bool disputes(uint first, vec3 plane, Lookout at, vec2 side, uint half_edge, boo
             edge_along(first, n, flags, at, double(head.crack)) != NONE);
 }
 
-bool is_disputed_at(Lookout at, uint side, Expected e, uint half_edge) {
+bool is_disputed_by(ivec2 pixel, Lookout at, uint side, Expected e, uint half_edge,
+                    inout bool looked) {
     vec2 towards = side == 1u ? at.right : -at.right;
     float most = abs(depth_steps(at.d, STEEPEST));
-    ivec2 pixel = ivec2(floor(vec2(at.at) + BESIDE * towards));
-    if (!is_in_picture(pixel)) return false;
     uint last = NONE;
     for (int i = 0; i < SAMPLES; i++) {
         dvec2 away = dvec2(pixel) + dvec2(place_of(i)) - at.at;
         if (dot(vec2(away), towards) < LEAST) continue;
+        looked = true;
         uint id = id_at(pixel, i);
         if (!is_triangle(id) || id == last) continue;
         uint number = polygon_of(id - 1u);
@@ -67,6 +68,15 @@ bool is_disputed_at(Lookout at, uint side, Expected e, uint half_edge) {
         }
         last = id;
         if (disputes(first, plane, at, towards, half_edge, e.polygon[side] == NONE)) return true;
+    }
+    return false;
+}
+bool is_disputed_at(Lookout at, uint side, Expected e, uint half_edge) {
+    vec2 towards = side == 1u ? at.right : -at.right;
+    bool looked = false;
+    for (int i = 0; i < 2 && !looked; i++) {
+        ivec2 pixel = ivec2(floor(vec2(at.at) + BESIDE[i] * towards));
+        if (is_in_picture(pixel) && is_disputed_by(pixel, at, side, e, half_edge, looked)) return true;
     }
     return false;
 }

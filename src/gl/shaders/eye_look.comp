@@ -165,17 +165,8 @@ int backs_beside(Lookout at, bool right) {
     return sum;
 }
 bool sees_backs(Lookout at) {
-    for (int side = 0; side < 2; side++)
-        for (int i = -1; i < 3; i++) {
-            ivec2 pixel = ivec2(floor(vec2(at.at) +
-                                      (0.5 + float(i)) * (side == 1 ? at.right : -at.right)));
-            if (!is_in_picture(pixel)) continue;
-            for (int k = 0; k < SAMPLES; k++) {
-                uint id = id_at(pixel, k);
-                if (is_triangle(id) && !is_front(id - 1u)) return true;
-            }
-        }
-    return false;
+    uvec2 pixel = uvec2(clamp(ivec2(floor(at.at)), ivec2(0), ivec2(picture.size.xy) - 1));
+    return has_bit(head.tiles_at, tile_of(pixel));
 }
 
 // May a back face be a fold of a fine mesh?

@@ -23,4 +23,5 @@ void main() {
     head.groups[4] = groups_of(head.looked > 0u ? picture.counts.y : 0u);
     head.groups[5] = groups_of(head.looked > 0u && head.all_edges == 0u ?
                                    min(counters[4], head.candidates_room) : 0u);
+    head.groups[6] = uvec4(head.looked > 0u ? head.cells_x : 0u, head.cells_y, 1u, 0u);
 }

@@ -43,11 +43,11 @@ bool is_own(uint triangle, Query q) {
     uint polygon = polygon_of(triangle);
     return polygon == polygon_of(q.a) || (q.b != NONE && polygon == polygon_of(q.b));
 }
-// What lies beside the line's own triangles, as a sample's number: n < 6.
+// What lies beside the line's own triangles, n < 6; NONE: nothing.
 uint neighbour_of(Query q, uint n) {
     uint own = n < 3u ? q.a : q.b;
     uint mate = own == NONE ? MATE_NONE : mates[3u * own + n % 3u];
-    return is_mate(mate) ? 1u + mate_of(mate) / 3u : 0u;
+    return is_mate(mate) ? mate_of(mate) / 3u : NONE;
 }
 
 // A triangle about a point of the screen: on which side of edge k (from corner k) the point lies, times the sign of the
@@ -145,37 +145,58 @@ uint walk(inout uint at, Query q, out bool votes) {
     return UNSURE;
 }
 
-// Is the point hidden? `hider`: by which triangle; NONE: it is not known.
-bool is_hidden(Query q, out uint hider) {
+// What the samples around a point show: numbers of triangles, each once, but for the line's own.
+const int SHOWN = 12;
+struct Shown {
+    uint triangles[SHOWN];
+    int count, foreign; // foreign: samples of the point's own pixel where something of the application's hides it
+    bool any_clear;     // nothing lies before it at some sample
+};
+Shown shown_around(Query q) {
     ivec2 corner = ivec2(floor(q.at - 0.5)), own = ivec2(floor(q.at));
-    uvec4 last = uvec4(NONE);
-    int foreign = 0;
-    bool any_clear = false;
-    hider = NONE;
-    for (int n = 0; n < 4 * SAMPLES + 6; n++) {
+    Shown r;
+    uint a = polygon_of(q.a), b = q.b == NONE ? a : polygon_of(q.b), last = NOTHING;
+    r.count = r.foreign = 0, r.any_clear = false;
+    for (int n = 0; n < 4 * SAMPLES; n++) {
         // the point's own pixel first
         int k = n / SAMPLES, i = n % SAMPLES;
         ivec2 p = corner + ivec2((k & 1) ^ (own.x - corner.x), (k >> 1) ^ (own.y - corner.y));
-        bool is_sample = n < 4 * SAMPLES;
-        if (!is_sample && !any_clear) return true;
-        uint id = !is_sample ? neighbour_of(q, uint(n - 4 * SAMPLES)) : is_in_picture(p) ? id_at(p, i) : NOTHING;
-        if (any(equal(uvec4(id), last)) || id == NOTHING) continue;
+        uint id = is_in_picture(p) ? id_at(p, i) : NOTHING;
+        if (id == NOTHING || id == last) continue;
         if (id == ID_FOREIGN) {
             bool hides = q.limit * depth_range.x + depth_range.y < texelFetch(depths, p, i).x;
-            foreign += int(hides && k == 0);
-            any_clear = any_clear || !hides;
+            r.foreign += int(hides && k == 0);
+            r.any_clear = r.any_clear || !hides;
             continue;
         }
-        last = uvec4(id, last.xyz);
-        uint at = id - 1u;
+        last = id;
+        uint polygon = id == 0u ? a : polygon_of(id - 1u);
+        bool known = polygon == a || polygon == b;
+        r.any_clear = r.any_clear || known;
+        for (int m = 0; m < r.count; m++) known = known || r.triangles[m] == id - 1u;
+        if (!known && r.count < SHOWN) r.triangles[r.count++] = id - 1u;
+    }
+    return r;
+}
+
+// Is the point hidden? `hider`: by which triangle; NONE: it is not known.
+bool is_hidden(Query q, out uint hider) {
+    Shown r = shown_around(q);
+    bool any_clear = r.any_clear;
+    hider = NONE;
+    // then what lies beside the line's own triangles
+    for (int n = 0; n < r.count + 6; n++) {
+        bool is_shown = n < r.count;
+        if (!is_shown && !any_clear) return true;
+        uint at = is_shown ? r.triangles[n] : neighbour_of(q, uint(n - r.count)), from = at;
         bool votes = false;
-        uint found = id == 0u ? CLEAR : walk(at, q, votes);
+        uint found = at == NONE ? CLEAR : walk(at, q, votes);
         if (found == HIDES) {
             hider = at;
             return true;
         }
-        if (found == UNSURE && votes && is_sample) hider = id - 1u;
+        if (found == UNSURE && votes && is_shown) hider = from;
         else any_clear = true;
     }
-    return foreign * 2 >= SAMPLES + int(SAMPLES == 1);
+    return r.foreign * 2 >= SAMPLES + int(SAMPLES == 1);
 }
