@@ -410,14 +410,19 @@ void act_close(viewer *v, int arg) {
 
 /* ------- models ------- */
 
+void view_stop_reading(viewer *v) {
+    loaded none = {0};
+    if (!v->job) return;
+    messages_mute(true);
+    load_stop();
+    if (load_end(v->job, &none)) loaded_free(&none);
+    cmdline_free(&v->reading);
+    v->job = NULL;
+    messages_mute(false);
+}
+
 void view_read(viewer *v) {
-    if (v->job) {
-        load_stop();
-        loaded none = {0};
-        if (load_end(v->job, &none)) loaded_free(&none);
-        cmdline_free(&v->reading);
-        v->job = NULL;
-    }
+    view_stop_reading(v);
     v->reading = v->line;
     v->reading.models = NULL, v->reading.model_count = 0;
     cmdline_models(&v->reading, v->line.model_count, (const char *const *)v->line.models);

@@ -20,7 +20,7 @@ static void model_part(viewer *v) {
     const char *const name = settings(v)->model;
     const char *const slash = name ? strrchr(name, '/') : NULL;
     if (!v->model.source) {
-        panel_faint("no model: drop a file on the window");
+        panel_faint(v->job ? "reading ..." : "no model: drop a file on the window");
         return;
     }
     panel_text(slash ? slash + 1 : name ? name : "");

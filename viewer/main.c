@@ -69,6 +69,16 @@ static void on_pointer(GLFWwindow *window, double x, double y) {
     view_moved(v);
 }
 
+/* Lets the wheel go to what is seen at the pointer: looked for when it begins to turn, or the pointer has moved. */
+static void focus(viewer *v, double right, double down) {
+    const bool same = v->focus_x == v->x && v->focus_y == v->y;
+    const double time = view_now(), since = time - v->focus_time;
+    v->focus_x = v->x, v->focus_y = v->y, v->focus_time = time;
+    if (same && since < 1) return;
+    const double depth = picture_depth(&v->picture, &v->model, right, down);
+    if (depth > 0) orbit_focus(&v->orbit, depth);
+}
+
 static void on_wheel(GLFWwindow *window, double x, double y) {
     viewer *const v = of(window);
     int width, height;
@@ -76,6 +86,7 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
     if (panel_wants_mouse() || !view_free_camera(v)) return;
     glfwGetWindowSize(window, &width, &height);
     glfwGetCursorPos(window, &v->x, &v->y);
+    focus(v, v->x / fmax(width, 1), v->y / fmax(height, 1));
     orbit_zoom(&v->orbit, pow(1.15, y), (v->x - 0.5 * width) / fmax(height, 1),
                (v->y - 0.5 * height) / fmax(height, 1));
     view_moved(v);
@@ -233,10 +244,11 @@ static int spin(viewer *v, uint32_t frames) {
         whole += v->quality == QUALITY_FULL;
     }
     const double seconds = view_now() - start;
-    printf("%.1f frames a second: %u of %u x %u px, %.1f ms each, the picture %.1f of them; %u whole, "
-           "%u with fewer samples\n",
-           frames / seconds, frames, v->line.width, v->line.height, 1000 * seconds / frames,
-           drawn / frames, whole, frames - whole);
+    printf(
+        "%.1f frames a second: %u of %u x %u px, %.1f ms each, the picture %.1f of them; %u whole, "
+        "%u with fewer samples\n",
+        frames / seconds, frames, v->line.width, v->line.height, 1000 * seconds / frames,
+        drawn / frames, whole, frames - whole);
     return 0;
 }
 
@@ -331,12 +343,7 @@ static int run(viewer *v, const tool_settings *s) {
 }
 
 static void end(viewer *v) {
-    loaded none = {0};
-    if (v->job) {
-        load_stop();
-        if (load_end(v->job, &none)) loaded_free(&none);
-        cmdline_free(&v->reading);
-    }
+    view_stop_reading(v);
     gl_close(v->gl);
     screen_destroy(v->screen);
     panel_destroy();

@@ -8,7 +8,7 @@ for tool in Xvfb xdotool import; do
 done
 work=$(mktemp -d "${TMPDIR:-/tmp}/drypoint-view-XXXXXX")
 cd "$work" || exit 1
-server='' window='' viewing=''
+server='' viewing=''
 end() {
     [ -z "$viewing" ] || kill "$viewing" 2>/dev/null
     [ -z "$server" ] || kill "$server" 2>/dev/null
@@ -56,9 +56,12 @@ look() {
     : >err
     "$viewer" "$@" --size 320x240 >out 2>err &
     viewing=$!
-    until_true 60 xdotool search --name 'Drypoint' || return 1
-    window=$(xdotool search --name 'Drypoint' | head -n 1)
-    xdotool windowfocus "$window"
+    until_true 60 focus
+}
+focus() {
+    local window
+    window=$(xdotool search --onlyvisible --name Drypoint | head -n 1)
+    [ -n "$window" ] && xdotool windowfocus "$window"
 }
 press() { xdotool key --delay 20 "$@"; }
 # leave CODE: quits by a key; the exit code must be that.
