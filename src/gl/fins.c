@@ -177,6 +177,7 @@ static dp_result begin_draw(dp_gl *gl, const char *vertex, const char *geometry,
     bind_edges(gl);
     dp_gl_fins_bind_texture(gl, *program);
     dp_gl_uniform_u(gl, *program, "lines", gl->style.lines & OUTLINES);
+    dp_gl_uniform_i(gl, *program, "edges", 3);
     dp_gl_depth_range(gl, range);
     gl->api.Uniform2f(gl->api.GetUniformLocation(*program, "depth_range"), range[0], range[1]);
     return DP_OK;

@@ -114,7 +114,7 @@ static void compare(gl_test *t, const look *k) {
 static void equals_the_cpu(void **state) {
     static const look looks[] = {
         {"torus-2", "torus", NULL, 2, 4, false, 0.99},
-        {"torus-12", "torus", NULL, 12, 1, false, 0.99},
+        {"torus-12", "torus", NULL, 12, 4, false, 0.99},
         {"bracket-8", "bracket", NULL, 8, 4, true, 0.99},
         {"sheet-8", "terrain", NULL, 8, 4, false, 0.99},
     };
@@ -124,7 +124,7 @@ static void equals_the_cpu(void **state) {
 static void is_textured(void **state) {
     static const look looks[] = {
         {"charcoal", "torus", "charcoal", 10, 4, false, 0.97},
-        {"dashes", "bracket", "dashes", 8, 1, false, 0.97},
+        {"dashes", "bracket", "dashes", 8, 4, false, 0.97},
         {"rope", "terrain", "rope", 12, 4, false, 0.97},
     };
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) compare(*state, &looks[i]);
@@ -290,13 +290,13 @@ static void strokes_by_adjacency(void **state) {
 /* Added triangles are no segments, and those of the picture before are gone. */
 static void has_no_segments(void **state) {
     gl_test *const t = *state;
-    const look k = {"none", "torus", NULL, 3, 1, false, 0};
+    const look k = {"none", "torus", NULL, 3, 4, false, 0};
     const dp_segment *segments;
     size_t count[2];
     scene s;
     if (!t->gl) skip();
     open_scene(&k, &s);
-    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 1);
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 4);
     dp_gl_mesh *mesh;
     assert_int_equal(dp_gl_mesh_from_source(t->gl, s.source, &mesh, NULL), DP_OK);
     for (int i = 0; i < 2; i++) {
@@ -312,7 +312,7 @@ static void has_no_segments(void **state) {
 /* What is not drawn is named. */
 static void refuses_the_rest(void **state) {
     gl_test *const t = *state;
-    const look k = {"refused", "torus", "charcoal", 10, 1, false, 0};
+    const look k = {"refused", "torus", "charcoal", 10, 4, false, 0};
     const struct {
         dp_ink ink;
         dp_method method;
@@ -326,7 +326,7 @@ static void refuses_the_rest(void **state) {
     dp_diag diag;
     if (!t->gl) skip();
     open_scene(&k, &s);
-    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 1);
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 4);
     assert_int_equal(dp_gl_mesh_from_source(t->gl, s.source, &mesh, &diag), DP_OK);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         s.style.ink = cases[i].ink, s.style.method = cases[i].method;
