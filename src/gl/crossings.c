@@ -12,7 +12,6 @@
  * pairs that have been asked for, open addressing. Invariant: what is found does not depend on the order in which pairs
  * are asked. Not handled: crossings less than a pixel long of polygons without neighbours. */
 #include "gl/lines.h"
-#include "gl/scene.h"
 
 /* The same in shaders/crossings.glsl. */
 typedef struct crossing_head {

@@ -14,7 +14,6 @@
  * does not depend on the order in which lists were made, as polygons at a point are sorted. Not handled: more than 16
  * polygons at one point (those that come first in the source count); exact ends, hidden lines. */
 #include "gl/lines.h"
-#include "gl/scene.h"
 
 /* The same in shaders/eye.glsl. */
 typedef struct eye_head {

@@ -20,7 +20,6 @@
 #include "gl/fins.h"
 #include "gl/ink.h"
 #include "gl/lines.h"
-#include "gl/scene.h"
 
 #include <stdio.h>
 

@@ -8,7 +8,6 @@
  * Six and rings are kept while the topology stays. Rings are few, or none, and come back to the host once to be
  * sorted. Invariant: rings are sorted by the first half-edge of their edge. */
 #include "gl/fins.h"
-#include "gl/scene.h"
 
 #include "base/sort.h"
 

@@ -263,6 +263,12 @@ void dp_gl_leave(dp_gl *gl, dp_gl_state *state);
 
 /* Binds a program, and the picture's block. */
 void dp_gl_use(dp_gl *gl, uint32_t program);
+/* Binds the scene's vertices, corners and triangles (scene.c). */
+void dp_gl_scene_bind(dp_gl *gl);
+/* Binds the samples' numbers and depth to their units and tells the program (faces.c). */
+void dp_gl_faces_bind(dp_gl *gl, uint32_t program);
+/* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane (faces.c). */
+void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 /* Runs the bound compute program for `count` items, DP_GL_GROUP_SIZE a group; the shader must compare its number
  * with the count (more than 65535 groups become rows: see dp_item in picture.glsl). Then a barrier for
  * storage. */

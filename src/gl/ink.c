@@ -15,8 +15,6 @@
  * Not here: sections and hatching, patterns, hidden lines. */
 #include "gl/ink.h"
 
-#include "gl/scene.h"
-
 enum { CAPSULE_CORNERS = 4, UNIT_COVERAGE = DP_GL_UNIT_OWN };
 
 /* Coverage textures that these classes need. */

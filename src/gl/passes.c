@@ -5,8 +5,6 @@
  * tells how much was wanted (dp_gl_grow_lines). */
 #include "gl/passes.h"
 
-#include "gl/scene.h"
-
 /* Bytes of a list's member. */
 enum { WORD = 8, HALF_EDGE = 4 };
 

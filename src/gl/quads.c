@@ -17,7 +17,6 @@
  * polygons does not matter but with passes = 1. Not handled: styles of groups, patterns and light on lines. */
 #include "gl/ink.h"
 #include "gl/quads.h"
-#include "gl/scene.h"
 
 /* What is trapped lies at most this many line widths behind the surface (printed/quads.c). */
 static const double TRAP = 4;

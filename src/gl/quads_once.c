@@ -6,7 +6,6 @@
  * GL_ARB_fragment_shader_interlock, or a rasterizer that works so (llvmpipe); elsewhere in about that order, which is all that
  * the picture depends on: a valley shows on the side of the polygon that came first. */
 #include "gl/quads.h"
-#include "gl/scene.h"
 
 /* What the application has drawn is there first. */
 static dp_result begin(dp_gl *gl, dp_diag *diag) {

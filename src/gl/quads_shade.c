@@ -5,7 +5,8 @@
  * back and nothing can be full; models of any size take the same memory. Invariant: a portion's lists are drawn
  * before the next portion is shaded. */
 #include "gl/quads.h"
-#include "gl/scene.h"
+
+#include "base/elementary.h"
 
 #include <math.h>
 
@@ -24,7 +25,7 @@ static const double SAGITTA = 0.3; /* px: as in quads_exact.glsl */
 
 /* How many triangles a joint of this reach has at most: it turns by 180 degrees. */
 static uint32_t spans_of(double reach) {
-    const double half = 1 - fmin(SAGITTA / reach, 1), span = acos(fmax(2 * half * half - 1, -1)),
+    const double half = 1 - fmin(SAGITTA / reach, 1), span = dp_acos(fmax(2 * half * half - 1, -1)),
                  most = floor(3.14159265358979323846 / span) + 1;
     return most < SPANS ? (uint32_t)most : SPANS;
 }
