@@ -1,6 +1,8 @@
 // One pass over all polygons in the order in which they come, as printed (Raskar 2001, 2.3 and 2.4): what is nearest updates
 // z1; a valley, or a face, that is not takes the between-test: z1 > d >= z2.
+#ifdef GL_ARB_fragment_shader_interlock
 #extension GL_ARB_fragment_shader_interlock : enable
+#endif
 #include "quads_surface.glsl"
 #include "quads_records.glsl"
 #define STATE_ACCESS coherent
