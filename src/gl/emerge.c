@@ -1,6 +1,7 @@
 /* Edges where the eye decides: find/dispute.c and find/emerge.c, in passes of the device.
  *
- *    dispute   candidates beside which something else is seen are taken out, and disputed
+ *    suspect   what samples show beside candidates that is not expected there
+ *    dispute   candidates of which that changes what is seen are taken out, and disputed
  *    collect   the disputed half-edges and their mates, each once: `looked`; their sample points in chunks
  *    drawn     marks half-edges that have made lines
  *    cells     marks the cells of 8 x 8 px in which there are sample points
@@ -23,13 +24,15 @@ typedef struct eye_head {
         all_edges;
     float touching, crack, precision;
     uint32_t tiles_at;
-    uint32_t groups[7][4];
+    uint32_t suspects, suspects_room, free[2];
+    uint32_t groups[8][4];
 } eye_head;
 
 enum {
     CELL = 8 /* px */,
     LOOKED_SIZE = 32,
     NODE_SIZE = 32,
+    SUSPECT_SIZE = 16,
     FINDING_SIZE = 16,
     CANDIDATE_SIZE = 32
 };
@@ -42,7 +45,8 @@ enum {
     GROUPS_CHUNKS,
     GROUPS_TRIANGLES,
     GROUPS_DRAWN,
-    GROUPS_CELLS
+    GROUPS_CELLS,
+    GROUPS_SUSPECTS
 };
 
 static size_t words_of(size_t bits) { return (bits + 31) / 32; }
@@ -75,6 +79,7 @@ static dp_result reserve(dp_gl *gl, dp_diag *diag) {
                    {&e->chunks, 4, "parts of edges where the eye decides"},
                    {&e->nodes, NODE_SIZE, "polygons beside edges"},
                    {&e->findings, FINDING_SIZE, "sample points of edges"},
+                   {&e->listed, SUSPECT_SIZE, "what may dispute lines"},
                    {&l->candidates, CANDIDATE_SIZE, "lines that may be visible"},
                    {&l->disputed, 4, "disputed edges"},
                    {&l->mates, 4, "mates"},
@@ -121,6 +126,7 @@ static dp_result begin(dp_gl *gl, dp_diag *diag) {
     h.chunks_room = room(&gl->eye.chunks, 4);
     h.places_room = room(&gl->eye.findings, FINDING_SIZE);
     h.nodes_room = room(&gl->eye.nodes, NODE_SIZE);
+    h.suspects_room = room(&gl->eye.listed, SUSPECT_SIZE);
     h.candidates_room = room(&gl->lines.candidates, CANDIDATE_SIZE);
     h.disputed_room = room(&gl->lines.disputed, 4);
     h.all_edges = gl->style.edge_table_off;
@@ -189,13 +195,17 @@ static dp_result run_passes(dp_gl *gl, const pass *passes, size_t count, dp_diag
 /* Candidates and half-edges that are disputed. */
 static dp_result dispute(dp_gl *gl, dp_diag *diag) {
     dp_gl_lines_store *const l = &gl->lines;
-    const pass all = {"eye_all.comp", {&l->counters, NULL, &l->disputed, NULL}, -1},
-               some = {"eye_dispute.comp",
-                       {&l->counters, &l->candidates, &l->disputed, &l->mates},
-                       GROUPS_CANDIDATES};
+    const dp_gl_buffer *const listed = &gl->eye.listed;
+    const pass all = {"eye_all.comp", {&l->counters, NULL, &l->disputed, NULL}, -1};
+    const pass suspect = {
+        "eye_suspect.comp", {&l->counters, &l->candidates, listed, &l->sides}, GROUPS_CANDIDATES};
+    const pass decide = {
+        "eye_dispute.comp", {&l->counters, &l->candidates, &l->disputed, listed}, GROUPS_SUSPECTS};
     if (!gl->style.edge_table_off) {
-        const dp_result result = prepare(gl, 0, diag);
-        return result ? result : run_pass(gl, &some, diag);
+        dp_result result = prepare(gl, 0, diag);
+        if (!result) result = run_pass(gl, &suspect, diag);
+        if (!result) result = prepare(gl, 3, diag);
+        return result ? result : run_pass(gl, &decide, diag);
     }
     static const uint32_t none[2] = {0, 0};
     gl->api.BindBuffer(GL_COPY_WRITE_BUFFER, l->counters.name);
@@ -241,6 +251,7 @@ dp_result dp_gl_grow_emerging(dp_gl *gl, bool *again, dp_diag *diag) {
     } buffers[] = {{&e->looked, LOOKED_SIZE, h.looked, "edges where the eye decides"},
                    {&e->chunks, 4, h.chunks, "parts of edges where the eye decides"},
                    {&e->nodes, NODE_SIZE, h.nodes, "polygons beside edges"},
+                   {&e->listed, SUSPECT_SIZE, h.suspects, "what may dispute lines"},
                    {&e->findings, FINDING_SIZE, h.places, "sample points of edges"}};
     dp_result result = DP_OK;
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers && !result; i++) {

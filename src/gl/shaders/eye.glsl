@@ -9,7 +9,8 @@ struct Head {
     uint cells_x, cells_y, emerging_at, cells_at, lists_at, candidates_room, disputed_room, all_edges;
     float touching, crack, precision_;
     uint tiles_at;
-    uvec4 groups[7]; // arguments of indirect dispatches
+    uint suspects, suspects_room, free_[2];
+    uvec4 groups[8]; // arguments of indirect dispatches
 };
 #ifndef EYE_ACCESS
 #define EYE_ACCESS

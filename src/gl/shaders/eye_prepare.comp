@@ -14,6 +14,10 @@ void main() {
         head.groups[0] = groups_of(head.all_edges != 0u ? 0u : min(counters[4], head.candidates_room));
         return;
     }
+    if (step_ == 3u) {
+        head.groups[7] = groups_of(min(head.suspects, head.suspects_room));
+        return;
+    }
     if (step_ == 1u) {
         head.groups[1] = groups_of(min(counters[5], head.disputed_room));
         return;
