@@ -158,15 +158,15 @@ static void draw_picture(viewer *v) {
 /* Brings the picture up to date. */
 static void update_picture(viewer *v) {
     if (!v->model.source) return;
-    for (int k = 0; k < 2; k++) { /* once more by the processor, if OpenGL refuses */
+    if (v->quality && !is_moving(v)) v->draw = true;
+    do {
         const bool restyle = v->restyle, aim = v->aim;
         v->restyle = v->aim = false;
         if (restyle || aim) v->draw = picture_aim(&v->picture, &v->line, &v->model, restyle);
-        if (v->quality && !is_moving(v)) v->draw = true;
         if (!v->draw || !v->picture.styled) return;
         choose_quality(v);
         draw_picture(v);
-    }
+    } while (v->restyle); /* OpenGL refused */
 }
 
 static void go_on_playing(viewer *v) {
