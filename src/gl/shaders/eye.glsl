@@ -29,7 +29,8 @@ struct Looked {
     uint place, chunk;       // its first
     uint flags;
 };
-const uint NO_FOLD = 1u; // a diagonal: an outline at most
+// Of its flags: a diagonal, an outline at most; how its polygon and the partner lie to the eye.
+const uint NO_FOLD = 1u, OWN_FRONT = 2u, OWN_EDGE_ON = 4u, PARTNER_FRONT = 8u, PARTNER_EDGE_ON = 16u;
 
 // In a cell's list: a polygon, and its plane about the cell's middle.
 struct Node {

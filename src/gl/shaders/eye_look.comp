@@ -11,8 +11,8 @@
 layout(std430, binding = 4) readonly buffer LookedAt { Looked looked[]; };
 layout(std430, binding = 5) readonly buffer Chunks { uint chunks[]; };
 layout(std430, binding = 6) readonly buffer Nodes { Node nodes[]; };
-// By place: the polygons seen to the left and to the right, and the one furthest behind an outline; NONE: none. w: 1, there
-// is a line of this edge.
+// By place: the polygons seen to the left and to the right, and the one furthest behind an outline; NONE: none. w: bit 0,
+// there is a line of this edge; bits 1 to 3: these face the eye.
 layout(std430, binding = 7) writeonly buffer Findings { uvec4 findings[]; };
 
 const float OFF = 0.25, NEARER = 1e-3, BEYOND = 1e5;
@@ -30,8 +30,7 @@ struct Beheld {
 };
 // The edge that is looked at.
 struct Own {
-    uint polygon, corners, half_edge, partner;
-    Facing facing;
+    uint polygon, corners, half_edge, partner, flags;
 };
 
 void keep_nearest(inout Beheld b, uint side, EdgeOf here, bool front, float d, float rounding) {
@@ -99,12 +98,13 @@ Beheld behold_own(Own own, Lookout at, vec2 slope) {
     Beheld b = Beheld(EdgeOf[2](none, none), self, uint[2](NONE, NONE), float[2](0.0, 0.0),
                       float[2](0.0, 0.0), false, is_drawn(own.half_edge), bool[2](false, false),
                       bool[2](false, false));
-    if (own.facing.edge_on) return b;
-    uint side = own.facing.front ? LEFT : RIGHT;
+    bool front = (own.flags & OWN_FRONT) != 0u;
+    if ((own.flags & OWN_EDGE_ON) != 0u) return b;
+    uint side = front ? LEFT : RIGHT;
     float d = OFF * dot(slope, side == RIGHT ? at.right : -at.right);
     b.nearest[side] = self, b.furthest[side] = own.polygon;
     b.nearest_d[side] = b.furthest_d[side] = d;
-    b.front[side] = b.furthest_front[side] = own.facing.front;
+    b.front[side] = b.furthest_front[side] = front;
     return b;
 }
 
@@ -158,6 +158,12 @@ void find_met(Lookout at, uint own) {
 
 // ------- what it means -------
 
+// Does it face the eye? Of one that a sample shows.
+bool turns_left(uint triangle) {
+    vec2 a = screen_of(corners[3u * triangle]).xy, u = screen_of(corners[3u * triangle + 1u]).xy - a,
+         v = screen_of(corners[3u * triangle + 2u]).xy - a;
+    return u.x * v.y - u.y * v.x < 0.0;
+}
 // Back faces less front faces among the samples beside the edge, on one side.
 int backs_beside(Lookout at, bool right) {
     int sum = 0;
@@ -167,7 +173,7 @@ int backs_beside(Lookout at, bool right) {
         if (!is_in_picture(pixel)) continue;
         for (int k = 0; k < SAMPLES; k++) {
             uint id = id_at(pixel, k);
-            if (is_triangle(id)) sum += is_front(id - 1u) ? -1 : 1;
+            if (is_triangle(id)) sum += turns_left(id - 1u) ? -1 : 1;
         }
     }
     return sum;
@@ -188,20 +194,24 @@ bool may_be_folded(uint polygon) {
     }
     return all(lessThanEqual(floor(most) - floor(least), vec2(4.0)));
 }
-bool is_front_polygon(uint polygon) { return polygon_facing(polygon, corner_count(polygon)).front; }
-
 // Nothing lies on the other side: an outline, with the nearest polygon and the one furthest behind it.
 uvec4 outline(Beheld b, uint side, Own own, Lookout at) {
     uint near = b.nearest[side].polygon, behind = b.furthest[side];
     bool is_thin = behind == near && own.partner != NONE;
     if (is_thin) behind = near == own.polygon ? own.partner : own.polygon;
     uint far = behind == NONE ? near : behind, seen = near;
-    bool near_front = b.front[side], far_front = far == near ? near_front : is_front_polygon(far);
+    bool near_front = b.front[side],
+         far_front = far == near          ? near_front
+                     : far == own.polygon ? (own.flags & OWN_FRONT) != 0u
+                     : is_thin            ? (own.flags & PARTNER_FRONT) != 0u
+                                          : b.furthest_front[side],
+         seen_front = near_front, behind_front = far_front;
     if ((is_thin || (!near_front && may_be_folded(near))) && !near_front && far_front &&
         backs_beside(at, side == RIGHT) <= 0)
-        behind = near, seen = far;
+        behind = near, seen = far, behind_front = near_front, seen_front = far_front;
     if (!near_front && !far_front && !sees_backs(at)) return uvec4(NONE, NONE, NONE, 0u);
-    return side == LEFT ? uvec4(seen, NONE, behind, 1u) : uvec4(NONE, seen, behind, 1u);
+    uint fronts = uint(seen_front) << (1u + side) | uint(behind_front) << 3 | 1u;
+    return side == LEFT ? uvec4(seen, NONE, behind, fronts) : uvec4(NONE, seen, behind, fronts);
 }
 
 // Which of the polygons that have an edge here makes the line: of those that are seen, else of all, the one that comes first.
@@ -218,11 +228,11 @@ uvec4 judge(Beheld b, Own own, Lookout at) {
     uint left = b.nearest[LEFT].polygon, right = b.nearest[RIGHT].polygon;
     if (left == NONE && right == NONE) {
         if (b.is_drawn || b.is_hidden) return nothing;
-        return uvec4(own.polygon, NONE, NONE, 1u); // a sheet seen edge-on: both its borders are one line
+        return uvec4(own.polygon, NONE, NONE, (own.flags & OWN_FRONT) != 0u ? 3u : 1u); // a sheet seen edge-on: both its borders are one line
     }
     if (left == right || b.is_drawn || b.is_hidden || owner_of(b) != own.half_edge) return nothing;
     if (left == NONE || right == NONE) return outline(b, left == NONE ? RIGHT : LEFT, own, at);
-    return uvec4(left, right, NONE, 1u);
+    return uvec4(left, right, NONE, 1u | uint(b.front[LEFT]) << 1 | uint(b.front[RIGHT]) << 2);
 }
 
 void main() {
@@ -233,7 +243,7 @@ void main() {
     Own own;
     own.half_edge = e.half_edge, own.partner = e.partner;
     own.polygon = first_of(e.half_edge / 3u), own.corners = corner_count(own.polygon);
-    own.facing = polygon_facing(own.polygon, own.corners);
+    own.flags = e.flags;
     vec2 slope = plane_about(normal_of(own.polygon, own.corners), corner_at(own.polygon, 0u), s.a.xy).yz;
     uint first = (i - e.chunk) * CHUNK, last = min(first + CHUNK, places_of(e));
     for (uint p = first; p < last; p++) {

@@ -28,14 +28,11 @@ Sight sight_of(uint half_edge) {
 struct Beside {
     dvec3 normal; // turned to the eye
     double recedes;
-    bool front;
 };
-Beside beside_of(Sight s, uint polygon) {
-    uint n = corner_count(polygon);
+Beside beside_of(Sight s, uint polygon, bool front) {
     Beside b;
-    b.front = polygon_facing(polygon, n).front;
-    b.normal = normal_of(polygon, n);
-    if (!b.front) b.normal = -b.normal;
+    b.normal = normal_of(polygon, corner_count(polygon));
+    if (!front) b.normal = -b.normal;
     b.recedes = dot(b.normal, s.right) / max(-dot(b.normal, s.away), 1e-12LF);
     return b;
 }
@@ -55,22 +52,21 @@ uint fold_line(Beside left, Beside right) {
     return ridge ? RIDGE : valley ? VALLEY : NO_LINE;
 }
 
-bool is_edge_on(uint polygon) { return polygon_facing(polygon, corner_count(polygon)).edge_on; }
-
+// Of what is seen on both sides, or on one side and behind it.
 uint line_of(uvec4 f, Looked e, Sight s) {
-    if (f.w == 0u) return NO_LINE;
-    if (f.x != NONE && f.y != NONE)
-        return (e.flags & NO_FOLD) != 0u ? NO_LINE : fold_line(beside_of(s, f.x), beside_of(s, f.y));
-    uint near = f.x != NONE ? f.x : f.y;
-    bool border = f.z == NONE || f.z == near;
-    if (!border) {
-        Beside a = beside_of(s, near), b = beside_of(s, f.z);
-        border = a.front == b.front && dot(a.normal, b.normal) > ONE_PLANE;
-    }
-    if (border && e.partner != NONE &&
-        (is_edge_on(first_of(e.half_edge / 3u)) || is_edge_on(e.partner)))
-        border = false;
-    return border ? BORDER : SILHOUETTE;
+    bool fold = f.x != NONE && f.y != NONE;
+    uvec2 polygon = uvec2(f.x != NONE ? f.x : f.y, fold ? f.y : f.z),
+          front = uvec2(f.x != NONE ? f.w >> 1 : f.w >> 2, fold ? f.w >> 2 : f.w >> 3) & 1u;
+    bool border = !fold && (f.z == NONE || f.z == polygon.x);
+    Beside sides[2];
+    for (int i = 0; i < 2 && f.w != 0u && !border; i++)
+        sides[i] = beside_of(s, polygon[i], front[i] != 0u);
+    if (f.w == 0u || (fold && (e.flags & NO_FOLD) != 0u)) return NO_LINE;
+    if (fold) return fold_line(sides[0], sides[1]);
+    if (!border)
+        border = front.x == front.y && dot(sides[0].normal, sides[1].normal) > ONE_PLANE;
+    bool goes_on = e.partner != NONE && (e.flags & (OWN_EDGE_ON | PARTNER_EDGE_ON)) != 0u;
+    return border && !goes_on ? BORDER : SILHOUETTE;
 }
 
 // A finding and what it means.
@@ -115,17 +111,18 @@ void main() {
     Looked e = looked[i];
     if (e.k0 >= e.k1) return;
     Sight s = sight_of(e.half_edge);
-    Found last = Found(uvec4(NONE, NONE, NONE, 0u), NO_LINE), before, here, after;
-    here = after = found_at(e, s, e.k0, last);
+    Found none = Found(uvec4(NONE, NONE, NONE, 0u), NO_LINE), last = none, before = none, here = none;
     uint start = e.k0;
-    for (uint k = e.k0; k < e.k1; k++) {
-        before = here;
-        if (k > e.k0) here = after;
-        after = k + 1u < e.k1 ? found_at(e, s, k + 1u, here) : here;
-        Found f = settled(e, k, before, here, after);
-        if (is_same(f, last)) continue;
-        add_run(e, last, start, k);
-        last = f, start = k;
+    for (uint next = e.k0; next <= e.k1 + 1u; next++) { // the one after `here`, which is next - 1
+        uint k = next - 1u;
+        Found after = next < e.k1 ? found_at(e, s, next, here) : here, f = none;
+        if (next == e.k0) before = after;
+        else if (k < e.k1) f = settled(e, k, before, here, after);
+        if (next > e.k0 && (k == e.k1 || !is_same(f, last))) {
+            add_run(e, last, start, k);
+            last = f, start = k;
+        }
+        if (next > e.k0) before = here;
+        here = after;
     }
-    add_run(e, last, start, e.k1);
 }
