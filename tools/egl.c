@@ -65,11 +65,18 @@ static bool put(void *to, const void *address) {
     return address != NULL;
 }
 
+/* What is wrong with the first name is what is told: the others are spellings of it. */
 static bool load_library(egl_context *e) {
     static const char *const names[] = {"libEGL.so.1", "libEGL.so", "libEGL.dylib"};
-    for (size_t k = 0; k < sizeof names / sizeof *names && !e->library; k++)
+    char first[256] = "";
+    for (size_t k = 0; k < sizeof names / sizeof *names && !e->library; k++) {
         e->library = dlopen(names[k], RTLD_NOW | RTLD_LOCAL);
-    return e->library != NULL;
+        if (!e->library && !k) snprintf(first, sizeof first, "%s", dlerror());
+    }
+    if (e->library) return true;
+    return wrong_usage("--gl: there is no libEGL here (%s): install libegl1 and libgl1-mesa-dri, "
+                       "or leave --gl out",
+                       first);
 }
 
 static bool load_functions(egl_context *e) {
@@ -169,9 +176,7 @@ egl_context *egl_open(int major, int minor) {
     if (!e)
         wrong_usage("out of memory for a context of OpenGL");
     else if (!load_library(e))
-        wrong_usage("--gl: there is no libEGL here (%s): install libegl1 and libgl1-mesa-dri, or "
-                    "leave --gl out",
-                    dlerror());
+        ; /* it has been said */
     else if (!load_functions(e))
         wrong_usage("--gl: this libEGL is too old; version 1.5 is needed");
     else if (!try_all(e, major, minor))

@@ -133,6 +133,13 @@ static dp_result make_framebuffer(tool_gl *g, uint32_t width, uint32_t height, d
                 "OpenGL has no framebuffer of that size; give a smaller --size");
 }
 
+/* The library refers to its own function; who reads this has a program. */
+static dp_result without_functions(dp_diag *diag) {
+    char *const advice = strstr(diag->message, "; dp_draw does");
+    if (advice) *advice = 0;
+    return diag->result;
+}
+
 dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
                   const dp_target *target, dp_diag *diag) {
     if (target->depth || target->line_class || target->normal || target->eye_normal ||
@@ -148,7 +155,7 @@ dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
     result = dp_gl_draw(g->gl, &g->mesh, 1, camera, style, &to, diag);
     if (!result && target->rgba)
         result = dp_gl_read(g->gl, &to, target->rgba, target->rgba_stride, diag);
-    return result;
+    return result ? without_functions(diag) : DP_OK;
 }
 
 dp_result gl_hand_over(tool_gl *g, dp_context *context, dp_diag *diag) {
