@@ -81,6 +81,14 @@ int drawing_open(const tool_settings *s, drawing *d, uint32_t threads) {
 static const char gl_at_work[] =
     "drawing by OpenGL (its shaders are compiled once, and kept by the driver)";
 
+static int refused_by_gl(const dp_diag *diag) {
+    if (diag->result == DP_ERR_UNSUPPORTED)
+        wrong_usage("--gl: %s; leave out --gl", diag->message);
+    else
+        report_failure("--gl", diag);
+    return EXIT_FAILED;
+}
+
 /* Draws by OpenGL; the lines become the context's if anyone asks for them. */
 static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
                       const object_styles *objects, const dp_target *target) {
@@ -95,12 +103,7 @@ static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, co
     progress_wait_end();
     if (!result && (d->paths || s->outputs[OUTPUT_TRACE]) && style->lines != DP_NO_LINES)
         result = gl_hand_over(d->gl, d->context, &diag);
-    if (!result) return 0;
-    if (result == DP_ERR_UNSUPPORTED)
-        wrong_usage("--gl: %s; leave out --gl", diag.message);
-    else
-        report_failure("--gl", &diag);
-    return EXIT_FAILED;
+    return result ? refused_by_gl(&diag) : 0;
 }
 
 static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
@@ -152,9 +155,7 @@ static int take_source(const tool_settings *s, drawing *d) {
     const dp_result result = gl_take(d->gl, d->source, d->gl_taken, &diag);
     progress_wait_end();
     d->gl_taken = true;
-    if (!result) return 0;
-    report_failure("--gl", &diag);
-    return EXIT_FAILED;
+    return result ? refused_by_gl(&diag) : 0;
 }
 
 static int draw_lines(const tool_settings *s, drawing *d, int k) {

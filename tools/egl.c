@@ -171,6 +171,22 @@ static bool try_all(egl_context *e, int major, int minor) {
     return try_devices(e, true, major, minor) || try_display(e, e->get_display(NULL), major, minor);
 }
 
+/* No display has the version: is there an older one? Says what would help. */
+static void explain(egl_context *e, int major, int minor) {
+    enum { VERSION = 0x1F02 };
+    const unsigned char *(*get_string)(unsigned name) = NULL;
+    const bool older = try_all(e, 3, 2) && put(&get_string, egl_function(e, "glGetString"));
+    const unsigned char *const version = older ? get_string(VERSION) : NULL;
+    if (version)
+        wrong_usage("--gl: OpenGL %d.%d or later is needed, here is %s: install a newer driver, "
+                    "try LIBGL_ALWAYS_SOFTWARE=1, or leave --gl out",
+                    major, minor, (const char *)version);
+    else
+        wrong_usage("--gl: no OpenGL %d.%d or later was found through EGL: install libgl1-mesa-dri "
+                    "or the driver of the graphics hardware, or leave --gl out",
+                    major, minor);
+}
+
 egl_context *egl_open(int major, int minor) {
     egl_context *const e = calloc(1, sizeof *e);
     if (!e)
@@ -180,9 +196,7 @@ egl_context *egl_open(int major, int minor) {
     else if (!load_functions(e))
         wrong_usage("--gl: this libEGL is too old; version 1.5 is needed");
     else if (!try_all(e, major, minor))
-        wrong_usage("--gl: no OpenGL %d.%d or later was found through EGL: install libgl1-mesa-dri "
-                    "or the driver of the graphics hardware, or leave --gl out",
-                    major, minor);
+        explain(e, major, minor);
     else
         return e;
     egl_close(e);

@@ -319,7 +319,10 @@ static bool begin_window(viewer *v, const tool_settings *s) {
     int w, h, points, other_points;
     choose_size(s, &width, &height);
     v->window = open_window(width, height);
-    if (!v->window) return wrong_usage("no window with OpenGL 3.2 or later can be opened");
+    if (!v->window)
+        return wrong_usage(
+            "no window with OpenGL 3.2 or later can be opened: install a newer driver, try "
+            "LIBGL_ALWAYS_SOFTWARE=1, or draw into files: drypoint MODEL -o OUT.png");
     glfwMakeContextCurrent(v->window);
     glfwSwapInterval(1);
     make_size_pixels(v->window, width, height);
