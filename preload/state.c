@@ -67,11 +67,12 @@ static enum verdict judge(void) {
     if (!is_solid()) return DRAW_UNTOUCHED;
     if (!settings()->textured && textured()) {
         say_once(SAY_TEXTURED,
-                 "textured polygons are left as they are (DRYPOINT_ALSO=textured: not)");
+                 "textured polygons are left as they are; DRYPOINT_ALSO=textured gives them lines");
         return DRAW_UNTOUCHED;
     }
     if (!settings()->blended && blended()) {
-        say_once(SAY_BLENDED, "blended polygons are left as they are (DRYPOINT_ALSO=blended: not)");
+        say_once(SAY_BLENDED,
+                 "blended polygons are left as they are; DRYPOINT_ALSO=blended gives them lines");
         return DRAW_UNTOUCHED;
     }
     return DRAW_WITH_LINES;

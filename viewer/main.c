@@ -151,7 +151,7 @@ static void show_picture(viewer *v) {
 static void say_compiling(viewer *v) {
     if (v->gl_drew) return;
     v->gl_drew = true;
-    messages_say("OpenGL's shaders are compiled: seconds, but once, as the driver keeps them");
+    messages_say("OpenGL compiles its shaders: some seconds, but only the first time");
     show(v);
     show(v);
 }
