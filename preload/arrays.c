@@ -209,13 +209,13 @@ static bool before_call(struct context *context, const struct call *call) {
         list_open_draw(context, call->mode);
         context_errors_begin(context);
         build(list_builder(context), call);
-        context_errors_end(context);
+        context_errors_end();
         if (list_only(context)) return true;
     }
     if (!frame_open_draw(context)) return context->list != NULL;
     context_errors_begin(context);
     build(&context->builder, call);
-    context_errors_end(context);
+    context_errors_end();
     return true;
 }
 

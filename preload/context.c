@@ -134,7 +134,7 @@ bool context_able(struct context *context) {
     if (context->ability == UNTRIED && !context->in_begin) {
         context_errors_begin(context);
         context->ability = try_context(context) ? CAPABLE : NOT_CAPABLE;
-        context_errors_end(context);
+        context_errors_end();
     }
     return context->ability == CAPABLE;
 }
@@ -148,7 +148,6 @@ void context_errors_begin(struct context *context) {
     if (error != GL_NO_ERROR && context->error == GL_NO_ERROR) context->error = error;
 }
 
-void context_errors_end(struct context *context) {
-    (void)context;
+void context_errors_end(void) {
     for (int i = 0; i < 16 && gl.glGetError() != GL_NO_ERROR; i++) continue;
 }

@@ -89,6 +89,6 @@ void context_read_state(struct context *context);
 
 /* Errors of ours must not reach the program, nor may we swallow its own. */
 void context_errors_begin(struct context *context);
-void context_errors_end(struct context *context);
+void context_errors_end(void);
 
 #endif

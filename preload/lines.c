@@ -343,5 +343,5 @@ void lines_draw(struct context *context) {
             context->ability = NOT_CAPABLE;
         }
     }
-    context_errors_end(context);
+    context_errors_end();
 }

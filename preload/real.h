@@ -29,26 +29,21 @@ void glfwSwapBuffers(void *window);
 void SDL_GL_SwapWindow(void *window);
 
 /* What we call and do not replace. */
-#define PLAIN_FUNCTIONS(X)                                                                         \
-    X(glGetIntegerv)                                                                               \
-    X(glGetFloatv)                                                                                 \
-    X(glGetDoublev)                                                                                \
-    X(glGetBooleanv)                                                                               \
-    X(glGetString) X(glGetPointerv) X(glIsList) X(glGetBufferSubData) X(glGetBufferParameteriv)    \
-        X(glUniform1i) X(glUniform1f) X(glUniform2f) X(glUniform3f) X(glUniform4f) X(glUniform4fv) \
-            X(glUniformMatrix4fv) X(glUniformMatrix3fv) X(glGetUniformLocation) X(glCreateShader)  \
-                X(glShaderSource) X(glCompileShader) X(glGetShaderiv) X(glGetShaderInfoLog)        \
-                    X(glDeleteShader) X(glCreateProgram) X(glAttachShader) X(glLinkProgram)        \
-                        X(glGetProgramiv) X(glGetProgramInfoLog) X(glBindAttribLocation)           \
-                            X(glGenVertexArrays) X(glBindVertexArray) X(glEnableVertexAttribArray) \
-                                X(glVertexAttribPointer) X(glGenBuffers) X(glBindBuffer)           \
-                                    X(glBufferData) X(glBufferSubData) X(glGenFramebuffers)        \
-                                        X(glFramebufferTexture2D) X(glCheckFramebufferStatus)      \
-                                            X(glGenTextures) X(glBindTexture) X(glTexImage2D)      \
-                                                X(glTexParameteri) X(glClearColor)                 \
-                                                    X(glBlendEquation) X(glPixelTransferf)         \
-                                                        X(glGetTexEnviv) X(glXGetCurrentContext)   \
-                                                            X(eglGetCurrentContext)
+/* clang-format off */
+#define PLAIN_FUNCTIONS(X) \
+    X(glGetIntegerv) X(glGetFloatv) X(glGetDoublev) X(glGetBooleanv) X(glGetString) X(glGetPointerv) X(glIsList) \
+    X(glGetBufferSubData) X(glGetBufferParameteriv) X(glUniform1i) X(glUniform1f) X(glUniform2f) \
+    X(glUniform3f) X(glUniform4f) X(glUniform4fv) X(glUniformMatrix4fv) X(glUniformMatrix3fv) \
+    X(glGetUniformLocation) X(glCreateShader) X(glShaderSource) X(glCompileShader) \
+    X(glGetShaderiv) X(glGetShaderInfoLog) X(glDeleteShader) X(glCreateProgram) \
+    X(glAttachShader) X(glLinkProgram) X(glGetProgramiv) X(glGetProgramInfoLog) \
+    X(glBindAttribLocation) X(glGenVertexArrays) X(glBindVertexArray) \
+    X(glEnableVertexAttribArray) X(glVertexAttribPointer) X(glGenBuffers) X(glBindBuffer) \
+    X(glBufferData) X(glBufferSubData) X(glGenFramebuffers) X(glFramebufferTexture2D) \
+    X(glCheckFramebufferStatus) X(glGenTextures) X(glBindTexture) X(glTexImage2D) \
+    X(glTexParameteri) X(glClearColor) X(glBlendEquation) X(glPixelTransferf) X(glGetTexEnviv) \
+    X(glXGetCurrentContext) X(eglGetCurrentContext)
+/* clang-format on */
 
 /* What we replace: each has a function of its own name in this folder. First what changes the state that
  * lines depend on (state_calls.c), with its parameters and arguments. */
@@ -120,34 +115,29 @@ void SDL_GL_SwapWindow(void *window);
       (a, b, c, d, e, f, g, h, m, filter))
 
 /* The others that we replace. */
-#define OWN_FUNCTIONS(X)                                                                           \
-    X(glBegin)                                                                                     \
-    X(glEnd)                                                                                       \
-    X(glArrayElement)                                                                              \
-    X(glDrawArrays)                                                                                \
-    X(glDrawElements) X(glDrawRangeElements) X(glMultiDrawArrays) X(glMultiDrawElements)           \
-        X(glNewList) X(glEndList) X(glCallList) X(glCallLists) X(glDeleteLists) X(glEnable)        \
-            X(glDisable) X(glIsEnabled) X(glGetError) X(glClear) X(glFlush) X(glFinish)            \
-                X(glBindFramebuffer) X(glBindFramebufferEXT) X(glRenderMode) X(glXSwapBuffers)     \
-                    X(glXMakeCurrent) X(glXMakeContextCurrent) X(glXCreateContext)                 \
-                        X(glXCreateNewContext) X(glXCreateContextAttribsARB) X(glXDestroyContext)  \
-                            X(glXGetProcAddress) X(glXGetProcAddressARB) X(eglSwapBuffers)         \
-                                X(eglSwapBuffersWithDamageEXT) X(eglSwapBuffersWithDamageKHR)      \
-                                    X(eglMakeCurrent) X(eglCreateContext) X(eglDestroyContext)     \
-                                        X(eglGetProcAddress) X(glfwSwapBuffers)                    \
-                                            X(SDL_GL_SwapWindow)
+/* clang-format off */
+#define OWN_FUNCTIONS(X) \
+    X(glBegin) X(glEnd) X(glArrayElement) X(glDrawArrays) X(glDrawElements) X(glDrawRangeElements) \
+    X(glMultiDrawArrays) X(glMultiDrawElements) X(glNewList) X(glEndList) X(glCallList) \
+    X(glCallLists) X(glDeleteLists) X(glEnable) X(glDisable) X(glIsEnabled) X(glGetError) \
+    X(glClear) X(glFlush) X(glFinish) X(glBindFramebuffer) X(glBindFramebufferEXT) \
+    X(glRenderMode) X(glXSwapBuffers) X(glXMakeCurrent) X(glXMakeContextCurrent) \
+    X(glXCreateContext) X(glXCreateNewContext) X(glXCreateContextAttribsARB) \
+    X(glXDestroyContext) X(glXGetProcAddress) X(glXGetProcAddressARB) X(eglSwapBuffers) \
+    X(eglSwapBuffersWithDamageEXT) X(eglSwapBuffersWithDamageKHR) X(eglMakeCurrent) \
+    X(eglCreateContext) X(eglDestroyContext) X(eglGetProcAddress) X(glfwSwapBuffers) \
+    X(SDL_GL_SwapWindow)
+/* clang-format on */
 
 /* glVertex in its 24 kinds, and glRect in its 8. */
-#define VERTEX_NAMES(X)                                                                            \
-    X(glVertex2s)                                                                                  \
-    X(glVertex2i)                                                                                  \
-    X(glVertex2f)                                                                                  \
-    X(glVertex2d)                                                                                  \
-    X(glVertex2sv) X(glVertex2iv) X(glVertex2fv) X(glVertex2dv) X(glVertex3s) X(glVertex3i)        \
-        X(glVertex3f) X(glVertex3d) X(glVertex3sv) X(glVertex3iv) X(glVertex3fv) X(glVertex3dv)    \
-            X(glVertex4s) X(glVertex4i) X(glVertex4f) X(glVertex4d) X(glVertex4sv) X(glVertex4iv)  \
-                X(glVertex4fv) X(glVertex4dv) X(glRects) X(glRecti) X(glRectf) X(glRectd)          \
-                    X(glRectsv) X(glRectiv) X(glRectfv) X(glRectdv)
+/* clang-format off */
+#define VERTEX_NAMES(X) \
+    X(glVertex2s) X(glVertex2i) X(glVertex2f) X(glVertex2d) X(glVertex2sv) X(glVertex2iv) X(glVertex2fv) \
+    X(glVertex2dv) X(glVertex3s) X(glVertex3i) X(glVertex3f) X(glVertex3d) X(glVertex3sv) \
+    X(glVertex3iv) X(glVertex3fv) X(glVertex3dv) X(glVertex4s) X(glVertex4i) X(glVertex4f) \
+    X(glVertex4d) X(glVertex4sv) X(glVertex4iv) X(glVertex4fv) X(glVertex4dv) X(glRects) \
+    X(glRecti) X(glRectf) X(glRectd) X(glRectsv) X(glRectiv) X(glRectfv) X(glRectdv)
+/* clang-format on */
 
 /* All of them, NULL where the libraries loaded do not have one. Written once, by real_load. */
 struct real_functions {

@@ -140,5 +140,5 @@ void context_read_state(struct context *context) {
     context_errors_begin(context);
     context->verdict = judge();
     if (context->verdict == DRAW_WITH_LINES) read_geometry(context);
-    context_errors_end(context);
+    context_errors_end();
 }

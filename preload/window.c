@@ -127,12 +127,15 @@ EXPORT void SDL_GL_SwapWindow(void *window) {
 
 /* ---- single-buffered windows ---- */
 
+/* Some draw for minutes without clearing, a little at a time: what was shown is not drawn again. */
 static void show_single_buffer(void) {
     struct context *const context = context_current();
     if (!context || context->in_begin || context->frame.inked == context->frame.count) return;
     GLboolean twice = GL_TRUE;
     gl.glGetBooleanv(GL_DOUBLEBUFFER, &twice);
-    if (!twice) frame_ink(context);
+    if (twice) return;
+    frame_ink(context);
+    frame_reset(context);
 }
 
 EXPORT void glFlush(void) {

@@ -2,7 +2,7 @@
 # setup.sh [build|check]: installs what is missing to build, or also to run all checks.
 #
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
-# rest comes from Debian's packages, with sudo when not root.
+# rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
 set -eu
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -28,22 +28,26 @@ compiler_rt() {
 }
 
 header() { have cc && echo "#include <$1>" | cc -E -x c - >/dev/null 2>&1; }
-any_file() {
-    for file; do
-        [ ! -e "$file" ] || return 0
-    done
-    return 1
-}
+loadable() { [ -n "$(find /usr/lib /usr/lib64 /usr/local/lib -name "$1" -print -quit 2>/dev/null)" ]; }
 
-# Without these a component, or its tests, is left out, and all else goes on.
+# Without these a component, or its tests, is left out, and all else goes on: drawing by OpenGL (its headers, 1 MB; a way to
+# it without a window and drivers, 25 MB, and 120 MB of LLVM for them), the viewer (GLFW 1 MB, Dear ImGui 4 MB), tests of its
+# window, and programs under libdrypoint-preload.so (hacks to draw: 8 MB, 20 MB unpacked).
 find_optional() {
     optional=
     header GL/glcorearb.h || optional="$optional libgl-dev"
+    loadable libEGL.so.1 || optional="$optional libegl1"
+    { loadable swrast_dri.so || loadable 'libgallium*.so'; } || optional="$optional libgl1-mesa-dri"
+    module glfw3 || optional="$optional libglfw3-dev"
+    module imgui || optional="$optional libimgui-dev"
     [ "${1:-build}" = check ] || return 0
     header EGL/egl.h || optional="$optional libegl-dev"
-    any_file /usr/lib*/libEGL.so.1 /usr/lib/*/libEGL.so.1 || optional="$optional libegl1"
-    any_file /usr/lib*/dri/swrast_dri.so /usr/lib/*/dri/swrast_dri.so /usr/lib*/libgallium*.so \
-        /usr/lib/*/libgallium*.so || optional="$optional libgl1-mesa-dri"
+    header X11/Xlib.h || optional="$optional libx11-dev"
+    have Xvfb || optional="$optional xvfb xauth" # a screen nobody sees
+    have xdotool || optional="$optional xdotool"
+    have import || optional="$optional imagemagick"
+    have glxgears || optional="$optional mesa-utils"
+    [ -x /usr/libexec/xscreensaver/gears ] || [ -x /usr/lib/xscreensaver/gears ] || optional="$optional xscreensaver-gl"
 }
 
 find_missing() {
@@ -71,11 +75,6 @@ find_missing() {
     numpy || missing="$missing python3-numpy"
     [ -d /usr/share/assimp/models ] || missing="$missing assimp-testmodels" # some of them move
     fuzzer_runtime || missing="$missing $(compiler_rt)"
-    # Programs under libdrypoint-preload.so: headers and a server, and hacks to draw (8 MB, 20 MB unpacked).
-    { [ -e /usr/include/GL/glx.h ] && [ -e /usr/include/X11/Xlib.h ]; } || missing="$missing libgl-dev libx11-dev"
-    have Xvfb || missing="$missing xvfb"
-    have glxgears || missing="$missing mesa-utils"
-    [ -x /usr/libexec/xscreensaver/gears ] || [ -x /usr/lib/xscreensaver/gears ] || missing="$missing xscreensaver-gl"
 }
 
 find_missing "$@"
@@ -83,7 +82,7 @@ find_optional "$@"
 [ -n "$missing$optional" ] || exit 0
 
 if ! have apt-get; then
-    [ -z "$optional" ] || echo "setup: drawing by OpenGL lacks what these Debian packages hold:$optional" >&2
+    [ -z "$optional" ] || echo "setup: drawing by OpenGL, the viewer or their tests lack what these Debian packages hold:$optional" >&2
     [ -n "$missing" ] || exit 0
     echo "setup: this machine lacks what these Debian packages hold:$missing" >&2
     echo "setup: there is no apt-get here; install the same by its own package manager." >&2
@@ -113,7 +112,7 @@ if [ -n "$optional" ]; then
     echo "setup: installing$optional${root:+, as root through sudo}"
     # shellcheck disable=SC2086
     apt install --no-install-recommends $optional >"$log" 2>&1 ||
-        echo "setup: that did not work; drawing by OpenGL, or its tests, are left out" >&2
+        echo "setup: that did not work; drawing by OpenGL, the viewer or their tests are left out" >&2
 fi
 [ -n "$missing" ] || exit 0
 echo "setup: installing$missing${root:+, as root through sudo}"

@@ -59,6 +59,10 @@ void interrupt_install(void) {
 
 void interrupt_also(pid_t child) { child_process = (sig_atomic_t)child; }
 
+void interrupt_child(void) {
+    if (child_process) kill((pid_t)child_process, SIGKILL);
+}
+
 void interrupt_hold(void) { writing = 1; }
 
 bool interrupt_seen(void) { return signal_seen != 0; }

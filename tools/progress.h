@@ -26,5 +26,7 @@ void interrupt_release(void);
 bool interrupt_seen(void);
 /* The child process that is ended with the program; 0: none. */
 void interrupt_also(pid_t child);
+/* Ends that child now. */
+void interrupt_child(void);
 
 #endif

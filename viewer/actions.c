@@ -315,7 +315,7 @@ void act_backend(viewer *v, int arg) {
     (void)arg;
     if (!v->line.gl && !v->gl) {
         if (gl_adopt(view_function, NULL, &v->gl, &diag)) {
-            report_failure("OpenGL", &diag);
+            report_failure(NULL, &diag);
             return;
         }
         v->gl_taken = false;
@@ -410,14 +410,19 @@ void act_close(viewer *v, int arg) {
 
 /* ------- models ------- */
 
+void view_stop_reading(viewer *v) {
+    loaded none = {0};
+    if (!v->job) return;
+    messages_mute(true);
+    load_stop();
+    if (load_end(v->job, &none)) loaded_free(&none);
+    cmdline_free(&v->reading);
+    v->job = NULL;
+    messages_mute(false);
+}
+
 void view_read(viewer *v) {
-    if (v->job) {
-        load_stop();
-        loaded none = {0};
-        if (load_end(v->job, &none)) loaded_free(&none);
-        cmdline_free(&v->reading);
-        v->job = NULL;
-    }
+    view_stop_reading(v);
     v->reading = v->line;
     v->reading.models = NULL, v->reading.model_count = 0;
     cmdline_models(&v->reading, v->line.model_count, (const char *const *)v->line.models);
@@ -481,7 +486,9 @@ void view_take(viewer *v) {
         v->playing = false;
         v->gl_taken = false;
         v->restyle = true;
+        v->code = 0;
         if (picture_aim(&v->picture, &v->line, &v->model, true)) name_window(v);
+        if (first) messages_say("Drag turns it, the wheel zooms, ? lists the keys");
     } else if (first) {
         v->code = EXIT_FAILED;
     }

@@ -20,7 +20,7 @@ static void model_part(viewer *v) {
     const char *const name = settings(v)->model;
     const char *const slash = name ? strrchr(name, '/') : NULL;
     if (!v->model.source) {
-        panel_faint("no model: drop a file on the window");
+        panel_faint(v->job ? "reading ..." : "no model: drop a file on the window");
         return;
     }
     panel_text(slash ? slash + 1 : name ? name : "");
@@ -89,7 +89,7 @@ static void detail(viewer *v) {
     static const char words[] = "auto|exact|2|0.5";
     const char *const now = cmdline_get(&v->line.options, "detail");
     char word[32], shown[80];
-    const int known = now ? word_index(words, now) : 1;
+    const int known = now ? word_index(words, now) : v->line.gl ? 2 : 1;
     int index = known ? known - 1 : 4;
     snprintf(shown, sizeof shown, "auto|exact|2: finer|0.5: coarser%s%s", known ? "" : "|",
              known ? "" : now);
@@ -199,11 +199,13 @@ static void reading_box(const viewer *v) {
     panel_close();
 }
 
-static void message_box(void) {
+/* Those of the last seconds; while there is no model, all: they say why. */
+static void message_box(const viewer *v) {
     message all[MESSAGES_KEPT];
     const int count = messages_copy(all);
     int first = count;
-    while (first > 0 && first > count - 5 && view_now() - all[first - 1].time < seconds_shown)
+    while (first > 0 && first > count - 5 &&
+           (!v->model.source || view_now() - all[first - 1].time < seconds_shown))
         first--;
     if (first == count) return;
     panel_note(false);
@@ -221,6 +223,6 @@ void controls_show(viewer *v) {
         panel_text("Drop a model on the window.");
         panel_close();
     }
-    message_box();
+    message_box(v);
     panel_end();
 }

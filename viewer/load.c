@@ -32,7 +32,11 @@ static int hear(double fraction) {
 }
 
 double load_fraction(void) { return atomic_load(&per_mille) / 1000.0; }
-void load_stop(void) { atomic_store(&stop, true); }
+
+void load_stop(void) {
+    atomic_store(&stop, true);
+    interrupt_child(); /* Assimp's reader does not listen */
+}
 
 /* Is it another at another time, by what its options say? */
 static bool moves_by_options(const tool_settings *s) {

@@ -24,7 +24,7 @@ bool load_ended(const load_job *job);
 double load_fraction(void);
 /* Waits for its end, and frees it. False: it has failed, after a message, or was told to stop. */
 bool load_end(load_job *job, loaded *out);
-/* Tells all jobs to stop. */
+/* Tells the job to stop. */
 void load_stop(void);
 void loaded_free(loaded *model);
 

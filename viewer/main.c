@@ -69,6 +69,16 @@ static void on_pointer(GLFWwindow *window, double x, double y) {
     view_moved(v);
 }
 
+/* Lets the wheel go to what is seen at the pointer: looked for when it begins to turn, or the pointer has moved. */
+static void focus(viewer *v, double right, double down) {
+    const bool same = v->focus_x == v->x && v->focus_y == v->y;
+    const double time = view_now(), since = time - v->focus_time;
+    v->focus_x = v->x, v->focus_y = v->y, v->focus_time = time;
+    if (same && since < 1) return;
+    const double depth = picture_depth(&v->picture, &v->model, right, down);
+    if (depth > 0) orbit_focus(&v->orbit, depth);
+}
+
 static void on_wheel(GLFWwindow *window, double x, double y) {
     viewer *const v = of(window);
     int width, height;
@@ -76,6 +86,7 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
     if (panel_wants_mouse() || !view_free_camera(v)) return;
     glfwGetWindowSize(window, &width, &height);
     glfwGetCursorPos(window, &v->x, &v->y);
+    focus(v, v->x / fmax(width, 1), v->y / fmax(height, 1));
     orbit_zoom(&v->orbit, pow(1.15, y), (v->x - 0.5 * width) / fmax(height, 1),
                (v->y - 0.5 * height) / fmax(height, 1));
     view_moved(v);
@@ -116,7 +127,7 @@ static bool take_by_gl(viewer *v) {
     dp_diag diag = {0};
     if (v->gl_taken) return true;
     if (gl_take(v->gl, v->model.source, v->playing, &diag))
-        return report_failure("OpenGL", &diag), false;
+        return report_failure(NULL, &diag), false;
     return v->gl_taken = true;
 }
 
@@ -147,15 +158,15 @@ static void draw_picture(viewer *v) {
 /* Brings the picture up to date. */
 static void update_picture(viewer *v) {
     if (!v->model.source) return;
-    for (int k = 0; k < 2; k++) { /* once more by the processor, if OpenGL refuses */
+    if (v->quality && !is_moving(v)) v->draw = true;
+    do {
         const bool restyle = v->restyle, aim = v->aim;
         v->restyle = v->aim = false;
         if (restyle || aim) v->draw = picture_aim(&v->picture, &v->line, &v->model, restyle);
-        if (v->quality && !is_moving(v)) v->draw = true;
         if (!v->draw || !v->picture.styled) return;
         choose_quality(v);
         draw_picture(v);
-    }
+    } while (v->restyle); /* OpenGL refused */
 }
 
 static void go_on_playing(viewer *v) {
@@ -233,10 +244,11 @@ static int spin(viewer *v, uint32_t frames) {
         whole += v->quality == QUALITY_FULL;
     }
     const double seconds = view_now() - start;
-    printf("%.1f frames a second: %u of %u x %u px, %.1f ms each, the picture %.1f of them; %u whole, "
-           "%u with fewer samples\n",
-           frames / seconds, frames, v->line.width, v->line.height, 1000 * seconds / frames,
-           drawn / frames, whole, frames - whole);
+    printf(
+        "%.1f frames a second: %u of %u x %u px, %.1f ms each, the picture %.1f of them; %u whole, "
+        "%u with fewer samples\n",
+        frames / seconds, frames, v->line.width, v->line.height, 1000 * seconds / frames,
+        drawn / frames, whole, frames - whole);
     return 0;
 }
 
@@ -294,7 +306,7 @@ static void set_callbacks(viewer *v) {
 static bool begin_window(viewer *v, const tool_settings *s) {
     uint32_t width, height;
     float scale = 1, other;
-    int w, h;
+    int w, h, points, other_points;
     choose_size(s, &width, &height);
     v->window = open_window(width, height);
     if (!v->window) return wrong_usage("no window with OpenGL 3.2 or later can be opened");
@@ -307,6 +319,9 @@ static bool begin_window(viewer *v, const tool_settings *s) {
     if (!v->screen) return wrong_usage("this OpenGL lacks framebuffers; 3.0 or later is needed");
     set_callbacks(v);
     glfwGetWindowContentScale(v->window, &scale, &other);
+    glfwGetWindowSize(v->window, &points, &other_points);
+    scale *= (float)points / (float)v->line.width; /* where points are large, so are letters */
+    v->panel = points >= 700 * scale;
     return panel_create(v->window, scale) || wrong_usage("the panel cannot be made");
 }
 
@@ -324,16 +339,11 @@ static int run(viewer *v, const tool_settings *s) {
         }
         wait_for_events(v, &more);
     }
-    return v->model.source || !v->line.model_count ? 0 : v->code;
+    return v->code;
 }
 
 static void end(viewer *v) {
-    loaded none = {0};
-    if (v->job) {
-        load_stop();
-        if (load_end(v->job, &none)) loaded_free(&none);
-        cmdline_free(&v->reading);
-    }
+    view_stop_reading(v);
     gl_close(v->gl);
     screen_destroy(v->screen);
     panel_destroy();
@@ -355,7 +365,6 @@ static int answer(const tool_settings *s) {
 
 static int view(const tool_settings *s, int count, char **words) {
     static viewer v; /* its plan of pages is large */
-    v.panel = true;
     if (!cmdline_read(&v.line, count, words) || !cmdline_copy(&v.at_start, &v.line.options))
         return wrong_usage("out of memory"), EXIT_FAILED;
     glfwSetErrorCallback(on_error);

@@ -12,12 +12,21 @@ static message ring[MESSAGES_KEPT];
 static unsigned count; /* that have ever been said; ring[k % MESSAGES_KEPT] is number k */
 static double (*clock_now)(void);
 static void (*wake_up)(void);
+static bool muted;
+
+void messages_mute(bool mute) {
+    pthread_mutex_lock(&lock);
+    muted = mute;
+    pthread_mutex_unlock(&lock);
+}
 
 static void keep(const char *text) {
     pthread_mutex_lock(&lock);
-    message *const m = &ring[count++ % MESSAGES_KEPT];
-    snprintf(m->text, sizeof m->text, "%s", text);
-    m->time = clock_now ? clock_now() : 0;
+    if (!muted) {
+        message *const m = &ring[count++ % MESSAGES_KEPT];
+        snprintf(m->text, sizeof m->text, "%s", text);
+        m->time = clock_now ? clock_now() : 0;
+    }
     pthread_mutex_unlock(&lock);
     if (wake_up) wake_up();
 }

@@ -15,6 +15,8 @@ typedef struct message {
 void messages_begin(double (*now)(void), void (*wake)(void));
 /* Keeps a text that is no error, as printf writes it. */
 void messages_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Says nothing in the window until it is told to go on: of what was stopped on purpose. */
+void messages_mute(bool mute);
 /* Copies the newest ones, the last one last; how many there are. */
 int messages_copy(message out[MESSAGES_KEPT]);
 

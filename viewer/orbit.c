@@ -53,6 +53,14 @@ static double seen_height(const orbit *o) {
     return o->orthographic ? o->height : 2 * o->distance * tan(0.5 * o->fov * degree);
 }
 
+/* The eye's distance: an orthographic one stands outside the model, as nothing behind it is drawn. */
+static double eye_distance(const orbit *o) {
+    double square = 0;
+    for (int k = 0; k < 3; k++)
+        square += (o->target[k] - o->centre[k]) * (o->target[k] - o->centre[k]);
+    return o->orthographic ? 1.1 * (sqrt(square) + o->radius) : o->distance;
+}
+
 void orbit_turn(orbit *o, double right, double down) {
     o->azimuth = remainder(o->azimuth - 180 * right, 360);
     o->elevation = fmin(fmax(o->elevation + 180 * down, -90), 90);
@@ -74,6 +82,14 @@ void orbit_zoom(orbit *o, double factor, double right, double down) {
     o->height /= factor;
     const double less = before - seen_height(o);
     shift(o, right * less, down * less);
+}
+
+void orbit_focus(orbit *o, double depth) {
+    double back[3], up[3], right[3];
+    const double now = eye_distance(o);
+    axes_of(o, back, up, right);
+    for (int k = 0; k < 3; k++) o->target[k] += (now - depth) * back[k];
+    if (!o->orthographic) o->distance = depth;
 }
 
 void orbit_project(orbit *o, bool orthographic) {
@@ -105,14 +121,6 @@ static void put_number(cmd_options *to, const char *name, double value) {
     char text[32];
     snprintf(text, sizeof text, "%.7g", value);
     cmdline_set(to, name, text);
-}
-
-/* The eye's distance: an orthographic one stands outside the model, as nothing behind it is drawn. */
-static double eye_distance(const orbit *o) {
-    double square = 0;
-    for (int k = 0; k < 3; k++)
-        square += (o->target[k] - o->centre[k]) * (o->target[k] - o->centre[k]);
-    return o->orthographic ? 1.1 * (sqrt(square) + o->radius) : o->distance;
 }
 
 void orbit_write(const orbit *o, cmd_options *camera) {

@@ -22,6 +22,8 @@ void orbit_turn(orbit *o, double right, double down);
 void orbit_pan(orbit *o, double right, double down);
 /* Makes everything `factor` times as large about a point that many heights right of and below the middle. */
 void orbit_zoom(orbit *o, double factor, double right, double down);
+/* Turns and zooms about what is that far from the eye from now on; what is seen stays. */
+void orbit_focus(orbit *o, double depth);
 /* Changes between perspective and orthographic views; what is in the middle keeps its size. */
 void orbit_project(orbit *o, bool orthographic);
 /* Writes it as options of a camera. */

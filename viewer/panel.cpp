@@ -157,6 +157,6 @@ void panel_bar(double fraction, const char *text) {
     const bool known = fraction >= 0;
     const double phase = std::fmod(ImGui::GetTime(), 1.0);
     ImGui::TextUnformatted(text);
-    ImGui::ProgressBar(static_cast<float>(known ? fraction : phase), ImVec2(-1, 0),
+    ImGui::ProgressBar(static_cast<float>(known ? fraction : phase), ImVec2(260 * unit, 0),
                        known ? nullptr : "");
 }

@@ -6,6 +6,7 @@
 #include "files.h"
 #include "report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -142,12 +143,37 @@ bool picture_draw(picture *p, const loaded *model, tool_gl *gl, picture_quality 
     target.rgba = gl ? NULL : p->rgba;
     const double start = now_ms();
     const dp_result result = draw(p, model, gl, &style, &target, &diag);
-    if (result) return report_failure(gl ? "OpenGL" : NULL, &diag), false;
+    if (result) return report_failure(NULL, &diag), false;
     p->ms = now_ms() - start;
     p->width = target.width, p->height = target.height;
     p->by_gl = gl != NULL;
     take_stats(p, gl);
     return true;
+}
+
+/* ------- depth ------- */
+
+/* Lets a picture show the surroundings of a point (in shares of its size) alone, that many times as large. */
+static void look_closely(dp_camera *camera, double x, double y, double across, double down) {
+    double *const m = camera->projection;
+    for (int k = 0; k < 4; k++) { /* clip space: x and y less the point's, larger */
+        m[4 * k] = (m[4 * k] - (2 * x - 1) * m[4 * k + 3]) * across;
+        m[4 * k + 1] = (m[4 * k + 1] - (1 - 2 * y) * m[4 * k + 3]) * down;
+    }
+}
+
+double picture_depth(picture *p, const loaded *model, double right, double down) {
+    enum { SIDE = 3 };
+    float depth[SIDE * SIDE], nearest = INFINITY;
+    if (!p->styled || !make_context(p)) return 0;
+    dp_camera camera = p->plan.views[0].camera;
+    look_closely(&camera, right, down, (double)p->plan.width / SIDE, (double)p->plan.height / SIDE);
+    const dp_style style = {.lines = DP_NO_LINES};
+    const dp_target target = {.width = SIDE, .height = SIDE, .samples = 1, .depth = depth};
+    dp_diag diag;
+    if (dp_draw(p->context, model->source, &camera, &style, &target, &diag)) return 0;
+    for (int k = 0; k < SIDE * SIDE; k++) nearest = fminf(nearest, depth[k]);
+    return isfinite(nearest) ? (double)nearest : 0;
 }
 
 /* ------- saving ------- */

@@ -37,6 +37,9 @@ typedef struct picture {
 bool picture_aim(picture *p, const cmdline *line, loaded *model, bool restyle);
 /* Draws; gl NULL: by the processor. */
 bool picture_draw(picture *p, const loaded *model, tool_gl *gl, picture_quality quality);
+/* How far off, along the line of sight, what is seen at a point of the picture is; 0: nothing is, or it cannot be told.
+ * right, down: shares of its size, from 0 to 1. */
+double picture_depth(picture *p, const loaded *model, double right, double down);
 /* Draws it again and writes it, as the program would. */
 bool picture_save(const cmdline *line, const loaded *model, tool_gl *gl, const char *file);
 void picture_free(picture *p);

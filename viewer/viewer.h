@@ -33,10 +33,11 @@ typedef struct viewer {
     bool playing;
     double play_last; /* s: when the time went on last */
 
-    double x, y; /* of the pointer, window coordinates */
+    double x, y;                         /* of the pointer, window coordinates */
+    double focus_x, focus_y, focus_time; /* where the wheel turned last, and when */
     enum { DRAG_NONE = 0, DRAG_TURN, DRAG_PAN } drag;
     bool panel, help; /* are they shown? */
-    int code;         /* exit code */
+    int code;         /* exit code: no model could be read */
 } viewer;
 
 /* ------- main.c ------- */
@@ -87,6 +88,8 @@ void view_moved(viewer *v);
 void view_open(viewer *v, uint32_t count, const char *const *files);
 /* Begins to read the command line's models. */
 void view_read(viewer *v);
+/* Stops reading, if anything is read. */
+void view_stop_reading(viewer *v);
 /* Takes a model that has been read. */
 void view_take(viewer *v);
 /* Which of an option's words the settings have, by name. */

@@ -119,6 +119,8 @@ dp_result dp_gl_texture_reserve(dp_gl *gl, dp_gl_texture *texture, uint32_t form
 }
 
 void dp_gl_texture_bind(dp_gl *gl, const dp_gl_texture *texture, uint32_t unit) {
+    if (!texture->name)
+        return; /* there is none yet: a pass before faces are drawn does not read them */
     gl->api.ActiveTexture(GL_TEXTURE0 + unit);
     gl->api.BindTexture(texture->target, texture->name);
 }

@@ -7,7 +7,6 @@
  *
  * As in gbuffer/edge_map.c, whose values these are. As printed, and for 8 bits, distances are measured between near and far of the
  * enhanced groups, which a compute pass fits to their vertices (range.comp); they never come to the host. */
-#include "gl/scene.h"
 #include "gl/shading.h"
 
 #include <stdio.h>

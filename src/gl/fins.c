@@ -16,11 +16,10 @@
  * and so is the picture.
  *
  * Data structure: per sample the ink's colour (0: none) and depth. Invariant: texel (x, y) is the picture's pixel. Not
- * handled: creases and intersections, which are strokes (ink.c); triangles without area do not connect what they lie between. */
+ * handled: creases and intersections, which are strokes over these (ink.c); triangles without area do not connect what they lie between. */
 #include "gl/fins.h"
 #include "gl/ink.h"
 #include "gl/lines.h"
-#include "gl/scene.h"
 
 #include <stdio.h>
 
@@ -177,6 +176,7 @@ static dp_result begin_draw(dp_gl *gl, const char *vertex, const char *geometry,
     bind_edges(gl);
     dp_gl_fins_bind_texture(gl, *program);
     dp_gl_uniform_u(gl, *program, "lines", gl->style.lines & OUTLINES);
+    dp_gl_uniform_i(gl, *program, "edges", 3);
     dp_gl_depth_range(gl, range);
     gl->api.Uniform2f(gl->api.GetUniformLocation(*program, "depth_range"), range[0], range[1]);
     return DP_OK;
@@ -250,12 +250,11 @@ static dp_result put_ink(dp_gl *gl, dp_diag *diag) {
 }
 
 dp_result dp_gl_ink_fins(dp_gl *gl, dp_diag *diag) {
-    dp_result result = DP_OK;
-    if (gl->style.lines & DP_ALL_LINES & ~OUTLINES) result = dp_gl_ink_strokes(gl, diag);
-    if (result || !dp_gl_draws_fins(gl)) return result;
-    result = dp_gl_fins_begin(gl, diag);
+    dp_result result = dp_gl_fins_begin(gl, diag);
     if (!result && !dp_gl_fins_in_one_pass(gl)) result = draw_after(gl, diag);
-    return result ? result : put_ink(gl, diag);
+    if (!result) result = put_ink(gl, diag);
+    if (!result && gl->style.lines & DP_ALL_LINES & ~OUTLINES) result = dp_gl_ink_strokes(gl, diag);
+    return result;
 }
 
 void dp_gl_fins_free(dp_gl *gl) {

@@ -8,7 +8,6 @@
  * Six and rings are kept while the topology stays. Rings are few, or none, and come back to the host once to be
  * sorted. Invariant: rings are sorted by the first half-edge of their edge. */
 #include "gl/fins.h"
-#include "gl/scene.h"
 
 #include "base/sort.h"
 
@@ -144,7 +143,7 @@ dp_result dp_gl_fins_list(dp_gl *gl, dp_diag *diag) {
     const uint32_t n = gl->scene.triangle_count;
     dp_gl_fins *const f = gl->fins;
     dp_result result =
-        dp_gl_buffer_reserve(gl, &f->facing, 4 * (size_t)n, "facing of triangles", diag);
+        dp_gl_buffer_reserve(gl, &f->facing, 8 * (size_t)n, "facing of triangles", diag);
     if (!result)
         result = dp_gl_buffer_reserve(gl, &f->listed, 12 * (size_t)n, "a list of outlines", diag);
     if (!result)

@@ -8,7 +8,6 @@
  * Data structure: two textures, of silhouettes and of borders, and a buffer with centre and repeats (fins_centre.comp).
  * Invariant: stroke_keys are hashes of what is uploaded. */
 #include "gl/fins.h"
-#include "gl/scene.h"
 
 #include "texture/texture.h"
 

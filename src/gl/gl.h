@@ -138,7 +138,8 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer candidates; /* dp_gl_candidate */
     dp_gl_buffer segments;   /* dp_gl_segment */
     dp_gl_buffer disputed;   /* half-edges of which the eye decides (emerge.c) */
-    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (edges.c) */
+    dp_gl_buffer sides;      /* [triangle] normal, and how it lies to the eye (sides.c) */
+    dp_gl_buffer pairs;      /* half-edges that may be lines (edges.c) */
     dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
     dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
     dp_gl_buffer own[6];     /* for files of these stages, as each says */
@@ -157,8 +158,8 @@ typedef struct dp_gl_lines_store {
 typedef struct dp_gl_counters {
     uint32_t corners_of_capsule, segments, zero[2];
     uint32_t candidates, disputed, crossings;
-    uint32_t wanted[5];    /* [0]: words of sample points (visibility.c) */
-    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0], [1]: visibility.c's */
+    uint32_t wanted[5];    /* [0] to [2]: see passes.h */
+    uint32_t groups[4][4]; /* arguments of indirect dispatches; [0]: see passes.h */
 } dp_gl_counters;
 
 /* A line that may be visible. 32 bytes. */
@@ -262,6 +263,12 @@ void dp_gl_leave(dp_gl *gl, dp_gl_state *state);
 
 /* Binds a program, and the picture's block. */
 void dp_gl_use(dp_gl *gl, uint32_t program);
+/* Binds the scene's vertices, corners and triangles (scene.c). */
+void dp_gl_scene_bind(dp_gl *gl);
+/* Binds the samples' numbers and depth to their units and tells the program (faces.c). */
+void dp_gl_faces_bind(dp_gl *gl, uint32_t program);
+/* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane (faces.c). */
+void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 /* Runs the bound compute program for `count` items, DP_GL_GROUP_SIZE a group; the shader must compare its number
  * with the count (more than 65535 groups become rows: see dp_item in picture.glsl). Then a barrier for
  * storage. */

@@ -3,7 +3,7 @@
  *     one instance a segment, by the indirect command that begins with their number: a rectangle around
  *         the capsule (capsule.vert), in which each pixel's coverage is found and multiplied by the share of
  *         its samples that nothing hides (capsule.frag); the largest of each class stays (GL_MAX)
- *     one pass over all pixels lays the classes over each other (ink_lay.comp)
+ *     one pass over all pixels lays the classes over each other (ink_lay.frag)
  *
  * Data structure: line k is channel k % 4 of coverage texture k / 4; the second is only there where borders
  * are drawn. Coverage has 8 bits: half a step of the picture's own at the most. Invariant: ink
@@ -14,8 +14,6 @@
  *
  * Not here: sections and hatching, patterns, hidden lines. */
 #include "gl/ink.h"
-
-#include "gl/scene.h"
 
 enum { CAPSULE_CORNERS = 4, UNIT_COVERAGE = DP_GL_UNIT_OWN };
 
@@ -78,14 +76,16 @@ static void lay(dp_gl *gl, uint32_t program) {
     dp_gl_uniform_i(gl, program, "coverage1", UNIT_COVERAGE + 1);
     a->BindImageTexture(0, gl->surface.picture.name, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA8);
     a->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-    dp_gl_dispatch_pixels(gl);
-    a->MemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT);
+    a->DrawBuffer(GL_NONE); /* it reads the picture and writes it, each pixel its own */
+    dp_gl_draw_whole(gl);
+    a->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                     GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 dp_result dp_gl_ink_strokes(dp_gl *gl, dp_diag *diag) {
     static const dp_gl_program_desc capsules = {.vertex = "capsule.vert",
                                                 .fragment = "capsule.frag"},
-                                    layers = {.compute = "ink_lay.comp"};
+                                    layers = {.vertex = "whole.vert", .fragment = "ink_lay.frag"};
     uint32_t capsule_program, layer_program;
     if (!gl->lines.segments.name || !gl->lines.counters.name) return DP_OK;
     dp_result result = reserve(gl, diag);

@@ -4,6 +4,8 @@
 
 #include "gl/gl.h"
 
+/* sides.c: how triangles lie to the eye, and their normals. */
+dp_result dp_gl_find_sides(dp_gl *gl, dp_diag *diag);
 /* mates.c: which half-edges are each other's; nothing is done where they are known. */
 dp_result dp_gl_find_mates(dp_gl *gl, dp_diag *diag);
 /* edges.c: edges → candidates; half-edges where the eye must decide (no mate, several, one wound the same way, back faces that

@@ -11,7 +11,7 @@
  * when mates were made have none until the topology changes. Not handled: edges whose ends are equal but for rounding;
  * what lies there decides (emerge.c). */
 #include "gl/lines.h"
-#include "gl/scene.h"
+#include "gl/passes.h"
 
 static uint32_t slots_for(uint32_t triangles) {
     uint32_t slots = 1024;
@@ -29,24 +29,9 @@ static dp_result reserve(dp_gl *gl, uint32_t slots, dp_diag *diag) {
     return result;
 }
 
-/* Runs one of the programs for every triangle. */
-static dp_result pass(dp_gl *gl, const dp_gl_program_desc *desc, uint32_t slots, dp_diag *diag) {
-    uint32_t program;
-    const dp_result result = dp_gl_program(gl, desc, &program, diag);
-    if (result) return result;
-    dp_gl_use(gl, program);
-    dp_gl_scene_bind(gl);
-    dp_gl_buffer_bind(gl, &gl->lines.mates, DP_GL_BIND_OWN);
-    dp_gl_buffer_bind(gl, &gl->lines.slots, DP_GL_BIND_OWN + 1);
-    dp_gl_uniform_u(gl, program, "mask", slots - 1);
-    dp_gl_dispatch(gl, gl->scene.triangle_count);
-    return DP_OK;
-}
-
 dp_result dp_gl_find_mates(dp_gl *gl, dp_diag *diag) {
-    static const dp_gl_program_desc meet = {.compute = "mates_meet.comp"},
-                                    settle = {.compute = "mates_settle.comp"};
     dp_gl_lines_store *const l = &gl->lines;
+    const dp_gl_buffer *const own[DP_GL_OWN] = {&l->mates, &l->slots, &l->sides};
     const uint32_t slots = slots_for(gl->scene.triangle_count);
     if (l->topology == gl->scene.topology) return DP_OK;
     dp_result result = reserve(gl, slots, diag);
@@ -54,8 +39,8 @@ dp_result dp_gl_find_mates(dp_gl *gl, dp_diag *diag) {
     dp_gl_buffer_clear(gl, &l->mates, 12 * (size_t)gl->scene.triangle_count, DP_GL_MATE_NONE);
     dp_gl_buffer_clear(gl, &l->slots, 4 * (size_t)slots, UINT32_MAX);
     gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    result = pass(gl, &meet, slots, diag);
-    if (!result) result = pass(gl, &settle, slots, diag);
+    result = dp_gl_pass_triangles(gl, "mates_meet.comp", own, diag);
+    if (!result) result = dp_gl_pass_triangles(gl, "mates_settle.comp", own, diag);
     if (!result) l->topology = gl->scene.topology;
     return result;
 }

@@ -15,7 +15,6 @@
 #include "gl/pencil.h"
 
 #include "gl/fins.h"
-#include "gl/scene.h"
 #include "gl/shading.h"
 #include "gl/surface.h"
 #include "shade/pencil.h"

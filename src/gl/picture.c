@@ -186,6 +186,21 @@ static bool finds_lines(const dp_gl *gl) {
     return strokes && gl->scene.triangle_count && gl->block.style[0];
 }
 
+/* Vertices, and if lines are looked for how triangles lie to the eye. */
+static dp_result place(dp_gl *gl, dp_diag *diag) {
+    const dp_result result = dp_gl_scene_place(gl, diag);
+    return result || !finds_lines(gl) ? result : dp_gl_find_sides(gl, diag);
+}
+
+/* The last picture's segments are none of this one's. */
+static void forget_lines(dp_gl *gl) {
+    static const GLuint none = 0;
+    if (!gl->lines.counters.name) return;
+    gl->api.BindBuffer(GL_COPY_WRITE_BUFFER, gl->lines.counters.name);
+    gl->api.BufferSubData(GL_COPY_WRITE_BUFFER, offsetof(dp_gl_counters, segments), sizeof none,
+                          &none);
+}
+
 static dp_result find_lines(dp_gl *gl, dp_diag *diag) {
     bool again = true;
     dp_result result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
@@ -218,13 +233,14 @@ static dp_result ink(dp_gl *gl, dp_diag *diag) {
 
 static dp_result draw_stages(dp_gl *gl, dp_diag *diag) {
     dp_result result = dp_gl_upload_block(gl, diag);
-    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, dp_gl_scene_place, diag);
+    if (!result) result = run(gl, DP_GL_STAGE_VERTICES, place, diag);
     if (!result && dp_gl_fins_in_one_pass(gl))
         result = run(gl, DP_GL_STAGE_MATES, dp_gl_find_mates, diag);
     if (!result) result = run(gl, DP_GL_STAGE_FACES, dp_gl_draw_faces, diag);
     if (!result) put_places(gl); /* which the framebuffer tells */
     if (!result) result = dp_gl_upload_block(gl, diag);
     if (!result && finds_lines(gl)) result = find_lines(gl, diag);
+    if (!result && !finds_lines(gl)) forget_lines(gl);
     if (!result) result = run(gl, DP_GL_STAGE_SHADE, surface, diag);
     if (!result) result = run(gl, DP_GL_STAGE_INK, ink, diag);
     return result ? result : dp_gl_check(gl, "drawing a picture", diag);

@@ -17,7 +17,6 @@
  * polygons does not matter but with passes = 1. Not handled: styles of groups, patterns and light on lines. */
 #include "gl/ink.h"
 #include "gl/quads.h"
-#include "gl/scene.h"
 
 /* What is trapped lies at most this many line widths behind the surface (printed/quads.c). */
 static const double TRAP = 4;
@@ -95,6 +94,22 @@ static dp_result copy_depth(dp_gl *gl, dp_diag *diag) {
     return DP_OK;
 }
 
+/* Planes of all triangles. */
+static dp_result place_faces(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.compute = "quads_faces.comp", .any_samples = true};
+    dp_gl_quads *const q = gl->quads;
+    uint32_t program;
+    dp_result result = dp_gl_buffer_reserve(gl, &q->faces, 32 * (size_t)gl->scene.triangle_count,
+                                            "planes of faces", diag);
+    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
+    dp_gl_use(gl, program);
+    dp_gl_scene_bind(gl);
+    dp_gl_buffer_bind(gl, &q->faces, DP_GL_BIND_OWN + 3);
+    dp_gl_dispatch(gl, gl->scene.triangle_count);
+    return DP_OK;
+}
+
 static dp_result begin(dp_gl *gl, dp_diag *diag) {
     static const GLuint none[4] = {0, 0, 0, 0};
     static const GLfloat zero = 0;
@@ -126,6 +141,7 @@ static dp_result use(dp_gl *gl, const dp_gl_program_desc *desc, const float move
     dp_gl_scene_bind(gl);
     dp_gl_faces_bind(gl, *program);
     dp_gl_buffer_bind(gl, &gl->quads->records, DP_GL_BIND_OWN);
+    dp_gl_buffer_bind(gl, &gl->quads->faces, DP_GL_BIND_OWN + 3);
     dp_gl_uniform_2f(gl, *program, "depth_range", gl->quads->range);
     dp_gl_uniform_2f(gl, *program, "depth_move", move);
     dp_gl_uniform_2f(gl, *program, "trap", behind);
@@ -266,7 +282,7 @@ static void end_count(dp_gl *gl) {
 
 /* Valleys that are nearer than the surface count down; moved nearer by the offset, up. */
 static dp_result count_valleys(dp_gl *gl, uint32_t portion, dp_diag *diag) {
-    static const dp_gl_program_desc desc = {.vertex = "quads.vert"};
+    static const dp_gl_program_desc desc = {.vertex = "quads.vert", .fragment = "quads_line.frag"};
     static const float stay[2] = {1, 0};
     float nearer[2];
     uint32_t program;
@@ -296,6 +312,7 @@ static dp_result count_faces(dp_gl *gl, dp_diag *diag) {
     dp_result result = begin_count(gl, diag);
     if (!result) result = use(gl, &desc, stay, 0, DP_LINE_INTERSECTION, &program, diag);
     if (!result) {
+        gl->api.Enable(GL_DEPTH_CLAMP); /* what is nearer than the near plane counts in both */
         dp_gl_uniform_f(gl, program, "nearer", same);
         count_by(gl, GL_DECR_WRAP);
         draw_scene(gl, true);
@@ -303,6 +320,7 @@ static dp_result count_faces(dp_gl *gl, dp_diag *diag) {
         dp_gl_uniform_2f(gl, program, "depth_move", nearer);
         count_by(gl, GL_INCR_WRAP);
         draw_scene(gl, true);
+        gl->api.Disable(GL_DEPTH_CLAMP);
     }
     end_count(gl);
     return result;
@@ -397,6 +415,7 @@ static dp_result put(dp_gl *gl, bool layered, dp_diag *diag) {
     bind(gl, program, &q->depth, 2, "line_depths");
     if (layered) bind(gl, program, &q->under, 3, "under");
     if (once) dp_gl_buffer_bind(gl, &q->states, DP_GL_BIND_OWN + 2);
+    dp_gl_buffer_bind(gl, &q->faces, DP_GL_BIND_OWN + 3);
     dp_gl_uniform_2f(gl, program, "depth_range", q->range);
     dp_gl_draw_whole(gl);
     return DP_OK;
@@ -412,6 +431,7 @@ dp_result dp_gl_ink_quads(dp_gl *gl, dp_diag *diag) {
     if (!gl->quads) return dp_fail(diag, DP_ERR_MEMORY, "out of memory for added polygons");
     dp_gl_depth_range(gl, gl->quads->range);
     dp_result result = reserve(gl, diag);
+    if (!result) result = place_faces(gl, diag);
     if (!result) result = begin(gl, diag);
     if (!result)
         result = dp_gl_is_once(&gl->style) ? dp_gl_quads_once(gl, diag) : draw_passes(gl, diag);
@@ -425,8 +445,8 @@ void dp_gl_quads_free(dp_gl *gl) {
     if (!gl->is_lost) {
         dp_gl_texture *const textures[] = {&q->lines, &q->depth, &q->trapped, &q->stencil,
                                            &q->under};
-        dp_gl_buffer *const buffers[] = {&q->records, &q->commands, &q->counts, &q->order,
-                                         &q->states};
+        dp_gl_buffer *const buffers[] = {&q->records, &q->commands, &q->faces, &q->blocks,
+                                         &q->counts,  &q->order,    &q->states};
         for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
             dp_gl_texture_free(gl, textures[i]);
         for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)

@@ -14,8 +14,10 @@ struct dp_gl_quads {
     dp_gl_texture stencil; /* DEPTH32F_STENCIL8: depth of faces, and how many are trapped */
     dp_gl_texture under;   /* RGBA8: the picture beneath ink */
     uint32_t framebuffer;
-    dp_gl_buffer records;               /* Added, of one portion of half-edges */
-    dp_gl_buffer commands;              /* a DrawArraysIndirectCommand a list and portion */
+    dp_gl_buffer records;  /* Added, of one portion of half-edges */
+    dp_gl_buffer commands; /* a DrawArraysIndirectCommand a list and portion */
+    dp_gl_buffer faces;    /* Face in quads_faces.glsl: planes of all triangles */
+    dp_gl_buffer blocks;   /* float: the farthest depth of the surface in each 8 x 8 px */
     dp_gl_buffer counts, order, states; /* one pass: quads_once.c */
     float range[2];                     /* dp_gl_depth_range */
 };

@@ -6,7 +6,6 @@
  * GL_ARB_fragment_shader_interlock, or a rasterizer that works so (llvmpipe); elsewhere in about that order, which is all that
  * the picture depends on: a valley shows on the side of the polygon that came first. */
 #include "gl/quads.h"
-#include "gl/scene.h"
 
 /* What the application has drawn is there first. */
 static dp_result begin(dp_gl *gl, dp_diag *diag) {
@@ -34,7 +33,7 @@ static dp_result begin(dp_gl *gl, dp_diag *diag) {
 
 /* Puts a portion's polygons in order. */
 static dp_result order(dp_gl *gl, const dp_gl_portions *p, uint32_t i, dp_diag *diag) {
-    static const dp_gl_program_desc desc = {.compute = "quads_order.comp"};
+    static const dp_gl_program_desc desc = {.compute = "quads_order.comp", .any_samples = true};
     dp_gl_quads *const q = gl->quads;
     const uint32_t all = 3 * gl->scene.triangle_count, first = i * p->edges;
     uint32_t program;
@@ -68,6 +67,7 @@ static dp_result draw(dp_gl *gl, uint32_t i, dp_diag *diag) {
     dp_gl_buffer_bind(gl, &q->records, DP_GL_BIND_OWN);
     dp_gl_buffer_bind(gl, &q->order, DP_GL_BIND_OWN + 1);
     dp_gl_buffer_bind(gl, &q->states, DP_GL_BIND_OWN + 2);
+    dp_gl_buffer_bind(gl, &q->faces, DP_GL_BIND_OWN + 3);
     dp_gl_uniform_2f(gl, program, "depth_range", q->range);
     dp_gl_uniform_4f(gl, program, "traps", (const float[4]){move[0], move[1], move[0], move[1]});
     dp_gl_uniform_u(gl, program, "intersections", (s->lines & DP_INTERSECTION) != 0);

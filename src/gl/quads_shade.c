@@ -5,7 +5,8 @@
  * back and nothing can be full; models of any size take the same memory. Invariant: a portion's lists are drawn
  * before the next portion is shaded. */
 #include "gl/quads.h"
-#include "gl/scene.h"
+
+#include "base/elementary.h"
 
 #include <math.h>
 
@@ -24,7 +25,7 @@ static const double SAGITTA = 0.3; /* px: as in quads_exact.glsl */
 
 /* How many triangles a joint of this reach has at most: it turns by 180 degrees. */
 static uint32_t spans_of(double reach) {
-    const double half = 1 - fmin(SAGITTA / reach, 1), span = acos(fmax(2 * half * half - 1, -1)),
+    const double half = 1 - fmin(SAGITTA / reach, 1), span = dp_acos(fmax(2 * half * half - 1, -1)),
                  most = floor(3.14159265358979323846 / span) + 1;
     return most < SPANS ? (uint32_t)most : SPANS;
 }
@@ -79,6 +80,43 @@ static dp_result write_commands(dp_gl *gl, const dp_gl_portions *p, dp_diag *dia
     return result;
 }
 
+static uint32_t blocks_of(double px) { return ((uint32_t)px + 7) / 8; }
+
+/* What hides: the farthest depth in blocks of the picture. */
+static dp_result find_blocks(dp_gl *gl, dp_diag *diag) {
+    static const dp_gl_program_desc desc = {.compute = "quads_blocks.comp"};
+    dp_gl_quads *const q = gl->quads;
+    const uint32_t x = blocks_of(gl->view.width), y = blocks_of(gl->view.height);
+    uint32_t program;
+    dp_result result =
+        dp_gl_buffer_reserve(gl, &q->blocks, 4 * (size_t)x * y, "depths of blocks", diag);
+    if (!result) result = dp_gl_program(gl, &desc, &program, diag);
+    if (result) return result;
+    dp_gl_use(gl, program);
+    dp_gl_faces_bind(gl, program);
+    dp_gl_uniform_2f(gl, program, "depth_range", q->range);
+    dp_gl_uniform_u(gl, program, "blocks_x", x);
+    dp_gl_uniform_u(gl, program, "blocks_y", y);
+    dp_gl_buffer_bind(gl, &q->blocks, DP_GL_BIND_OWN + 1);
+    dp_gl_dispatch(gl, x * y);
+    return DP_OK;
+}
+
+/* How near that may be drawn which grows from depth d: d * out[0] + out[1]. Not known, and out[2] is 0, where a step in depth
+ * is too large for perspective (printed/quads.c, set_reach). */
+static void set_hide(const dp_gl *gl, float out[3]) {
+    const dp_style *const s = &gl->style;
+    double width = 0;
+    for (int i = 0; i < DP_LINE_COUNT; i++) width = fmax(width, (double)s->line[i].width);
+    const double nearer = s->method == DP_METHOD_PAPER ? 32 : 4,
+                 trap = s->between == DP_BETWEEN_PLANE ? 4 * width : (double)s->between_offset,
+                 share = (nearer * width + trap + 1) / gl->view.focal;
+    const bool perspective = gl->view.perspective;
+    out[0] = perspective ? (float)(1 / (1 - share)) : 1;
+    out[1] = perspective ? 0 : (float)share;
+    out[2] = !perspective || share <= 0.5;
+}
+
 dp_result dp_gl_quads_portion(dp_gl *gl, bool once, dp_gl_portions *out, dp_diag *diag) {
     dp_gl_quads *const q = gl->quads;
     const uint32_t all = 3 * gl->scene.triangle_count;
@@ -94,19 +132,23 @@ dp_result dp_gl_quads_portion(dp_gl *gl, bool once, dp_gl_portions *out, dp_diag
     for (int i = 0; i < DP_GL_ADDED_LISTS; i++) out->ends[i] = end += out->edges * out->room[i];
     const size_t most = (size_t)out->edges * out->places;
     dp_result result = dp_gl_buffer_reserve(gl, &q->records, most * RECORD, "added polygons", diag);
-    if (!result && once)
-        result = dp_gl_buffer_reserve(gl, &q->counts, 4 * (size_t)out->edges,
+    if (!result)
+        result = dp_gl_buffer_reserve(gl, &q->counts, once ? 4 * (size_t)out->edges : 64,
                                       "numbers of added polygons", diag);
     if (!result && once)
         result = dp_gl_buffer_reserve(gl, &q->order, 4 * most, "the order of polygons", diag);
+    if (!result) result = find_blocks(gl, diag);
     return result ? result : write_commands(gl, out, diag);
 }
 
 static void set_pens(dp_gl *gl, uint32_t program) {
     const dp_style *const s = &gl->style;
     const bool paper = s->method == DP_METHOD_PAPER;
-    float reach[3], most = 0;
+    float reach[3], hide[3], most = 0;
     reaches(s, reach);
+    set_hide(gl, hide);
+    gl->api.Uniform3f(gl->api.GetUniformLocation(program, "hide"), hide[0], hide[1], hide[2]);
+    dp_gl_uniform_u(gl, program, "blocks_x", blocks_of(gl->view.width));
     for (int i = 0; i < 3; i++) most = fmaxf(most, reach[i]);
     const float pens[4] = {reach[0], reach[1], reach[2], most * (paper ? 2.2f : 1) + 2};
     dp_gl_uniform_4f(gl, program, "reach", pens);
@@ -119,10 +161,10 @@ static void set_pens(dp_gl *gl, uint32_t program) {
 
 dp_result dp_gl_quads_shade(dp_gl *gl, const dp_gl_portions *p, uint32_t i, bool once,
                             dp_diag *diag) {
-    static const char *const defines[2][2] = {
-        {"", "#define ORDERED\n"}, {"#define PAPER\n", "#define PAPER\n#define ORDERED\n"}};
-    const dp_gl_program_desc desc = {.compute = "quads_shade.comp",
-                                     .defines = defines[gl->style.method == DP_METHOD_PAPER][once]};
+    const dp_gl_program_desc desc = {
+        .compute = "quads_shade.comp",
+        .defines = gl->style.method == DP_METHOD_PAPER ? "#define PAPER\n" : NULL,
+        .any_samples = true};
     dp_gl_quads *const q = gl->quads;
     const uint32_t all = 3 * gl->scene.triangle_count, first = i * p->edges,
                    count = all - first < p->edges ? all - first : p->edges;
@@ -132,11 +174,13 @@ dp_result dp_gl_quads_shade(dp_gl *gl, const dp_gl_portions *p, uint32_t i, bool
     dp_gl_use(gl, program);
     dp_gl_scene_bind(gl);
     dp_gl_buffer_bind(gl, &q->records, DP_GL_BIND_OWN);
-    if (once) dp_gl_buffer_bind(gl, &q->counts, DP_GL_BIND_OWN + 3);
+    dp_gl_buffer_bind(gl, &q->blocks, DP_GL_BIND_OWN + 1);
+    dp_gl_buffer_bind(gl, &q->counts, DP_GL_BIND_OWN + 3);
     dp_gl_buffer_bind(gl, &q->commands, DP_GL_BIND_OWN + 4);
     set_pens(gl, program);
     dp_gl_uniform_u(gl, program, "first_edge", first);
     dp_gl_uniform_u(gl, program, "edge_count", count);
+    dp_gl_uniform_u(gl, program, "ordered", once);
     dp_gl_uniform_u(gl, program, "places", p->places);
     dp_gl_uniform_u(gl, program, "first_command", i * DP_GL_ADDED_LISTS);
     gl->api.Uniform4ui(gl->api.GetUniformLocation(program, "list_ends"), p->ends[0], p->ends[1],

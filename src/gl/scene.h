@@ -13,17 +13,11 @@ dp_result dp_gl_scene_place(dp_gl *gl, dp_diag *diag);
 bool dp_gl_placement_of(const dp_gl_mesh *mesh, const double origin[3], double rows[3][4]);
 /* The numbers of groups of mesh `index` of the scene. */
 dp_gl_group_numbers dp_gl_groups_of(const dp_gl_scene *scene, size_t index);
-/* Binds vertices, corners and triangles. */
-void dp_gl_scene_bind(dp_gl *gl);
 void dp_gl_scene_free(dp_gl *gl);
 void dp_gl_scene_free_host(dp_gl *gl);
 
 /* faces.c: the nearest triangle of each sample. */
 dp_result dp_gl_draw_faces(dp_gl *gl, dp_diag *diag);
-/* Binds ids and depth to their units and tells the program. */
-void dp_gl_faces_bind(dp_gl *gl, uint32_t program);
-/* Window depth = d * out[0] + out[1]: 0 at the far plane or infinitely far, and just below 1 at the near plane. */
-void dp_gl_depth_range(const dp_gl *gl, float out[2]);
 void dp_gl_faces_free(dp_gl *gl);
 
 /* picture.c: the block of values that all shaders know. */

@@ -14,8 +14,8 @@
  * hold there is not used. Not here: lines, which are inked over the picture. */
 #include "gl/shading.h"
 
-#include "gl/scene.h"
 #include "gl/surface.h"
+#include "base/elementary.h"
 #include "shade/shade.h"
 
 #include <math.h>
@@ -55,7 +55,7 @@ static void put_edges(const dp_gl *gl, dp_gl_shading_block *b) {
     const dp_edge_map *const m = &gl->style.edge_map;
     const double angle = (double)m->inner_angle * 0.017453292519943295;
     put_color(m->inner, b->inner), put_color(m->profile, b->profile);
-    b->strength[0] = m->as_printed ? 0 : 1 - (float)cos(angle);
+    b->strength[0] = m->as_printed ? 0 : 1 - (float)dp_cos(angle);
     b->strength[1] = m->as_printed ? 1 : 1 / m->inner_softness;
     b->strength[2] = m->as_printed ? 0 : 0.15f;
     b->strength[3] = m->as_printed ? 1 : 1 / m->profile_softness;

@@ -3,6 +3,20 @@
  * Rules are data: one row a member. docs/opengl.md has the same table for people. */
 #include "gl/scene.h"
 
+/* Does the style give strokes a texture or a hand, and are there strokes? */
+static bool has_stylized_strokes(const dp_style *style) {
+    const dp_stroke_style *const s = &style->stroke;
+    const uint32_t creases = DP_RIDGE | DP_VALLEY | DP_INTERSECTION,
+                   outlines = DP_SILHOUETTE | DP_BORDER;
+    const bool by_adjacency = style->edges == DP_EDGES_ADJACENCY;
+    const uint32_t strokes = style->ink == DP_INK_STROKES ? creases | outlines
+                             : by_adjacency               ? creases
+                                                          : 0;
+    return style->lines & strokes &&
+           (s->texture || s->taper > 0 || s->jitter > 0 || s->overshoot > 0 || s->depth > 0 ||
+            s->light > 0 || s->repeats > 1);
+}
+
 dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *diag) {
     (void)gl;
     const struct {
@@ -13,6 +27,9 @@ dp_result dp_gl_check_style(const dp_gl *gl, const dp_style *style, dp_diag *dia
              style->method == DP_METHOD_EXACT,
          "silhouettes as geometry beside their visible chains (method exact), but as printed or as "
          "strokes"},
+        {has_stylized_strokes(style), "stylized strokes (texture, taper, jitter, overshoot, depth, "
+                                      "light, repeats), but textured "
+                                      "silhouettes and borders alone, by adjacency, as printed"},
         {style->hidden.look != DP_HIDDEN_NONE, "hidden lines"},
         {style->xray > 0 && style->xray < 1, "x-rays"},
         {style->detail > 0, "a detail of lines other than exact"},

@@ -1,5 +1,4 @@
 /* The picture's surface, without light, and the picture's way into the application's framebuffer. */
-#include "gl/scene.h"
 #include "gl/surface.h"
 
 dp_result dp_gl_open_surface(dp_gl *gl, dp_diag *diag) {

@@ -60,7 +60,7 @@ topic_examples() {
 topics() {
     run 0 --help
     sed -n '/Topics:/,$p' out | tr -d . | tr -s '\n ' ' ' | sed 's/.*Topics://; s/, or the name.*//' | tr -s ', ' '\n' | grep . >words
-    for word in picture page camera lines paths strokes surface sections objects motion films method program models shapes info make bench all; do
+    for word in picture page camera lines paths strokes surface sections objects motion films method program models shapes info make bench view all; do
         grep -qx "$word" words || fail "$word is no topic: $(tr '\n' ' ' <words)"
     done
     : >each
@@ -97,7 +97,7 @@ topics() {
     says out '--hidden-width W'
     run 0 help o
     says out '--output'
-    for command in info make bench; do
+    for command in info make bench view; do
         run 0 $command --help
         cp out first
         run 0 --help $command

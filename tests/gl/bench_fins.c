@@ -5,7 +5,7 @@
  * As they have it: 1680 x 1050, one sample a pixel; silhouettes alone, 8 px, textured; pencil without lines. Each is
  * drawn FRAMES times, turning; what is told are medians of the device's time by timer queries, ms: of the frame, and
  * of its stages; then the frames a second that makes, and how many times theirs at the nearest size. DP_TEST_PICTURES=DIR
- * keeps pictures, and compares them with the CPU's. Curvature is made once a shape, on the CPU, and is told apart. */
+ * keeps pictures, and compares them with the CPU's; DP_TEST_EGL_DEVICE=N draws on the system's device N. Curvature is made once a shape, on the CPU, and is told apart. */
 #include "gl/context.h"
 
 #include "gl/gl.h"

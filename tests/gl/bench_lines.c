@@ -132,7 +132,7 @@ static void print_stages(gl_test *t) {
 
 static void measure(gl_test *t, const options *o, unsigned triangles) {
     char name[64];
-    snprintf(name, sizeof name, "shape:knot:%u", triangles);
+    snprintf(name, sizeof name, "shape:torus:%u", triangles);
     dp_source *const source = open_model(name);
     const dp_camera camera = camera_of(o, source, 0);
     dp_gl_mesh *mesh;

@@ -44,9 +44,27 @@ void *gl_context_proc(void *user, const char *name) {
     return address;
 }
 
+/* Mesa's display without a window; or, where DP_TEST_EGL_DEVICE is a number, that device's of the system, which is how drivers of
+ * graphics cards are reached. */
+static EGLDisplay open_display(gl_context *c) {
+    PFNEGLGETPLATFORMDISPLAYEXTPROC get_display;
+    PFNEGLQUERYDEVICESEXTPROC query;
+    EGLDeviceEXT devices[16];
+    EGLint count = 0;
+    const char *const asked = getenv("DP_TEST_EGL_DEVICE");
+    const __eglMustCastToProperFunctionPointerType f = c->proc("eglGetPlatformDisplayEXT"),
+                                                   g = c->proc("eglQueryDevicesEXT");
+    memcpy(&get_display, &f, sizeof get_display), memcpy(&query, &g, sizeof query);
+    if (!get_display) return EGL_NO_DISPLAY;
+    if (!asked) return get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    const int device = atoi(asked);
+    if (!query || !query(16, devices, &count) || device < 0 || device >= count)
+        return EGL_NO_DISPLAY;
+    return get_display(EGL_PLATFORM_DEVICE_EXT, devices[device], NULL);
+}
+
 gl_context *gl_context_create(int version, const char **why) {
     gl_context *const c = calloc(1, sizeof *c);
-    PFNEGLGETPLATFORMDISPLAYEXTPROC get_display;
     __typeof__(eglInitialize) *initialize;
     __typeof__(eglBindAPI) *bind_api;
     __typeof__(eglCreateContext) *create;
@@ -68,10 +86,7 @@ gl_context *gl_context_create(int version, const char **why) {
     load(c, &bind_api, "eglBindAPI");
     load(c, &create, "eglCreateContext");
     *why = "EGL has no display without a window";
-    const __eglMustCastToProperFunctionPointerType f = c->proc("eglGetPlatformDisplayEXT");
-    memcpy(&get_display, &f, sizeof get_display);
-    if (!get_display) goto fail;
-    c->display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    c->display = open_display(c);
     if (!c->display || !initialize(c->display, NULL, NULL)) goto fail;
     *why = "EGL has no OpenGL of that version";
     if (!bind_api(EGL_OPENGL_API)) goto fail;

@@ -114,7 +114,7 @@ static void compare(gl_test *t, const look *k) {
 static void equals_the_cpu(void **state) {
     static const look looks[] = {
         {"torus-2", "torus", NULL, 2, 4, false, 0.99},
-        {"torus-12", "torus", NULL, 12, 1, false, 0.99},
+        {"torus-12", "torus", NULL, 12, 4, false, 0.99},
         {"bracket-8", "bracket", NULL, 8, 4, true, 0.99},
         {"sheet-8", "terrain", NULL, 8, 4, false, 0.99},
     };
@@ -124,7 +124,7 @@ static void equals_the_cpu(void **state) {
 static void is_textured(void **state) {
     static const look looks[] = {
         {"charcoal", "torus", "charcoal", 10, 4, false, 0.97},
-        {"dashes", "bracket", "dashes", 8, 1, false, 0.97},
+        {"dashes", "bracket", "dashes", 8, 4, false, 0.97},
         {"rope", "terrain", "rope", 12, 4, false, 0.97},
     };
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) compare(*state, &looks[i]);
@@ -215,12 +215,142 @@ static void lies_over_shading(void **state) {
     compare_mesh(*state, "shaded", &batch, figure_camera(false, 20), style, 0.99);
 }
 
+/* Other classes are strokes, which lie over outlines. The CPU smooths them a little along their chains. */
+static void lies_over_creases(void **state) {
+    gl_test *const t = *state;
+    const look k = {"creases", "bracket", NULL, 8, 4, false, 0.97};
+    scene s;
+    if (!t->gl) skip();
+    open_scene(&k, &s);
+    s.style.lines = DP_ALL_LINES;
+    s.style.line[DP_LINE_RIDGE] = (dp_line_style){4, 0xd08020ff};
+    compare_scene(t, &k, &s);
+    close_scene(&s);
+}
+
+/* A texture with colours of its own. */
+static void brings_colours(void **state) {
+    gl_test *const t = *state;
+    const look k = {"coloured", "torus", "ink", 10, 4, true, 0.97};
+    uint8_t pixels[8][24][4];
+    scene s;
+    if (!t->gl) skip();
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 24; x++) {
+            const uint8_t p[4] = {(uint8_t)(10 * x), (uint8_t)(30 * y), (uint8_t)(255 - 10 * x),
+                                  (uint8_t)(x % 8 < 2 ? 20 : 255 - 20 * y)};
+            memcpy(pixels[y][x], p, 4);
+        }
+    open_scene(&k, &s);
+    dp_texture_destroy(s.texture);
+    const dp_texture_desc desc = {.pixels = pixels[0][0], .width = 24, .height = 8, .channels = 4};
+    assert_int_equal(dp_texture_create(&desc, &s.texture, NULL), DP_OK);
+    s.style.stroke.texture = s.texture;
+    compare_scene(t, &k, &s);
+    close_scene(&s);
+}
+
+/* The mirror shows silhouettes of the reflected scene. */
+static void is_mirrored(void **state) {
+    gl_test *const t = *state;
+    const look k = {"mirrored", "torus", NULL, 5, 4, false, 0.97};
+    scene s;
+    if (!t->gl) skip();
+    open_scene(&k, &s);
+    s.style.mirror = (dp_mirror){.normal = {0, 1, 0},
+                                 .offset = -0.6,
+                                 .size = 4,
+                                 .tint = DP_RGB(200, 210, 220),
+                                 .tint_share = 0.3f};
+    compare_scene(t, &k, &s);
+    close_scene(&s);
+}
+
+/* Strokes by adjacency are those that the table of edges finds, whose mates are an adjacency. */
+static void strokes_by_adjacency(void **state) {
+    gl_test *const t = *state;
+    static const look looks[] = {{"strokes", "bracket", NULL, 3, 4, false, 0.995},
+                                 {"strokes-open", "terrain", NULL, 3, 4, false, 0.99}};
+    if (!t->gl) skip();
+    for (size_t i = 0; i < 2; i++) {
+        const look *const k = &looks[i];
+        scene s;
+        open_scene(k, &s);
+        s.style.ink = DP_INK_STROKES, s.style.lines = DP_ALL_LINES;
+        uint8_t *const gpu = gl_test_draw(t, s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
+        uint8_t *const cpu = gl_test_draw_cpu(s.source, &s.camera, &s.style, WIDTH, HEIGHT, 4);
+        const double share = gl_test_alike(gpu, cpu, WIDTH, HEIGHT, 2);
+        keep(k, "once", gpu), keep(k, "cpu", cpu);
+        free(gpu), free(cpu);
+        close_scene(&s);
+        if (share < k->least) fail_msg("%s: %.4f of the pixels are alike", k->name, share);
+    }
+}
+
+/* Added triangles are no segments, and those of the picture before are gone. */
+static void has_no_segments(void **state) {
+    gl_test *const t = *state;
+    const look k = {"none", "torus", NULL, 3, 4, false, 0};
+    const dp_segment *segments;
+    size_t count[2];
+    scene s;
+    if (!t->gl) skip();
+    open_scene(&k, &s);
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 4);
+    dp_gl_mesh *mesh;
+    assert_int_equal(dp_gl_mesh_from_source(t->gl, s.source, &mesh, NULL), DP_OK);
+    for (int i = 0; i < 2; i++) {
+        s.style.ink = i ? DP_INK_QUADS : DP_INK_STROKES;
+        assert_int_equal(dp_gl_draw(t->gl, &mesh, 1, &s.camera, &s.style, &target, NULL), DP_OK);
+        assert_int_equal(dp_gl_segments(t->gl, &segments, &count[i], NULL), DP_OK);
+    }
+    assert_true(count[0] > 10 && count[1] == 0);
+    dp_gl_mesh_destroy(mesh);
+    close_scene(&s);
+}
+
+/* What is not drawn is named. */
+static void refuses_the_rest(void **state) {
+    gl_test *const t = *state;
+    const look k = {"refused", "torus", "charcoal", 10, 4, false, 0};
+    const struct {
+        dp_ink ink;
+        dp_method method;
+        uint32_t lines;
+        const char *why;
+    } cases[] = {{DP_INK_QUADS, DP_METHOD_EXACT, DP_SILHOUETTE, "visible chains"},
+                 {DP_INK_QUADS, DP_METHOD_PAPER, DP_ALL_LINES, "stylized strokes"},
+                 {DP_INK_STROKES, DP_METHOD_PAPER, DP_SILHOUETTE, "stylized strokes"}};
+    scene s;
+    dp_gl_mesh *mesh;
+    dp_diag diag;
+    if (!t->gl) skip();
+    open_scene(&k, &s);
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 4);
+    assert_int_equal(dp_gl_mesh_from_source(t->gl, s.source, &mesh, &diag), DP_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        s.style.ink = cases[i].ink, s.style.method = cases[i].method;
+        s.style.lines = cases[i].lines;
+        assert_int_equal(dp_gl_draw(t->gl, &mesh, 1, &s.camera, &s.style, &target, &diag),
+                         DP_ERR_UNSUPPORTED);
+        assert_non_null(strstr(diag.message, cases[i].why));
+    }
+    dp_gl_mesh_destroy(mesh);
+    close_scene(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(equals_the_cpu),
                                        cmocka_unit_test(is_textured),
                                        cmocka_unit_test(knows_fans_and_turned_faces),
                                        cmocka_unit_test(knows_polygons),
                                        cmocka_unit_test(clips_edges),
-                                       cmocka_unit_test(lies_over_shading)};
+                                       cmocka_unit_test(lies_over_shading),
+                                       cmocka_unit_test(lies_over_creases),
+                                       cmocka_unit_test(brings_colours),
+                                       cmocka_unit_test(is_mirrored),
+                                       cmocka_unit_test(strokes_by_adjacency),
+                                       cmocka_unit_test(has_no_segments),
+                                       cmocka_unit_test(refuses_the_rest)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }

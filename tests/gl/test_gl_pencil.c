@@ -1,5 +1,6 @@
 /* Pencil rendering on graphics hardware beside the CPU's; how much of the difference the texture units' filtering makes. */
 #include "gl/context.h"
+#include "gl/figure.h"
 
 #include "gl/gl.h"
 
@@ -90,7 +91,55 @@ static void equals_the_cpu(void **state) {
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) compare(*state, &looks[i]);
 }
 
+static GLuint buffer_of(gl_test *t, const void *data, size_t size) {
+    const dp_gl_api *const a = &t->gl->api;
+    GLuint name;
+    a->GenBuffers(1, &name);
+    a->BindBuffer(GL_COPY_WRITE_BUFFER, name);
+    a->BufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+    return name;
+}
+
+/* Positions that the application writes have their directions, made anew when they are others. */
+static void follows_buffers(void **state) {
+    gl_test *const t = *state;
+    static uint8_t rgba[4 * WIDTH * HEIGHT];
+    figure f;
+    dp_gl_mesh *mesh;
+    if (!t->gl) skip();
+    const dp_camera camera = figure_camera(false, 20);
+    const dp_style style = {.lines = DP_NO_LINES,
+                            .shade = {.shading = DP_SHADING_PENCIL, .normals = DP_NORMALS_FACET}};
+    const dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 1);
+    figure_make(&f, 0);
+    const GLuint names[2] = {buffer_of(t, f.positions, sizeof f.positions),
+                             buffer_of(t, f.indices, sizeof f.indices)};
+    const dp_gl_buffers buffers = {.positions = names[0],
+                                   .vertex_count = FIGURE_VERTICES,
+                                   .indices = names[1],
+                                   .triangle_count = FIGURE_TRIANGLES};
+    assert_int_equal(dp_gl_mesh_from_buffers(t->gl, &buffers, &mesh, NULL), DP_OK);
+    for (int i = 0; i < 2; i++) {
+        double turned[16];
+        figure_turn_matrix(turned, 40, 0.1);
+        if (i) figure_place(&f, turned);
+        t->gl->api.BindBuffer(GL_COPY_WRITE_BUFFER, names[0]);
+        t->gl->api.BufferSubData(GL_COPY_WRITE_BUFFER, 0, sizeof f.positions, f.positions);
+        assert_int_equal(dp_gl_draw(t->gl, &mesh, 1, &camera, &style, &target, NULL), DP_OK);
+        assert_int_equal(dp_gl_read(t->gl, &target, rgba, 0, NULL), DP_OK);
+        dp_source *const source = figure_source(&f);
+        uint8_t *const cpu = gl_test_draw_cpu(source, &camera, &style, WIDTH, HEIGHT, 1);
+        gl_test_keep(i ? "pencil-turned" : "pencil-buffers", rgba, WIDTH, HEIGHT);
+        assert_true(gl_test_alike(rgba, cpu, WIDTH, HEIGHT, 2) > 0.98);
+        free(cpu);
+        dp_source_destroy(source);
+    }
+    dp_gl_mesh_destroy(mesh);
+    t->gl->api.DeleteBuffers(2, names);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(equals_the_cpu)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equals_the_cpu),
+                                       cmocka_unit_test(follows_buffers)};
     return cmocka_run_group_tests(tests, gl_test_setup, gl_test_teardown);
 }

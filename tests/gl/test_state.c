@@ -462,14 +462,16 @@ static void set_switches(gl_test *t, bool odd) {
 /* ------- tests ------- */
 
 /* All calls that touch the device, the pictures of which are those of a context at rest. */
-static void call_all(gl_test *t, const dp_gl_target *target, answers *before, uint8_t *rgba) {
+static void call_all(gl_test *t, const dp_gl_target *target, bool lines, answers *before,
+                     uint8_t *rgba) {
     static answers after;
-    static const dp_style style = {.surface = DP_RGB(10, 200, 30)};
+    dp_style style = {.surface = DP_RGB(10, 200, 30)};
     dp_gl_mesh *mesh;
     dp_gl_stats stats;
     dp_diag diag = {0};
     const dp_camera camera = figure_camera(false, 20);
     figure f;
+    if (!lines) style.lines = DP_NO_LINES; /* those take many programs */
     figure_make(&f, 0);
     dp_source *const source = figure_source(&f);
     if (before) ask(t->gl, before);
@@ -480,7 +482,8 @@ static void call_all(gl_test *t, const dp_gl_target *target, answers *before, ui
     dp_gl_time_stages(t->gl, true);
     dp_texture *texture = NULL;
     assert_int_equal(dp_texture_named("charcoal", 0, NULL, &texture, NULL), DP_OK);
-    const dp_style fins = {.edges = DP_EDGES_ADJACENCY,
+    const dp_style fins = {.lines = DP_SILHOUETTE | DP_BORDER,
+                           .edges = DP_EDGES_ADJACENCY,
                            .ink = DP_INK_QUADS,
                            .method = DP_METHOD_PAPER,
                            .shade.shading = DP_SHADING_PENCIL,
@@ -505,7 +508,7 @@ static void keeps_state(void **state) {
     gl_test *const t = *state;
     if (!t->gl) skip();
     dp_gl_target target = gl_test_target(t, WIDTH, HEIGHT, 4);
-    call_all(t, &target, NULL, plain);
+    call_all(t, &target, true, NULL, plain);
     objects o = make_objects(t);
     target.framebuffer = o.framebuffers[1];
     set_pixels(t);
@@ -513,7 +516,7 @@ static void keeps_state(void **state) {
     set_each_buffer(t);
     set_values(t);
     assert_int_equal(t->gl->api.GetError(), GL_NO_ERROR);
-    call_all(t, &target, &before, odd);
+    call_all(t, &target, true, &before, odd);
     assert_memory_equal(odd, plain, sizeof odd);
     free_objects(t, &o);
 }
@@ -530,7 +533,7 @@ static void lives_beside_queries(void **state) {
     a->GenQueries(2, queries);
     a->BeginQuery(GL_TIME_ELAPSED, queries[0]);
     a->BeginQuery(GL_PRIMITIVES_GENERATED, queries[1]);
-    call_all(t, &target, NULL, rgba);
+    call_all(t, &target, false, NULL, rgba);
     a->EndQuery(GL_TIME_ELAPSED), a->EndQuery(GL_PRIMITIVES_GENERATED);
     a->GetQueryObjectui64v(queries[0], GL_QUERY_RESULT, &ns);
     assert_true(ns > 0);

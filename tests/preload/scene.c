@@ -19,6 +19,8 @@
 
 static Display *display;
 static Window window;
+static XVisualInfo *visual;
+static GLXContext context;
 
 /* ---- the bracket ---- */
 
@@ -197,6 +199,30 @@ static void draw_asking(void) {
     glTranslatef(-2.4f, -2.4f, -10);
     glScalef(0.2f, 0.2f, 0.2f);
     draw_begin(); /* no lines */
+}
+
+/* Another context, found by name, that shares the display lists; the first is destroyed meanwhile, with a list
+ * half compiled. */
+static void draw_contexts(void) {
+    typedef GLXContext create_context(Display *, XVisualInfo *, GLXContext, Bool);
+    typedef void call_list(GLuint);
+    create_context *const create =
+        (create_context *)glXGetProcAddress((const GLubyte *)"glXCreateContext");
+    call_list *const call = (call_list *)glXGetProcAddressARB((const GLubyte *)"glCallList");
+    glNewList(1, GL_COMPILE);
+    send_quads(0, QUADS);
+    glEndList();
+    glNewList(2, GL_COMPILE);
+    send_quads(0, 2);
+    const GLXContext other = create(display, visual, context, True);
+    glXMakeCurrent(display, window, other);
+    glXDestroyContext(display, context);
+    context = other;
+    glClearColor(1, 1, 1, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    look_at_bracket();
+    call(1);
 }
 
 /* ---- what is to be left as it is ---- */
@@ -463,18 +489,18 @@ static const struct scene {
     const char *name;
     void (*draw)(void);
 } scenes[] = {
-    {"begin", draw_begin},         {"strips", draw_strips},         {"list", draw_list},
-    {"nested", draw_nested},       {"arrays", draw_arrays},         {"elements", draw_elements},
-    {"buffers", draw_buffers},     {"inside-out", draw_inside_out}, {"asking", draw_asking},
-    {"untouched", draw_untouched}, {"state", draw_state},           {"wild", draw_wild},
+    {"begin", draw_begin},     {"strips", draw_strips},         {"list", draw_list},
+    {"nested", draw_nested},   {"arrays", draw_arrays},         {"elements", draw_elements},
+    {"buffers", draw_buffers}, {"inside-out", draw_inside_out}, {"contexts", draw_contexts},
+    {"asking", draw_asking},   {"untouched", draw_untouched},   {"state", draw_state},
+    {"wild", draw_wild},
 };
 
-static GLXContext open_window(void) {
+static int open_window(void) {
     int wanted[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_DEPTH_SIZE, 16, None};
     display = XOpenDisplay(NULL);
-    XVisualInfo *const visual =
-        display ? glXChooseVisual(display, DefaultScreen(display), wanted) : NULL;
-    if (!visual) return NULL;
+    visual = display ? glXChooseVisual(display, DefaultScreen(display), wanted) : NULL;
+    if (!visual) return 0;
     XSetWindowAttributes attributes = {0};
     const Window root = RootWindow(display, visual->screen);
     attributes.colormap = XCreateColormap(display, root, visual->visual, AllocNone);
@@ -484,9 +510,8 @@ static GLXContext open_window(void) {
                       visual->visual, CWColormap | CWBorderPixel | CWOverrideRedirect, &attributes);
     XMapWindow(display, window);
     XSync(display, False);
-    const GLXContext context = glXCreateContext(display, visual, NULL, True);
-    XFree(visual);
-    return context && glXMakeCurrent(display, window, context) ? context : NULL;
+    context = glXCreateContext(display, visual, NULL, True);
+    return context && glXMakeCurrent(display, window, context);
 }
 
 /* What the X server shows, so that GL is not asked. */
@@ -520,8 +545,7 @@ int main(int argc, char **argv) {
     if (argc < 3) return 2;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         if (strcmp(argv[1], scenes[i].name) != 0) continue;
-        const GLXContext context = open_window();
-        if (!context) {
+        if (!open_window()) {
             fprintf(stderr, "scene: no window for OpenGL\n");
             return 77;
         }
@@ -530,6 +554,7 @@ int main(int argc, char **argv) {
         const int failed = write_picture(argv[2]);
         glXMakeCurrent(display, None, NULL);
         glXDestroyContext(display, context);
+        XFree(visual);
         XCloseDisplay(display);
         return failed;
     }

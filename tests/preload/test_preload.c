@@ -177,8 +177,8 @@ static void assert_says_once(const char *messages, const char *text) {
 
 /* However the polygons come to GL. */
 static void test_lines(void **state) {
-    static const char *const scenes[] = {"begin",    "strips",  "list",      "arrays",
-                                         "elements", "buffers", "inside-out"};
+    static const char *const scenes[] = {"begin",    "strips",  "list",       "arrays",
+                                         "elements", "buffers", "inside-out", "contexts"};
     struct result result;
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {

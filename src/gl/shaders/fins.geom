@@ -26,6 +26,7 @@ PER_SAMPLE out vec3 place;     // x, y from which u is computed; v: 0 to 1, or 2
 flat out uint what; // of the surface 1 + triangle, else the class of line
 
 uniform uint lines;
+uniform int edges; // 3: a bound that compilers do not know, so that they do not unroll what is large
 
 Vertex vertex_at(int i) { return Vertex(v[i].screen, v[i].world); }
 
@@ -61,14 +62,14 @@ void main() {
         EndPrimitive();
     }
 #endif
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < edges; k++) {
         uint half_edge = 3u * t + uint(k), mate = mates[half_edge];
         uint other = is_mate(mate) ? facing_across(2 * k, mate) : 0u;
         uint line = outline_of(half_edge, own, other);
         if (line == NO_LINE || (lines >> line & 1u) == 0u) continue;
         FinEdge e = fin_edge(half_edge, front);
         if (!e.is_seen) continue;
-        for (int i = 0; i < 6; i++) {
+        for (int i = 0; i < 2 * edges; i++) {
             FinPoint p = fin_point(e, double(picture.widths[line].x), i);
             put(window_position(p.at, 1.0), p.place, line, 1.0, 1);
         }

@@ -6,7 +6,7 @@
 //     put       at the sum of the groups before, and of the triangles before in the group
 #define COMPUTE 64
 #define FACING_OF(t) facing[t]
-layout(std430, binding = 5) readonly buffer Facings { uint facing[]; };
+layout(std430, binding = 5) buffer Facings { uint facing[]; }; // of all triangles; then their outlines: bits of edges
 #include "outlines.glsl"
 
 layout(std430, binding = 6) writeonly buffer Listed { uint listed[]; };
@@ -16,32 +16,37 @@ uniform uint lines;
 
 shared uint counts[64];
 
-uint line_of(uint half_edge, uint own) {
-    uint mate = mates[half_edge];
-    uint line = outline_of(half_edge, own, is_mate(mate) ? facing[mate_of(mate) / 3u] : 0u);
-    return line != NO_LINE && (lines >> line & 1u) != 0u ? line : NO_LINE;
+#ifdef COUNT
+// Bits 0 to 2: the edge is an outline; 3 to 5: a border.
+uint outlines_of(uint t) {
+    uint bits = 0u;
+    for (uint k = 0u; k < 3u; k++) {
+        uint mate = mates[3u * t + k];
+        uint line = outline_of(3u * t + k, facing[t], is_mate(mate) ? facing[mate_of(mate) / 3u] : 0u);
+        if (line == NO_LINE || (lines >> line & 1u) == 0u) continue;
+        bits |= (line == BORDER ? 9u : 1u) << k;
+    }
+    return bits;
 }
+#endif
 
 void main() {
-    uint t = dp_item(), me = gl_LocalInvocationIndex, count = 0u;
-    uint found[3];
-    bool in_scene = t < picture.counts.y;
-    for (uint k = 0u; k < 3u && in_scene; k++) {
-        found[k] = line_of(3u * t + k, facing[t]);
-        count += found[k] != NO_LINE ? 1u : 0u;
-    }
-    counts[me] = count;
-    barrier();
-    uint group = t / 64u, groups = (picture.counts.y + 63u) / 64u;
-    uint sum = 0u;
-    for (uint i = 0u; i < me; i++) sum += counts[i];
+    uint t = dp_item(), count = picture.counts.y, me = gl_LocalInvocationIndex, bits = 0u, sum = 0u;
 #ifdef COUNT
-    if (me == 63u && group < groups) sums[group] = sum + count;
+    if (t < count) bits = facing[count + t] = outlines_of(t);
 #else
-    if (!in_scene) return;
+    if (t < count) bits = facing[count + t];
+#endif
+    counts[me] = uint(bitCount(bits & 7u));
+    barrier();
+    for (uint i = 0u; i < me; i++) sum += counts[i];
+    uint group = t / 64u;
+#ifdef COUNT
+    if (me == 63u && 64u * group < count) sums[group] = sum + counts[me];
+#else
+    if (t >= count) return;
     sum += sums[group];
     for (uint k = 0u; k < 3u; k++)
-        if (found[k] != NO_LINE)
-            listed[sum++] = (3u * t + k) << 1 | (found[k] == BORDER ? 1u : 0u);
+        if ((bits >> k & 1u) != 0u) listed[sum++] = (3u * t + k) << 1 | (bits >> (k + 3u) & 1u);
 #endif
 }

@@ -37,17 +37,22 @@ float limit_at(double d) {
 struct Query {
     vec2 at;     // px
     float limit; // d
-    uint a, b;   // triangles whose polygons do not hide it; b: NONE
+    uint a, b;   // triangles of the line; b: NONE
+    uint polygon_a, polygon_b; // their polygons, which do not hide it
 };
+Query query_of(vec2 at, float limit, uint a, uint b) {
+    uint polygon = polygon_of(a);
+    return Query(at, limit, a, b, polygon, b == NONE ? polygon : polygon_of(b));
+}
 bool is_own(uint triangle, Query q) {
     uint polygon = polygon_of(triangle);
-    return polygon == polygon_of(q.a) || (q.b != NONE && polygon == polygon_of(q.b));
+    return polygon == q.polygon_a || polygon == q.polygon_b;
 }
-// What lies beside the line's own triangles, as a sample's number: n < 6.
+// What lies beside the line's own triangles, n < 6; NONE: nothing.
 uint neighbour_of(Query q, uint n) {
     uint own = n < 3u ? q.a : q.b;
     uint mate = own == NONE ? MATE_NONE : mates[3u * own + n % 3u];
-    return is_mate(mate) ? 1u + mate_of(mate) / 3u : 0u;
+    return is_mate(mate) ? mate_of(mate) / 3u : NONE;
 }
 
 // A triangle about a point of the screen: on which side of edge k (from corner k) the point lies, times the sign of the
@@ -55,7 +60,8 @@ uint neighbour_of(Query q, uint n) {
 struct About {
     vec3 inside;
     float area; // sign: as on the screen; 0: it is too thin to tell
-    float d;    // of its plane, but no nearer than its nearest corner on the screen
+    float nearest; // depth of its corners on the screen
+    float d;       // of its plane there, but no nearer than that
 };
 const float THIN = 1e-4; // px
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
@@ -67,8 +73,8 @@ About about_on_screen(vec3 p0, vec3 p1, vec3 p2, vec2 at) {
     vec2 u = b - a, v = c - a;
     float reach = max(max(abs(u.x), abs(u.y)), max(abs(v.x), abs(v.y)));
     float d = (e.y * p0.z + e.z * p1.z + e.x * p2.z) / area;
-    return About(e * s, abs(area) > reach * THIN ? area : 0.0,
-                 min(d, max(max(p0.z, p1.z), p2.z)));
+    float nearest = max(max(p0.z, p1.z), p2.z);
+    return About(e * s, abs(area) > reach * THIN ? area : 0.0, nearest, min(d, nearest));
 }
 
 dvec3 homogeneous(ClipPoint c, vec2 at) {
@@ -89,7 +95,7 @@ About about_in_space(uint triangle, vec2 at) {
            s = volume < 0.0 ? -1.0 : 1.0;
     double before = p[0].c.z * e.y + p[1].c.z * e.z + p[2].c.z * e.x;
     double away = p[0].distance * e.y + p[1].distance * e.z + p[2].distance * e.x;
-    About r = About(vec3(e * s), float(volume), 0.0);
+    About r = About(vec3(e * s), float(volume), 0.0, 0.0);
     if (sum * s <= 0.0 || (before + volume) * s < 0.0) r.inside = vec3(0.0, 0.0, -1.0); // not before the eye
     r.d = float(is_perspective() ? sum / volume : -away / sum);
     return r;
@@ -101,22 +107,10 @@ About about(uint triangle, vec2 at) {
     return about_on_screen(a.xyz, b.xyz, c.xyz, at);
 }
 
-// The nearest depth of a triangle's corners on the screen.
-float nearest_of(uint triangle) {
-    return max(max(screen_of(corners[3u * triangle]).z, screen_of(corners[3u * triangle + 1u]).z),
-               screen_of(corners[3u * triangle + 2u]).z);
-}
-
-// The edge that the point lies furthest beyond; 3: it lies beyond none.
-uint beyond(About r, uint triangle, vec2 at) {
+// The edge that the point lies beyond, by the larger area; 3: it lies beyond none.
+uint beyond(About r) {
     vec3 e = r.inside;
     if (all(greaterThanEqual(e, vec3(0.0)))) return 3u;
-    for (uint k = 0u; k < 3u; k++) {
-        vec2 along = screen_of(corners[next_in(3u * triangle + k)]).xy -
-                     screen_of(corners[3u * triangle + k]).xy;
-        float size = length(along);
-        if (size > 0.0) e[k] /= size; // NaN, of a corner that is not on the screen: not divided
-    }
     return e.x <= e.y && e.x <= e.z ? 0u : e.y <= e.z ? 1u : 2u;
 }
 
@@ -130,12 +124,12 @@ uint walk(inout uint at, Query q, out bool votes) {
         if (is_own(at, q)) return CLEAR;
         About r = about(at, q.at);
         if (i == 0) votes = r.d > q.limit;
-        if (i == 0 && !votes && nearest_of(at) <= q.limit) return CLEAR;
+        if (i == 0 && !votes && r.nearest <= q.limit) return CLEAR;
         if (r.area != 0.0) {
             if (facing != 0.0 && (r.area < 0.0) != ((facing < 0.0) != alike)) return CLEAR;
             facing = r.area, alike = false;
         }
-        uint edge = beyond(r, at, q.at);
+        uint edge = beyond(r);
         if (edge == 3u) return r.area != 0.0 && r.d > q.limit ? HIDES : CLEAR;
         uint mate = mates[3u * at + edge];
         if (!is_mate(mate)) return UNSURE;
@@ -145,37 +139,57 @@ uint walk(inout uint at, Query q, out bool votes) {
     return UNSURE;
 }
 
-// Is the point hidden? `hider`: by which triangle; NONE: it is not known.
-bool is_hidden(Query q, out uint hider) {
+// What the samples around a point show: numbers of triangles, each once, but for the line's own.
+const int SHOWN = 12;
+struct Shown {
+    uint triangles[SHOWN];
+    int count, foreign; // foreign: samples of the point's own pixel where something of the application's hides it
+    bool any_clear;     // nothing lies before it at some sample
+};
+Shown shown_around(Query q) {
     ivec2 corner = ivec2(floor(q.at - 0.5)), own = ivec2(floor(q.at));
-    uvec4 last = uvec4(NONE);
-    int foreign = 0;
-    bool any_clear = false;
-    hider = NONE;
-    for (int n = 0; n < 4 * SAMPLES + 6; n++) {
+    Shown r;
+    uint last = NOTHING;
+    r.count = r.foreign = 0, r.any_clear = false;
+    for (int n = 0; n < 4 * SAMPLES; n++) {
         // the point's own pixel first
         int k = n / SAMPLES, i = n % SAMPLES;
         ivec2 p = corner + ivec2((k & 1) ^ (own.x - corner.x), (k >> 1) ^ (own.y - corner.y));
-        bool is_sample = n < 4 * SAMPLES;
-        if (!is_sample && !any_clear) return true;
-        uint id = !is_sample ? neighbour_of(q, uint(n - 4 * SAMPLES)) : is_in_picture(p) ? id_at(p, i) : NOTHING;
-        if (any(equal(uvec4(id), last)) || id == NOTHING) continue;
+        uint id = is_in_picture(p) ? id_at(p, i) : NOTHING;
+        if (id == NOTHING || id == last) continue;
         if (id == ID_FOREIGN) {
             bool hides = q.limit * depth_range.x + depth_range.y < texelFetch(depths, p, i).x;
-            foreign += int(hides && k == 0);
-            any_clear = any_clear || !hides;
+            r.foreign += int(hides && k == 0);
+            r.any_clear = r.any_clear || !hides;
             continue;
         }
-        last = uvec4(id, last.xyz);
-        uint at = id - 1u;
+        last = id;
+        bool known = id == 0u || is_own(id - 1u, q);
+        r.any_clear = r.any_clear || known;
+        for (int m = 0; m < r.count; m++) known = known || r.triangles[m] == id - 1u;
+        if (!known && r.count < SHOWN) r.triangles[r.count++] = id - 1u;
+    }
+    return r;
+}
+
+// Is the point hidden? `hider`: by which triangle; NONE: it is not known.
+bool is_hidden(Query q, out uint hider) {
+    Shown r = shown_around(q);
+    bool any_clear = r.any_clear;
+    hider = NONE;
+    // then what lies beside the line's own triangles
+    for (int n = 0; n < r.count + 6; n++) {
+        bool is_shown = n < r.count;
+        if (!is_shown && !any_clear) return true;
+        uint at = is_shown ? r.triangles[n] : neighbour_of(q, uint(n - r.count)), from = at;
         bool votes = false;
-        uint found = id == 0u ? CLEAR : walk(at, q, votes);
+        uint found = at == NONE ? CLEAR : walk(at, q, votes);
         if (found == HIDES) {
             hider = at;
             return true;
         }
-        if (found == UNSURE && votes && is_sample) hider = id - 1u;
+        if (found == UNSURE && votes && is_shown) hider = from;
         else any_clear = true;
     }
-    return foreign * 2 >= SAMPLES + int(SAMPLES == 1);
+    return r.foreign * 2 >= SAMPLES + int(SAMPLES == 1);
 }

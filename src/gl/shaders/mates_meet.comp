@@ -6,10 +6,10 @@
 // mates_settle.comp makes mates of this. A triangle without area has no neighbours: those beside it meet.
 #define COMPUTE 64
 #include "mates.glsl"
+#include "sides.glsl"
 
 layout(std430, binding = 4) buffer Slots { uint slots[]; }; // the first half-edge, or NONE
-
-uniform uint mask; // number of slots - 1; that is a power of two
+layout(std430, binding = 5) readonly buffer Sides { Side sides[]; };
 
 const uint PROBES = 4096u; // beyond these an edge has no mate
 
@@ -25,15 +25,11 @@ uint slot_of(uint a, uint b) {
     return h ^ h >> 16;
 }
 
-// As dp_polygon_has_no_area; in float32 where that is enough.
-bool has_area(uint triangle) {
-    vec3 o = world_of(corners[3u * triangle]), u = world_of(corners[3u * triangle + 1u]) - o,
-         v = world_of(corners[3u * triangle + 2u]) - o, n = cross(u, v);
-    float size = max(dot(u, u), dot(v, v)), area = dot(n, n);
-    if (area > 1e-6 * size * size && size > 1e-9 && area < 1e30) return true;
-    dvec3 du = dvec3(world_of(corners[3u * triangle + 1u])) - dvec3(o),
-          dv = dvec3(world_of(corners[3u * triangle + 2u])) - dvec3(o);
-    return length(area_normal(triangle)) > 1e-12 * max(dot(du, du), dot(dv, dv));
+// Number of slots - 1, as in mates.c: a power of two, four a triangle at least.
+uint slot_mask() {
+    uint slots = 1024u;
+    while (slots < 0x80000000u && slots / 4u < picture.counts.y) slots *= 2u;
+    return slots - 1u;
 }
 
 // `half_edge` has the edge whose first one is `first`.
@@ -44,7 +40,8 @@ void join(uint half_edge, uint first, bool alike) {
 }
 
 void meet(uint half_edge) {
-    uint a = corners[half_edge], b = corners[next_in(half_edge)], at = slot_of(a, b) & mask;
+    uint a = corners[half_edge], b = corners[next_in(half_edge)], mask = slot_mask(),
+         at = slot_of(a, b) & mask;
     for (uint i = 0u; i < PROBES; i++, at = (at + 1u) & mask) {
         uint first = atomicCompSwap(slots[at], NONE, half_edge);
         if (first == NONE) return;
@@ -59,6 +56,6 @@ void meet(uint half_edge) {
 
 void main() {
     uint t = dp_item();
-    if (t >= picture.counts.y || !has_area(t)) return;
+    if (t >= picture.counts.y || (sides[t].kind & SIDE_NO_AREA) != 0u) return;
     for (uint k = 0u; k < 3u; k++) meet(3u * t + k);
 }

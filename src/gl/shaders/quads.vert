@@ -13,6 +13,7 @@ flat out vec3 at; // a point of its plane: x, y, d
 flat out vec2 slope;
 flat out vec4 root;
 flat out float nearest;
+flat out vec3 outward; // of a quad: x, y unit, out of its polygon; z: px from there. 0 of others
 
 void main() {
     uint place = uint(gl_VertexID) / 6u, i = uint(gl_VertexID) % 6u;
@@ -25,6 +26,9 @@ void main() {
     at = a.points[0].xyz;
     slope = vec2(a.points[2].w, a.points[3].w);
     root = a.root;
+    vec2 along = root.zw - root.xy, n = vec2(-along.y, along.x);
+    n = dot(n, a.points[2].xy - root.xy) < 0.0 ? -n : n;
+    outward = along != vec2(0.0) ? vec3(n, -dot(n, root.xy)) / length(n) : vec3(0.0);
     nearest = max(max(a.points[0].z, a.points[1].z), max(a.points[2].z, a.points[3].z));
 #ifdef ORDERED
     if ((line & ADDED_FACE) != 0u) {

@@ -5,6 +5,7 @@
 #include "crossing.glsl"
 
 uniform float reach;
+uniform vec2 depth_range;
 layout(location = 0) out uint ink;
 flat in uint triangle;
 
@@ -20,23 +21,28 @@ bool touch(uint a, uint b) {
 bool may_intersect(uint a, uint b) {
     Crossing x;
     if (touch(first_of(a), first_of(b))) return false;
-    return (is_front(a) && is_front(b)) || cross_polygons(first_of(a), first_of(b), x);
+    return (faces_eye(a) && faces_eye(b)) || cross_polygons(first_of(a), first_of(b), x);
 }
 
 void main() {
     uint id = surface_id();
     if (!is_triangle(id)) discard;
     uint other = id - 1u;
+    if (other == triangle) discard;
     vec2 p = sample_at();
-    Plane s = plane_of(other), own = plane_of(triangle);
-    float surface = plane_at(s, p), d = plane_at(own, p), off = 2.0 * hold_off(d);
+    Plane s = face_plane(other);
+    float surface = plane_at(s, p), limit = surface * trap.x + trap.y;
+    // most are far behind, as the device's own depth tells
+    if ((gl_FragCoord.z - depth_range.y) / depth_range.x < limit - 3.0 * (surface - limit)) discard;
+    Plane own = face_plane(triangle);
+    float d = plane_at(own, p), off = 2.0 * hold_off(d);
 #ifdef INTERVAL // moved nearer, so that the surface itself and its duplicates are none
     d += off;
-    if (d >= surface || d < surface * trap.x + trap.y) discard;
+    if (d >= surface || d < limit) discard;
 #else
     if (polygon_of(other) == polygon_of(triangle)) discard;
     d -= off;
-    if (d > surface || d < surface * trap.x + trap.y) discard;
+    if (d > surface || d < limit) discard;
     if (!cross_within(surface - d, s.slope - own.slope, reach)) discard;
     if (!may_intersect(triangle, other)) discard;
 #endif

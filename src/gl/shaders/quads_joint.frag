@@ -15,7 +15,7 @@ void main() {
     uint id = surface_id();
     vec2 p = sample_at();
     if (is_triangle(id)) {
-        Plane s = plane_of(id - 1u);
+        Plane s = face_plane(id - 1u);
         float surface = plane_at(s, p), d = min(at.z + dot(slope, p - at.xy), nearest);
         bool close = surface >= d * trap.x + trap.y;
         if (close && !passes_root(p, surface - d, s.slope - slope, root, JOINT * reach)) discard;

@@ -1,6 +1,8 @@
 // One pass over all polygons in the order in which they come, as printed (Raskar 2001, 2.3 and 2.4): what is nearest updates
 // z1; a valley, or a face, that is not takes the between-test: z1 > d >= z2.
+#ifdef GL_ARB_fragment_shader_interlock
 #extension GL_ARB_fragment_shader_interlock : enable
+#endif
 #include "quads_surface.glsl"
 #include "quads_records.glsl"
 #define STATE_ACCESS coherent
@@ -15,6 +17,7 @@ flat in uint line, triangle;
 flat in vec3 at;
 flat in vec2 slope;
 flat in float nearest;
+flat in vec3 outward;
 
 // A sample's state after this fragment. Nothing is trapped behind a line that stands before the surface.
 uint after(uint old, uint mine, float d, bool face, bool may_be_trapped) {
@@ -30,11 +33,12 @@ uint after(uint old, uint mine, float d, bool face, bool may_be_trapped) {
 
 void main() {
     vec2 p = sample_at();
+    if (dot(outward.xy, p) + outward.z < 0.0) discard; // see quads_line.frag
     bool face = (line & ADDED_FACE) != 0u;
     float d = min(at.z + dot(slope, p - at.xy), nearest);
     uint mine = state_of(to_window(d), (line & ADDED_LINE) + 1u),
          place = place_in_states(ivec2(gl_FragCoord.xy), gl_SampleID);
-    bool may_be_trapped = face ? intersections != 0u && is_front(triangle)
+    bool may_be_trapped = face ? intersections != 0u && faces_eye(triangle)
                                : (line & ADDED_VALLEY) != 0u;
 #ifdef GL_ARB_fragment_shader_interlock
     beginInvocationInterlockARB();

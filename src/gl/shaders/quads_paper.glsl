@@ -96,7 +96,7 @@ void project(Task k, ScreenEdge e, double reach_) {
     for (uint i = 1u; i + 1u < point_count; i += 2u) {
         dvec3 p[4] = dvec3[4](o, point_at(i), point_at(i + 1u), o);
         if (i + 2u < point_count) p[3] = point_at(i + 2u);
-        put(k, p, slope, e.a.xy, e.b.xy, nearest);
+        put(k, p, slope, k.kind == BEVEL ? e.b.xy : e.a.xy, e.b.xy, nearest); // a bevel has no edge
     }
 }
 

@@ -1,8 +1,7 @@
 // Puts the samples' ink into the picture: over the samples' surface or paper; LAYERED: over the shaded picture, as a layer of 8
 // bits, as printed/quads_put.c and shade/compose.c do. ONCE: of the one pass.
-#include "scene.glsl"
+#include "quads_faces.glsl"
 #include "ids.glsl"
-#include "facing.glsl"
 #include "colors.glsl"
 #include "depths.glsl"
 #include "over.glsl"
@@ -27,7 +26,7 @@ uniform sampler2D under;
 // Is the back face that is seen at the sample closely behind the silhouette?
 bool is_spared(ivec2 p, int i, float window) {
     uint id = id_at(p, i);
-    if (!is_triangle(id) || is_front(id - 1u)) return false;
+    if (!is_triangle(id) || floatBitsToUint(faces[id - 1u].at.w) != 0u) return false;
     float surface = depth_at(p, i),
           d = (surface - depth_range.y) / depth_range.x,
           px = SPARE * picture.widths[SILHOUETTE].x,

@@ -1,12 +1,16 @@
 // What added polygons, and faces that may intersect others, are asked about the surface at a sample.
-#include "scene.glsl"
+#include "quads_faces.glsl"
 #include "ids.glsl"
-#include "facing.glsl"
 
 uniform vec2 trap; // from depth d to how far behind it still counts: d * x + y
 
 vec2 sample_at() { return floor(gl_FragCoord.xy) + place_of(gl_SampleID); }
 uint surface_id() { return id_at(ivec2(gl_FragCoord.xy), gl_SampleID); }
+
+Plane face_plane(uint triangle) {
+    return Plane(faces[triangle].at.xyz, faces[triangle].slope.xy);
+}
+bool faces_eye(uint triangle) { return floatBitsToUint(faces[triangle].at.w) != 0u; }
 
 bool cross_within(float gap, vec2 g, float px) { return gap * gap <= dot(g, g) * px * px; }
 

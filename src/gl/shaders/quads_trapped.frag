@@ -9,12 +9,14 @@ flat in vec3 at;
 flat in vec2 slope;
 flat in vec4 root;
 flat in float nearest;
+flat in vec3 outward;
 
 void main() {
     uint id = surface_id();
     if (!is_triangle(id)) discard;
     vec2 p = sample_at();
-    Plane s = plane_of(id - 1u);
+    p += outward.xy * max(-dot(outward.xy, p) - outward.z, 0.0) * 2.0; // see quads_line.frag
+    Plane s = face_plane(id - 1u);
     float surface = plane_at(s, p), d = min(at.z + dot(slope, p - at.xy), nearest),
           gap = surface - d;
     if (d < surface * trap.x + trap.y) discard;
@@ -24,7 +26,7 @@ void main() {
     if (gap < 0.0 || polygon_of(id - 1u) == polygon_of(triangle)) discard;
     vec2 g = s.slope - slope;
     if (!cross_within(gap, g, reach) || !passes_root(p, gap, g, root, reach)) discard;
-    if (!is_front(id - 1u)) discard;
+    if (!faces_eye(id - 1u)) discard;
 #endif
     ink = (line & 7u) + 1u;
 }

@@ -1,4 +1,4 @@
-// What each triangle shows to the eye, made once a picture (edge_faces.comp): that of the polygon it is part of.
+// What each triangle shows to the eye: that of the polygon it is part of (sides.comp).
 struct Side {
     vec3 normal; // unit, as it is wound
     uint kind;

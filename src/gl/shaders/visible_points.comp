@@ -22,7 +22,7 @@ bool is_visible(uint line, uint k, uint a, uint b) {
     dvec3 p = probe_of(line, k);
     uint hider;
     if (!is_probe_in_picture(p)) return false;
-    return !is_hidden(Query(vec2(p.xy), limit_at(p.z), a, b), hider) &&
+    return !is_hidden(query_of(vec2(p.xy), limit_at(p.z), a, b), hider) &&
            (lines[line].asks_back == 0u || is_back_seen(vec2(p.xy)));
 }
 
