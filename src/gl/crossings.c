@@ -9,9 +9,9 @@
  *
  * Where a crossing is in sight the nearer of the two surfaces changes there, so samples on both sides of it show
  * both. Fine meshes, of which not every triangle shows in a sample, are followed by their mates. Data structure: a table of
- * pairs that have been asked for, open addressing. Invariant: each pair
- * is asked once. Where triangles are far smaller than a pixel a walk may end beside another one's, so that parts of a
- * pixel are found in one picture and not in the next. Not handled: crossings less than a pixel long of polygons without neighbours. */
+ * pairs that have been asked for, open addressing. Invariant: each pair is asked once. Where triangles are far
+ * smaller than a pixel a walk may end beside another one's, so that parts of a pixel are found in one picture and not in
+ * the next. Not handled: crossings less than a pixel long of polygons without neighbours. */
 #include "gl/lines.h"
 
 /* The same in shaders/crossings.glsl. */
