@@ -66,7 +66,7 @@ static void read_number(const char *name, float from, float to, float *result) {
         return;
     }
     char wanted[64];
-    snprintf(wanted, sizeof wanted, "a number from %d to %d", (int)from, (int)to);
+    snprintf(wanted, sizeof wanted, "a number from %g to %g", (double)from, (double)to);
     bad_value(name, value, wanted);
 }
 

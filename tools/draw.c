@@ -77,21 +77,33 @@ int drawing_open(const tool_settings *s, drawing *d, uint32_t threads) {
 
 /* ---- drawing ---- */
 
+/* What takes seconds there is mostly the first picture, for which the driver compiles shaders. */
+static const char gl_at_work[] =
+    "drawing by OpenGL (its shaders are compiled once, and kept by the driver)";
+
+static int refused_by_gl(const dp_diag *diag) {
+    if (diag->result == DP_ERR_UNSUPPORTED)
+        wrong_usage("--gl: %s; leave out --gl", diag->message);
+    else
+        report_failure("--gl", diag);
+    return EXIT_FAILED;
+}
+
 /* Draws by OpenGL; the lines become the context's if anyone asks for them. */
 static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
                       const object_styles *objects, const dp_target *target) {
     dp_diag diag = {0};
     if (objects->count) {
         wrong_usage(
-            "--gl: OpenGL draws no object in a look of its own; leave out --object, or --gl");
+            "--gl: OpenGL draws no object in a look of its own; leave out --gl, or --object");
         return EXIT_FAILED;
     }
+    progress_wait_begin(gl_at_work, s->quiet);
     dp_result result = gl_draw(d->gl, &v->camera, style, target, &diag);
+    progress_wait_end();
     if (!result && (d->paths || s->outputs[OUTPUT_TRACE]) && style->lines != DP_NO_LINES)
         result = gl_hand_over(d->gl, d->context, &diag);
-    if (!result) return 0;
-    report_failure("--gl", &diag);
-    return EXIT_FAILED;
+    return result ? refused_by_gl(&diag) : 0;
 }
 
 static int draw_into(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
@@ -136,14 +148,14 @@ static void take_stats(drawing *d, int k) {
 }
 
 /* Uploads the model, or where its vertices are now. */
-static int take_source(drawing *d) {
+static int take_source(const tool_settings *s, drawing *d) {
     dp_diag diag = {0};
     if (!d->gl || d->gl_lent) return 0;
+    progress_wait_begin(gl_at_work, s->quiet);
     const dp_result result = gl_take(d->gl, d->source, d->gl_taken, &diag);
+    progress_wait_end();
     d->gl_taken = true;
-    if (!result) return 0;
-    report_failure("--gl", &diag);
-    return EXIT_FAILED;
+    return result ? refused_by_gl(&diag) : 0;
 }
 
 static int draw_lines(const tool_settings *s, drawing *d, int k) {
@@ -170,7 +182,7 @@ static void clear_views(drawing *d) {
 
 /* The ground first: the context's last drawing is that of the lines, which the trace is of. */
 int drawing_draw(const tool_settings *s, drawing *d) {
-    int code = take_source(d);
+    int code = take_source(s, d);
     clear_views(d);
     if (d->plan.paged && d->target.rgba) ink_paper(&d->target, s->style.paper);
     for (int k = 0; k < d->plan.view_count && !code; k++) {

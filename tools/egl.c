@@ -65,11 +65,18 @@ static bool put(void *to, const void *address) {
     return address != NULL;
 }
 
+/* What is wrong with the first name is what is told: the others are spellings of it. */
 static bool load_library(egl_context *e) {
     static const char *const names[] = {"libEGL.so.1", "libEGL.so", "libEGL.dylib"};
-    for (size_t k = 0; k < sizeof names / sizeof *names && !e->library; k++)
+    char first[256] = "";
+    for (size_t k = 0; k < sizeof names / sizeof *names && !e->library; k++) {
         e->library = dlopen(names[k], RTLD_NOW | RTLD_LOCAL);
-    return e->library != NULL;
+        if (!e->library && !k) snprintf(first, sizeof first, "%s", dlerror());
+    }
+    if (e->library) return true;
+    return wrong_usage("--gl: there is no libEGL here (%s): install libegl1 and libgl1-mesa-dri, "
+                       "or leave --gl out",
+                       first);
 }
 
 static bool load_functions(egl_context *e) {
@@ -164,20 +171,32 @@ static bool try_all(egl_context *e, int major, int minor) {
     return try_devices(e, true, major, minor) || try_display(e, e->get_display(NULL), major, minor);
 }
 
+/* No display has the version: is there an older one? Says what would help. */
+static void explain(egl_context *e, int major, int minor) {
+    enum { VERSION = 0x1F02 };
+    const unsigned char *(*get_string)(unsigned name) = NULL;
+    const bool older = try_all(e, 3, 2) && put(&get_string, egl_function(e, "glGetString"));
+    const unsigned char *const version = older ? get_string(VERSION) : NULL;
+    if (version)
+        wrong_usage("--gl: OpenGL %d.%d or later is needed, here is %s: install a newer driver, "
+                    "try LIBGL_ALWAYS_SOFTWARE=1, or leave --gl out",
+                    major, minor, (const char *)version);
+    else
+        wrong_usage("--gl: no OpenGL %d.%d or later was found through EGL: install libgl1-mesa-dri "
+                    "or the driver of the graphics hardware, or leave --gl out",
+                    major, minor);
+}
+
 egl_context *egl_open(int major, int minor) {
     egl_context *const e = calloc(1, sizeof *e);
     if (!e)
         wrong_usage("out of memory for a context of OpenGL");
     else if (!load_library(e))
-        wrong_usage("--gl: there is no libEGL here (%s): install libegl1 and libgl1-mesa-dri, or "
-                    "leave --gl out",
-                    dlerror());
+        ; /* it has been said */
     else if (!load_functions(e))
         wrong_usage("--gl: this libEGL is too old; version 1.5 is needed");
     else if (!try_all(e, major, minor))
-        wrong_usage("--gl: no OpenGL %d.%d or later was found through EGL: install libgl1-mesa-dri "
-                    "or the driver of the graphics hardware, or leave --gl out",
-                    major, minor);
+        explain(e, major, minor);
     else
         return e;
     egl_close(e);

@@ -107,11 +107,19 @@ void gl_close(tool_gl *g) {
 const char *gl_device(const tool_gl *g) { return dp_gl_device(g->gl); }
 uint32_t gl_framebuffer(const tool_gl *g) { return g->framebuffer; }
 
+/* The library refers to its own function; who reads this has a program. */
+static dp_result without_functions(dp_diag *diag) {
+    char *const advice = strstr(diag->message, "; dp_draw does");
+    if (advice) *advice = 0;
+    return diag->result;
+}
+
 dp_result gl_take(tool_gl *g, dp_source *source, bool moved, dp_diag *diag) {
     if (moved && g->mesh) return dp_gl_mesh_update(g->mesh, source, diag);
     dp_gl_mesh_destroy(g->mesh);
     g->mesh = NULL;
-    return dp_gl_mesh_from_source(g->gl, source, &g->mesh, diag);
+    const dp_result result = dp_gl_mesh_from_source(g->gl, source, &g->mesh, diag);
+    return result ? without_functions(diag) : DP_OK;
 }
 
 static dp_result make_framebuffer(tool_gl *g, uint32_t width, uint32_t height, dp_diag *diag) {
@@ -148,7 +156,7 @@ dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
     result = dp_gl_draw(g->gl, &g->mesh, 1, camera, style, &to, diag);
     if (!result && target->rgba)
         result = dp_gl_read(g->gl, &to, target->rgba, target->rgba_stride, diag);
-    return result;
+    return result ? without_functions(diag) : DP_OK;
 }
 
 dp_result gl_hand_over(tool_gl *g, dp_context *context, dp_diag *diag) {

@@ -374,7 +374,7 @@ const option option_table[] = {
     {"gl", 0, NULL, OPTION_FLAG, GROUP_METHOD, DRAW, AT(gl), 0, 0, 0,
      "Draw by OpenGL 4.3 or later, without a window (through EGL): the same lines, found and drawn by the graphics "
      "hardware or by Mesa's llvmpipe. --detail is exact there. What OpenGL does not draw fails and is named; without "
-     "--gl it is drawn."},
+     "--gl it is drawn. The first picture takes seconds longer: shaders are compiled, and kept by the driver."},
     {"backend", 0, "cpu|gl", OPTION_WORD, GROUP_METHOD, VIEW, AT(backend), 0, 0, 0,
      "What draws at first: the processor, or OpenGL 4.3, which has exact lines and not all looks. The key g changes "
      "it. Default: cpu."},

@@ -38,8 +38,18 @@ static const char *spoken_name(unsigned command) {
     return command == COMMAND_DRAW ? "MODEL" : command_table[command].name;
 }
 
+/* The viewer's word for OpenGL is another than the program's. */
+static bool other_word(const option *o, tool_command command) {
+    if (command == COMMAND_VIEW && !strcmp(o->name, "gl"))
+        return wrong_usage("option --gl does not belong to \"drypoint view\"; give --backend gl");
+    if (command == COMMAND_DRAW && !strcmp(o->name, "backend"))
+        return wrong_usage("option --backend belongs to \"drypoint view\"; give --gl");
+    return true;
+}
+
 static bool misplaced_option(const option *o, tool_command command) {
     unsigned owner = 0;
+    if (!other_word(o, command)) return false;
     while (!(o->commands >> owner & 1)) owner++;
     return wrong_usage("option --%s does not belong to \"drypoint %s\" but to \"drypoint %s\"",
                        o->name, spoken_name(command), spoken_name(owner));

@@ -10,6 +10,7 @@
  * If a writer is blocked, a signal interrupts its system call, which fails and ends the writer. */
 #include "progress.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,12 +22,23 @@ static volatile sig_atomic_t writing;
 static volatile sig_atomic_t bar_shown;
 static volatile sig_atomic_t child_process;
 
-static struct {
+typedef struct piece_of_work {
     const char *what;
     struct timespec start;
     double last_shown; /* seconds since start */
     bool enabled;
-} work;
+} piece_of_work;
+
+static piece_of_work work;
+
+/* A thread that shows `work` while nobody reports it; `outer` is what goes on afterwards. */
+static struct {
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    bool runs, over;
+    piece_of_work outer;
+} waiting = {.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
 
 static int (*listener)(double fraction);
 
@@ -136,4 +148,58 @@ void progress_end(void) {
     if (listener) return;
     progress_clear();
     work.enabled = false;
+}
+
+/* ---- work that reports nothing ---- */
+
+static struct timespec soon(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    t.tv_nsec += 200000000;
+    if (t.tv_nsec >= 1000000000) t.tv_sec++, t.tv_nsec -= 1000000000;
+    return t;
+}
+
+static void *show_waiting(void *user) {
+    (void)user;
+    pthread_mutex_lock(&waiting.lock);
+    while (!waiting.over) {
+        const struct timespec until = soon();
+        pthread_cond_timedwait(&waiting.changed, &waiting.lock, &until);
+        if (!waiting.over) progress_report(NULL, -1);
+    }
+    pthread_mutex_unlock(&waiting.lock);
+    return NULL;
+}
+
+/* The thread takes no signals: Ctrl-C is for the one that works. */
+static bool start_waiting(void) {
+    sigset_t all, before;
+    waiting.over = false;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const bool started = !pthread_create(&waiting.thread, NULL, show_waiting, NULL);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started;
+}
+
+void progress_wait_begin(const char *what, bool quiet) {
+    if (listener) return;
+    waiting.outer = work;
+    progress_begin(what, quiet);
+    waiting.runs = work.enabled && start_waiting();
+}
+
+void progress_wait_end(void) {
+    if (listener) return;
+    if (waiting.runs) {
+        pthread_mutex_lock(&waiting.lock);
+        waiting.over = true;
+        pthread_cond_signal(&waiting.changed);
+        pthread_mutex_unlock(&waiting.lock);
+        pthread_join(waiting.thread, NULL);
+        waiting.runs = false;
+        progress_clear();
+    }
+    work = waiting.outer;
 }

@@ -11,6 +11,9 @@ void progress_begin(const char *what, bool quiet);
 /* For the library: fraction in [0, 1], negative when the end is unknown. Non-zero after Ctrl-C. */
 int progress_report(void *user, double fraction);
 void progress_end(void);
+/* The same for work that reports nothing: a thread keeps the bar alive meanwhile. What was begun before goes on after it. */
+void progress_wait_begin(const char *what, bool quiet);
+void progress_wait_end(void);
 /* From now on `hear` is told instead, and decides whether the work is stopped, from whatever thread does it. NULL: the
  * bar again. */
 void progress_to(int (*hear)(double fraction));

@@ -171,6 +171,7 @@ void view_seek(viewer *v, double time) {
 
 void act_play(viewer *v, int arg) {
     (void)arg;
+    if (!v->model.source) return;
     if (!v->model.moves) {
         messages_say("Nothing moves in this model; --deform wave would make it");
         return;

@@ -131,6 +131,14 @@ static bool take_by_gl(viewer *v) {
     return v->gl_taken = true;
 }
 
+static void show(viewer *v) {
+    int width, height;
+    glfwGetFramebufferSize(v->window, &width, &height);
+    screen_show(v->screen, width, height);
+    controls_show(v);
+    glfwSwapBuffers(v->window);
+}
+
 static void show_picture(viewer *v) {
     const picture *const p = &v->picture;
     if (p->by_gl)
@@ -139,9 +147,19 @@ static void show_picture(viewer *v) {
         screen_upload(v->screen, p->rgba, p->width, p->height);
 }
 
+/* Says, before the first picture by OpenGL, why the window may stand still. Twice, as controls settle in the second. */
+static void say_compiling(viewer *v) {
+    if (v->gl_drew) return;
+    v->gl_drew = true;
+    messages_say("OpenGL's shaders are compiled: seconds, but once, as the driver keeps them");
+    show(v);
+    show(v);
+}
+
 /* Draws; what OpenGL refuses is drawn by the processor, and so is all that follows until it is asked for again. */
 static void draw_picture(viewer *v) {
     v->draw = false;
+    if (v->line.gl) say_compiling(v);
     if (v->line.gl && take_by_gl(v) && picture_draw(&v->picture, &v->model, v->gl, v->quality)) {
         show_picture(v);
         return;
@@ -176,14 +194,6 @@ static void go_on_playing(viewer *v) {
     v->play_last = now;
     if (v->model.lasts > 0) time = fmod(time, v->model.lasts);
     view_seek(v, time);
-}
-
-static void show(viewer *v) {
-    int width, height;
-    glfwGetFramebufferSize(v->window, &width, &height);
-    screen_show(v->screen, width, height);
-    controls_show(v);
-    glfwSwapBuffers(v->window);
 }
 
 static void frame(viewer *v) {
@@ -309,7 +319,10 @@ static bool begin_window(viewer *v, const tool_settings *s) {
     int w, h, points, other_points;
     choose_size(s, &width, &height);
     v->window = open_window(width, height);
-    if (!v->window) return wrong_usage("no window with OpenGL 3.2 or later can be opened");
+    if (!v->window)
+        return wrong_usage(
+            "no window with OpenGL 3.2 or later can be opened: install a newer driver, try "
+            "LIBGL_ALWAYS_SOFTWARE=1, or draw into files: drypoint MODEL -o OUT.png");
     glfwMakeContextCurrent(v->window);
     glfwSwapInterval(1);
     make_size_pixels(v->window, width, height);

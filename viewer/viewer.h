@@ -15,6 +15,7 @@ typedef struct viewer {
     screen *screen;
     tool_gl *gl;   /* NULL: not asked for yet, or not there */
     bool gl_taken; /* it has the model as it is now */
+    bool gl_drew;  /* it has drawn a picture, or begun to */
 
     cmdline line;         /* what is seen */
     cmd_options at_start; /* its options at first */

@@ -163,7 +163,7 @@ static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {
     if (!result) result = dp_gather(source, &store, &m->gl->memory, &polygons, &stats, diag);
     if (!result && polygons.mark_count)
         result = dp_fail(diag, DP_ERR_UNSUPPORTED,
-                         "sections and hatching are not drawn by OpenGL: clip planes need dp_draw");
+                         "OpenGL does not draw sections and hatching; dp_draw does");
     if (!result) result = upload_polygons(m, &polygons, diag);
     if (!result) result = dp_gl_mesh_take_attributes(m, &polygons, diag);
     if (!result) result = take_colors(m, source, &polygons, diag);
