@@ -159,7 +159,12 @@ static void barrier(dp_gl *gl) {
 }
 
 static dp_result run_pass(dp_gl *gl, const pass *p, dp_diag *diag) {
+    const dp_gl_program_desc desc = {.compute = p->file};
+    const size_t arguments =
+        offsetof(eye_head, groups) + 16 * (size_t)(p->groups < 0 ? 0 : p->groups);
     uint32_t program;
+    if (p->groups >= 0 && dp_gl_program_is_spared(gl, &desc, &gl->eye.words, arguments))
+        return DP_OK;
     const dp_result result = use(gl, p->file, p->own, &program, diag);
     if (result) return result;
     dp_gl_faces_bind(gl, program);
@@ -168,8 +173,7 @@ static dp_result run_pass(dp_gl *gl, const pass *p, dp_diag *diag) {
         return DP_OK;
     }
     gl->api.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl->eye.words.name);
-    gl->api.DispatchComputeIndirect(
-        (GLintptr)(offsetof(eye_head, groups) + 16 * (size_t)p->groups));
+    gl->api.DispatchComputeIndirect((GLintptr)arguments);
     barrier(gl);
     return DP_OK;
 }

@@ -153,6 +153,7 @@ static void clear(dp_gl_mesh *m) {
     m->fingerprint = 0;
     if (!m->group_colors) m->group_count = 0;
     m->topology = dp_gl_number(m->gl);
+    m->gl->drawn = false; /* as in upload_topology */
 }
 
 static dp_result take_source(dp_gl_mesh *m, dp_source *source, dp_diag *diag) {

@@ -263,7 +263,8 @@ static dp_result make_image(dp_gl *gl, const dp_gl_mesh *from, const double orig
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a mirror image");
     dp_gl_mesh *const m = to->mesh;
     m->group_colors = from->group_colors; /* borrowed */
-    m->group_count = from->group_count, m->polygons = from->polygons;
+    m->group_count = from->group_count;
+    m->polygons = from->polygons, m->pieces = from->pieces;
     if (is_current(to, from, &key)) return DP_OK;
     m->topology = 0;
     const bool moves = dp_gl_placement_of(from, origin, s->block.placement);

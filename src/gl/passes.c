@@ -78,11 +78,14 @@ static dp_result count_groups(dp_gl *gl, dp_gl_list list, uint32_t times, dp_dia
 
 dp_result dp_gl_pass_list(dp_gl *gl, const char *compute, const dp_gl_buffer *const own[DP_GL_OWN],
                           dp_gl_list list, uint32_t times, dp_diag *diag) {
+    const dp_gl_program_desc desc = {.compute = compute};
+    const size_t arguments = offsetof(dp_gl_counters, groups);
     dp_result result = count_groups(gl, list, times, diag);
+    if (!result && dp_gl_program_is_spared(gl, &desc, &gl->lines.counters, arguments)) return DP_OK;
     if (!result) result = dp_gl_pass_use(gl, compute, own, diag);
     if (result) return result;
     gl->api.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl->lines.counters.name);
-    gl->api.DispatchComputeIndirect((GLintptr)offsetof(dp_gl_counters, groups));
+    gl->api.DispatchComputeIndirect((GLintptr)arguments);
     gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     return DP_OK;
 }

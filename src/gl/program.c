@@ -196,15 +196,27 @@ static uint64_t key_of(const dp_gl *gl, const dp_gl_program_desc *d) {
     return hash;
 }
 
+/* The program in the list, 0: it is not made yet. */
+static uint32_t find(const dp_gl *gl, uint64_t key) {
+    const dp_gl_programs *const p = &gl->programs;
+    for (size_t i = 0; i < p->count; i++)
+        if (p->entries[i].key == key) return p->entries[i].name;
+    return 0;
+}
+
+bool dp_gl_program_is_spared(dp_gl *gl, const dp_gl_program_desc *desc,
+                             const dp_gl_buffer *arguments, size_t offset) {
+    uint32_t groups = 0;
+    if (find(gl, key_of(gl, desc))) return false;
+    dp_gl_buffer_read(gl, arguments, offset, sizeof groups, &groups);
+    return groups == 0;
+}
+
 dp_result dp_gl_program(dp_gl *gl, const dp_gl_program_desc *desc, uint32_t *program,
                         dp_diag *diag) {
     dp_gl_programs *const p = &gl->programs;
     const uint64_t key = key_of(gl, desc);
-    for (size_t i = 0; i < p->count; i++)
-        if (p->entries[i].key == key) {
-            *program = p->entries[i].name;
-            return DP_OK;
-        }
+    if ((*program = find(gl, key))) return DP_OK;
     if (!dp_reserve(&gl->memory, &p->entries, &p->entries_cap, p->count + 1, sizeof *p->entries))
         return dp_fail(diag, DP_ERR_MEMORY, "out of memory for a shader program");
     const dp_result result = build(gl, desc, program, diag);

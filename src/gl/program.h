@@ -2,7 +2,7 @@
 #ifndef DP_GL_PROGRAM_H
 #define DP_GL_PROGRAM_H
 
-#include <drypoint/gl.h>
+#include "gl/buffer.h"
 
 /* Names of files in src/gl/shaders/; NULL: no such stage. In these files `#include "other.glsl"` takes
  * another one in, once. */
@@ -27,6 +27,11 @@ typedef struct dp_gl_programs {
  * compiler said, all of which goes to dp_gl_desc.message. */
 dp_result dp_gl_program(dp_gl *gl, const dp_gl_program_desc *desc, uint32_t *program,
                         dp_diag *diag);
+/* Would this compute program have no groups to run, by the arguments of an indirect dispatch in a buffer, and is it not made
+ * yet? Then it need not be: compilers take seconds for what only some models need. The device is waited for until the
+ * program is made, and never after that. */
+bool dp_gl_program_is_spared(dp_gl *gl, const dp_gl_program_desc *desc,
+                             const dp_gl_buffer *arguments, size_t offset);
 void dp_gl_programs_free(dp_gl *gl);
 
 /* Sets a uniform of the bound program by name; nothing if it has none such. For what is not in the picture's

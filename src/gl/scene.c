@@ -110,6 +110,8 @@ static dp_result put_meshes(dp_gl *gl, dp_diag *diag) {
 dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, dp_diag *diag) {
     dp_gl_scene *const s = &gl->scene;
     s->new_topology = !count || !is_known(s, meshes, count); /* none are known once one is gone */
+    /* which a source may change with its positions */
+    memcpy(s->origin, count ? meshes[0]->origin : (double[3]){0, 0, 0}, sizeof s->origin);
     if (!s->new_topology) return DP_OK;
     s->count = 0;
     s->topology = dp_gl_number(gl);
@@ -126,7 +128,6 @@ dp_result dp_gl_scene_take(dp_gl *gl, dp_gl_mesh *const *meshes, size_t count, d
         s->placements[i] = meshes[i]->placement;
     }
     s->count = count;
-    memcpy(s->origin, count ? meshes[0]->origin : (double[3]){0, 0, 0}, sizeof s->origin);
     result = put_meshes(gl, diag);
     if (result) s->count = 0;
     return result;

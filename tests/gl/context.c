@@ -99,6 +99,10 @@ fail:
     return NULL;
 }
 
+void gl_context_use(gl_context *c) {
+    assert_true(c->make_current(c->display, EGL_NO_SURFACE, EGL_NO_SURFACE, c->context));
+}
+
 void gl_context_destroy(gl_context *c) {
     if (!c) return;
     if (c->context) {

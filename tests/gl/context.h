@@ -10,6 +10,8 @@ typedef struct gl_context gl_context;
 /* NULL: there is no EGL, or no OpenGL `version` (430, …) core profile, and *why says which. */
 gl_context *gl_context_create(int version, const char **why);
 void gl_context_destroy(gl_context *context); /* NULL allowed */
+/* Makes it current, as gl_context_create does. */
+void gl_context_use(gl_context *context);
 void *gl_context_proc(void *user, const char *name);
 
 /* A dp_gl of a current context; fails the test if that cannot be. Skips the test where there is no context:

@@ -11,10 +11,10 @@
 struct Cut {
     dvec3 from, to;
     uint edge[2]; // of the polygon, at these ends
-    bool found;
+    bool found, is_cut; // is_cut: as it is found, but for how far it reaches to both sides
 };
 Cut cut_of(uint first, uint n, dvec3 at, dvec3 normal, double flat_) {
-    Cut c = Cut(dvec3(0.0), dvec3(0.0), uint[2](0u, 0u), false);
+    Cut c = Cut(dvec3(0.0), dvec3(0.0), uint[2](0u, 0u), false, false);
     int ends = 0;
     double least = 0.0, most = 0.0;
     dvec3 a = corner_at(first, 0u);
@@ -31,7 +31,8 @@ Cut cut_of(uint first, uint n, dvec3 at, dvec3 normal, double flat_) {
         }
         a = b, da = db;
     }
-    c.found = ends == 2 && least < -flat_ && most > flat_;
+    c.is_cut = ends == 2;
+    c.found = c.is_cut && least < -flat_ && most > flat_;
     return c;
 }
 double reach_of(uint first, uint n) {
@@ -59,6 +60,7 @@ struct Crossing {
     dvec3 p, q, normal;
     // What ends it at p and at q: an edge of polygon a, or of b (bit 31).
     uint edge[2];
+    bool goes_on; // it may be too short to cross here, but leads on by these edges
 };
 const uint OF_B = 0x80000000u;
 
@@ -67,13 +69,13 @@ bool cross_polygons(uint a, uint b, out Crossing x) {
     uint na = corner_count(a), nb = corner_count(b);
     dvec3 normal_a = normal_of(a, na), normal_b = normal_of(b, nb),
           line = cross_of(normal_a, normal_b);
-    x = Crossing(dvec3(0.0), dvec3(0.0), dvec3(0.0), uint[2](0u, 0u));
+    x = Crossing(dvec3(0.0), dvec3(0.0), dvec3(0.0), uint[2](0u, 0u), false);
     if (!(length(line) >= 1e-6)) return false; // the same plane, within rounding
     double flat_ = flatness_of(a, na, b, nb);
     Cut ca = cut_of(a, na, corner_at(b, 0u), normal_b, flat_);
-    if (!ca.found) return false;
+    if (!ca.is_cut) return false;
     Cut cb = cut_of(b, nb, corner_at(a, 0u), normal_a, flat_);
-    if (!cb.found) return false;
+    if (!cb.is_cut) return false;
     dvec3 u = unit(line), o = ca.from;
     double a0 = 0.0, a1 = dot(ca.to - o, u), b0 = dot(cb.from - o, u), b1 = dot(cb.to - o, u);
     uvec2 ea = uvec2(ca.edge[0], ca.edge[1]), eb = uvec2(cb.edge[0], cb.edge[1]) | OF_B;
@@ -84,10 +86,10 @@ bool cross_polygons(uint a, uint b, out Crossing x) {
     }
     double t0 = max(a0, b0), t1 = min(a1, b1);
     x.edge[0] = a0 >= b0 ? ea.x : eb.x, x.edge[1] = a1 <= b1 ? ea.y : eb.y;
-    if (!(t1 - t0 > flat_)) return false;
+    x.goes_on = t1 - t0 > -flat_;
     x.p = o + t0 * u, x.q = o + t1 * u;
     x.normal = unit(turned_to_eye(normal_a, x.p) + turned_to_eye(normal_b, x.p));
-    return true;
+    return ca.found && cb.found && t1 - t0 > flat_;
 }
 
 bool crossing_of(uint a, uint b, out dvec3 p, out dvec3 q, out dvec3 normal) {

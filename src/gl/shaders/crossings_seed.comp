@@ -6,7 +6,7 @@
 layout(std430, binding = 4) readonly buffer Mates { uint mates[]; };
 layout(std430, binding = 7) readonly buffer Hits { uvec2 hits[]; };
 
-const int STEPS = 64;        // of a walk, each way
+const int STEPS = 2048;      // of a walk, each way: it ends where another one has been
 const uint NO_PAIR = 0xFFFFFFFFu;
 
 uint key_at(uint vertex) { return floatBitsToUint(vertices[vertex].screen.w); }
@@ -50,32 +50,34 @@ vec4 screen_at(dvec3 p) {
     return vec4(vec3(to_screen(c)), 0.0);
 }
 
-// Asks a pair that nobody has asked for; true: they cross, and it leads on to `x`.
+// Asks a pair that nobody has asked for; true: they cross, or nearly, and x leads on.
 bool ask(uint p, uint q, out Crossing x) {
     if (p == q || shared_corners(p, corner_count(p), q, corner_count(q)) > 1u) return false;
     uint a = min(p, q), b = max(p, q), number = claim(a, b);
-    if (number == NO_PAIR || !cross_polygons(a, b, x)) return false;
+    if (number == NO_PAIR) return false;
+    pairs[number].n = uint(cross_polygons(a, b, x));
     pairs[number].p = screen_at(x.p), pairs[number].q = screen_at(x.q);
-    pairs[number].n = 1u;
-    return true;
+    return x.goes_on;
 }
 
-// The polygon across an edge of one of two; NONE: there is none, or several.
-uint across(uint first, uint edge) {
-    uint mate = mates[half_edge_at(first, corner_count(first), edge)];
-    return is_mate(mate) ? first_of(mate_of(mate) / 3u) : NONE;
+uint half_edge_of(uint a, uint b, uint edge) {
+    uint first = (edge & OF_B) != 0u ? b : a;
+    return half_edge_at(first, corner_count(first), edge & ~OF_B);
 }
 void follow(uint a, uint b, Crossing x, int end) {
-    vec2 at = screen_at(end == 0 ? x.p : x.q).xy;
     for (int i = 0; i < STEPS; i++) {
+        vec2 at = screen_at(end == 0 ? x.p : x.q).xy;
         if (!(all(greaterThan(at, vec2(-2.0))) && all(lessThan(at, picture.size.xy + 2.0)))) return;
-        bool of_b = (x.edge[end] & OF_B) != 0u;
-        uint stays = of_b ? a : b, next = across(of_b ? b : a, x.edge[end] & ~OF_B);
-        if (next == NONE || next == stays || !ask(stays, next, x)) return;
+        uint mate = mates[half_edge_of(a, b, x.edge[end])];
+        if (!is_mate(mate)) return; // nothing is across the edge, or several are
+        uint stays = (x.edge[end] & OF_B) != 0u ? a : b, next = first_of(mate_of(mate) / 3u);
+        if (next == stays || !ask(stays, next, x)) return;
         a = min(stays, next), b = max(stays, next);
-        vec2 p = screen_at(x.p).xy, q = screen_at(x.q).xy; // from the end that lies there to the other
-        end = distance(p, at) < distance(q, at) ? 1 : 0;
-        at = end == 0 ? p : q;
+        bool from_p = half_edge_of(a, b, x.edge[0]) == mate_of(mate),
+             from_q = half_edge_of(a, b, x.edge[1]) == mate_of(mate);
+        if (from_p == from_q)
+            from_p = distance(screen_at(x.p).xy, at) < distance(screen_at(x.q).xy, at);
+        end = from_p ? 1 : 0;
     }
 }
 
