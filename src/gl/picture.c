@@ -186,10 +186,16 @@ static bool finds_lines(const dp_gl *gl) {
     return strokes && gl->scene.triangle_count && gl->block.style[0];
 }
 
-/* Vertices, and if lines are looked for how triangles lie to the eye. */
+/* Silhouettes by adjacency need mates, which need sides. */
+static bool finds_mates_alone(const dp_gl *gl) {
+    return dp_gl_draws_fins(gl) && gl->lines.topology != gl->scene.topology;
+}
+
+/* Vertices, and if lines or mates are looked for how triangles lie to the eye. */
 static dp_result place(dp_gl *gl, dp_diag *diag) {
     const dp_result result = dp_gl_scene_place(gl, diag);
-    return result || !finds_lines(gl) ? result : dp_gl_find_sides(gl, diag);
+    const bool needs_sides = finds_lines(gl) || finds_mates_alone(gl);
+    return result || !needs_sides ? result : dp_gl_find_sides(gl, diag);
 }
 
 /* The last picture's segments are none of this one's. */

@@ -128,31 +128,37 @@ void meet(Met m) {
     met_count = min(met_count + 1u, MOST);
 }
 
-// Those whose planes pass through the point or just over it, which a sum of two products tells; then what they cover.
+// Those whose planes pass through the point or just over it, which a sum of two products tells; then what they cover. So
+// many at a time: how many there are does not matter, nor their order.
 const uint CLOSE = 48u;
 uint close_[CLOSE];
-void find_met(Lookout at, uint own) {
-    uvec2 cell = cell_of(vec2(at.at));
-    vec2 from = vec2(at.at - middle_of(cell)), near = NEAR * at.right, far = head.crack * at.right;
+uint find_close(inout uint node, vec2 from, float d, uint own) {
     uint count = 0u;
-    met_count = 0u;
-    for (uint node = words[head.lists_at + cell_number(cell)]; node != 0u;) {
+    while (node != 0u && count < CLOSE) {
         Node p = nodes[node - 1u];
         vec2 slope = vec2(p.dx, p.dy);
-        float gap = p.d + dot(slope, from) - at.d, tolerance = touching_of(slope, at.d);
-        if (p.polygon != own && gap >= -tolerance && gap <= max(over_of(slope, at.d), tolerance) &&
-            count < CLOSE)
+        float gap = p.d + dot(slope, from) - d, tolerance = touching_of(slope, d);
+        if (p.polygon != own && gap >= -tolerance && gap <= max(over_of(slope, d), tolerance))
             close_[count++] = node - 1u;
         node = p.next;
     }
-    for (uint i = 0u; i < count; i++) {
-        Node p = nodes[close_[i]];
-        uint sides = 0u;
-        for (uint k = 0u; k < 4u; k++) {
-            vec2 side = (k & 1u) == 0u ? -(k < 2u ? near : far) : k < 2u ? near : far;
-            if (covers(p.polygon, p.corners, p.flags, at.at + dvec2(side))) sides |= 1u << k;
+    return count;
+}
+void find_met(Lookout at, uint own) {
+    uvec2 cell = cell_of(vec2(at.at));
+    vec2 from = vec2(at.at - middle_of(cell)), near = NEAR * at.right, far = head.crack * at.right;
+    met_count = 0u;
+    for (uint node = words[head.lists_at + cell_number(cell)]; node != 0u;) {
+        uint count = find_close(node, from, at.d, own);
+        for (uint i = 0u; i < count; i++) {
+            Node p = nodes[close_[i]];
+            uint sides = 0u;
+            for (uint k = 0u; k < 4u; k++) {
+                vec2 side = (k & 1u) == 0u ? -(k < 2u ? near : far) : k < 2u ? near : far;
+                if (covers(p.polygon, p.corners, p.flags, at.at + dvec2(side))) sides |= 1u << k;
+            }
+            if (sides != 0u) meet(Met(close_[i], sides, p.d + dot(vec2(p.dx, p.dy), from) - at.d));
         }
-        if (sides != 0u) meet(Met(close_[i], sides, p.d + dot(vec2(p.dx, p.dy), from) - at.d));
     }
 }
 
