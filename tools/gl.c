@@ -37,6 +37,7 @@ struct tool_gl {
     dp_gl_mesh *mesh;
     GLuint texture, framebuffer;
     uint32_t width, height;
+    bool told_samples; /* that the device has fewer than asked for */
 #define MEMBER(name, type) type name;
     FUNCTIONS(MEMBER)
 #undef MEMBER
@@ -141,6 +142,17 @@ static dp_result make_framebuffer(tool_gl *g, uint32_t width, uint32_t height, d
                 "OpenGL has no framebuffer of that size; give a smaller --size");
 }
 
+/* Says so, once, if the picture has fewer samples than were asked for. */
+static void tell_samples(tool_gl *g, uint32_t asked) {
+    dp_gl_stats s;
+    dp_diag diag;
+    if (g->told_samples || asked < 2 || dp_gl_stats_of(g->gl, &s, &diag)) return;
+    g->told_samples = true;
+    if (s.samples < asked)
+        warn("OpenGL draws %u samples a pixel, not %u: more this device does not have", s.samples,
+             asked);
+}
+
 dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
                   const dp_target *target, dp_diag *diag) {
     if (target->depth || target->line_class || target->normal || target->eye_normal ||
@@ -154,6 +166,7 @@ dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
                              .height = target->height,
                              .samples = target->samples};
     result = dp_gl_draw(g->gl, &g->mesh, 1, camera, style, &to, diag);
+    if (!result) tell_samples(g, target->samples);
     if (!result && target->rgba)
         result = dp_gl_read(g->gl, &to, target->rgba, target->rgba_stride, diag);
     return result ? without_functions(diag) : DP_OK;
