@@ -89,6 +89,15 @@ static int refused_by_gl(const dp_diag *diag) {
     return EXIT_FAILED;
 }
 
+/* Says, once, that the device has fewer samples than were asked for. */
+static void tell_samples(const tool_settings *s, drawing *d, uint32_t asked) {
+    const uint32_t drawn = s->quiet || d->samples_told ? asked : gl_samples(d->gl);
+    d->samples_told = true;
+    if (drawn && drawn < asked)
+        warn("--samples: OpenGL draws %u of a pixel, not %u: more this device does not have", drawn,
+             asked);
+}
+
 /* Draws by OpenGL; the lines become the context's if anyone asks for them. */
 static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, const dp_style *style,
                       const object_styles *objects, const dp_target *target) {
@@ -101,6 +110,7 @@ static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, co
     progress_wait_begin(gl_at_work, s->quiet);
     dp_result result = gl_draw(d->gl, &v->camera, style, target, &diag);
     progress_wait_end();
+    if (!result) tell_samples(s, d, target->samples);
     if (!result && (d->paths || s->outputs[OUTPUT_TRACE]) && style->lines != DP_NO_LINES)
         result = gl_hand_over(d->gl, d->context, &diag);
     return result ? refused_by_gl(&diag) : 0;

@@ -37,7 +37,6 @@ struct tool_gl {
     dp_gl_mesh *mesh;
     GLuint texture, framebuffer;
     uint32_t width, height;
-    bool told_samples; /* that the device has fewer than asked for */
 #define MEMBER(name, type) type name;
     FUNCTIONS(MEMBER)
 #undef MEMBER
@@ -142,17 +141,6 @@ static dp_result make_framebuffer(tool_gl *g, uint32_t width, uint32_t height, d
                 "OpenGL has no framebuffer of that size; give a smaller --size");
 }
 
-/* Says so, once, if the picture has fewer samples than were asked for. */
-static void tell_samples(tool_gl *g, uint32_t asked) {
-    dp_gl_stats s;
-    dp_diag diag;
-    if (g->told_samples || asked < 2 || dp_gl_stats_of(g->gl, &s, &diag)) return;
-    g->told_samples = true;
-    if (s.samples < asked)
-        warn("OpenGL draws %u samples a pixel, not %u: more this device does not have", s.samples,
-             asked);
-}
-
 dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
                   const dp_target *target, dp_diag *diag) {
     if (target->depth || target->line_class || target->normal || target->eye_normal ||
@@ -166,7 +154,6 @@ dp_result gl_draw(tool_gl *g, const dp_camera *camera, const dp_style *style,
                              .height = target->height,
                              .samples = target->samples};
     result = dp_gl_draw(g->gl, &g->mesh, 1, camera, style, &to, diag);
-    if (!result) tell_samples(g, target->samples);
     if (!result && target->rgba)
         result = dp_gl_read(g->gl, &to, target->rgba, target->rgba_stride, diag);
     return result ? without_functions(diag) : DP_OK;
@@ -198,6 +185,8 @@ static dp_gl_stats stats_now(tool_gl *g) {
     if (dp_gl_stats_of(g->gl, &s, &diag)) s = (dp_gl_stats){0};
     return s;
 }
+
+uint32_t gl_samples(tool_gl *g) { return stats_now(g).samples; }
 
 void gl_print_table(FILE *out, tool_gl *g) {
     const dp_gl_stats s = stats_now(g);
@@ -276,6 +265,7 @@ dp_result gl_stats(tool_gl *gl, dp_stats *stats, dp_diag *diag) {
     return refuse(diag);
 }
 void gl_time(tool_gl *gl) { (void)gl; }
+uint32_t gl_samples(tool_gl *gl) { return (void)gl, 0; }
 void gl_print_table(FILE *out, tool_gl *gl) { (void)out, (void)gl; }
 void gl_print_json(FILE *out, tool_gl *gl) { (void)out, (void)gl; }
 
