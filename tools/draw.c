@@ -84,6 +84,8 @@ static const char gl_at_work[] =
 static int refused_by_gl(const dp_diag *diag) {
     if (diag->result == DP_ERR_UNSUPPORTED)
         wrong_usage("--gl: %s; leave out --gl", diag->message);
+    else if (diag->result == DP_ERR_LIMIT)
+        wrong_usage("--gl: %s; leave out --gl, or give a smaller --size", diag->message);
     else
         report_failure("--gl", diag);
     return EXIT_FAILED;
