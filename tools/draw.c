@@ -84,9 +84,20 @@ static const char gl_at_work[] =
 static int refused_by_gl(const dp_diag *diag) {
     if (diag->result == DP_ERR_UNSUPPORTED)
         wrong_usage("--gl: %s; leave out --gl", diag->message);
+    else if (diag->result == DP_ERR_LIMIT)
+        wrong_usage("--gl: %s; leave out --gl, or give a smaller --size", diag->message);
     else
         report_failure("--gl", diag);
     return EXIT_FAILED;
+}
+
+/* Says, once, that the device has fewer samples than were asked for. */
+static void tell_samples(const tool_settings *s, drawing *d, uint32_t asked) {
+    const uint32_t drawn = s->quiet || d->samples_told ? asked : gl_samples(d->gl);
+    d->samples_told = true;
+    if (drawn && drawn < asked)
+        warn("--samples: OpenGL draws %u of a pixel, not %u: more this device does not have", drawn,
+             asked);
 }
 
 /* Draws by OpenGL; the lines become the context's if anyone asks for them. */
@@ -101,6 +112,7 @@ static int draw_by_gl(const tool_settings *s, drawing *d, const page_view *v, co
     progress_wait_begin(gl_at_work, s->quiet);
     dp_result result = gl_draw(d->gl, &v->camera, style, target, &diag);
     progress_wait_end();
+    if (!result) tell_samples(s, d, target->samples);
     if (!result && (d->paths || s->outputs[OUTPUT_TRACE]) && style->lines != DP_NO_LINES)
         result = gl_hand_over(d->gl, d->context, &diag);
     return result ? refused_by_gl(&diag) : 0;

@@ -22,6 +22,7 @@ typedef struct drawing {
     tool_gl *gl;        /* draws instead of the context; NULL: none */
     bool gl_lent;       /* it is not the drawing's own, and has the source already */
     bool gl_taken;      /* it has the source, perhaps at another time */
+    bool samples_told;  /* were there fewer than asked for, it has been said */
     view_paths views[SHEET_MOST];
     dp_stats stats[SHEET_MOST];
 } drawing;

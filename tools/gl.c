@@ -186,6 +186,8 @@ static dp_gl_stats stats_now(tool_gl *g) {
     return s;
 }
 
+uint32_t gl_samples(tool_gl *g) { return stats_now(g).samples; }
+
 void gl_print_table(FILE *out, tool_gl *g) {
     const dp_gl_stats s = stats_now(g);
     double sum = 0;
@@ -263,6 +265,7 @@ dp_result gl_stats(tool_gl *gl, dp_stats *stats, dp_diag *diag) {
     return refuse(diag);
 }
 void gl_time(tool_gl *gl) { (void)gl; }
+uint32_t gl_samples(tool_gl *gl) { return (void)gl, 0; }
 void gl_print_table(FILE *out, tool_gl *gl) { (void)out, (void)gl; }
 void gl_print_json(FILE *out, tool_gl *gl) { (void)out, (void)gl; }
 

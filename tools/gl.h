@@ -30,6 +30,8 @@ uint32_t gl_framebuffer(const tool_gl *gl);
 
 /* Of the last picture, in dp_draw's terms. */
 dp_result gl_stats(tool_gl *gl, dp_stats *stats, dp_diag *diag);
+/* Samples of a pixel that the last picture has: as many as were asked for, or the most of the device. */
+uint32_t gl_samples(tool_gl *gl);
 /* Times the stages from now on. */
 void gl_time(tool_gl *gl);
 /* Names of the device's stages and their times, device first: as rows, or as members of a JSON object, ", " first. */

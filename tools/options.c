@@ -43,7 +43,7 @@ static bool other_word(const option *o, tool_command command) {
     if (command == COMMAND_VIEW && !strcmp(o->name, "gl"))
         return wrong_usage("option --gl does not belong to \"drypoint view\"; give --backend gl");
     if (command == COMMAND_DRAW && !strcmp(o->name, "backend"))
-        return wrong_usage("option --backend belongs to \"drypoint view\"; give --gl");
+        return wrong_usage("option --backend does not belong to \"drypoint MODEL\"; give --gl");
     return true;
 }
 

@@ -238,6 +238,7 @@ static bool read_now(viewer *v) {
 static int spin(viewer *v, uint32_t frames) {
     double drawn = 0;
     uint32_t whole = 0;
+    if (!v->line.model_count) wrong_usage("--spin needs a model: drypoint view MODEL --spin 100");
     if (!read_now(v)) return EXIT_FAILED;
     update_picture(v);
     if (!view_free_camera(v)) return EXIT_FAILED;

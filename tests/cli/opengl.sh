@@ -1,7 +1,7 @@
 # Tests of --gl and of drypoint view, for run.sh, which reads this file: as far as there is OpenGL without a window.
 # shellcheck shell=bash disable=SC2034
 
-opengl_tests="draws_by_opengl opengl_refuses opengl_missing no_viewer"
+opengl_tests="draws_by_opengl opengl_refuses opengl_missing opengl_old no_viewer"
 
 # Is there OpenGL 4.3 without a window, and is it built in?
 has_opengl() { "$program" shape:cube --gl --size 32x32 -o probe.png -q 2>/dev/null; }
@@ -28,7 +28,9 @@ opengl_refuses() {
     has_opengl || return
     run 1 shape:bolt $small -q --gl --hidden dashed -o out.png
     one_line
-    says err '--gl: OpenGL does not draw hidden lines'
+    says err '--gl: OpenGL does not draw hidden lines; leave out --gl'
+    run 1 shape:bolt $small -q --gl --clip 1,0,0 -o out.png
+    says err '--gl: OpenGL does not draw sections and hatching; leave out --gl'
     run 1 shape:bolt $small -q --gl --detail auto -o out.png
     says err 'detail of lines other than exact'
     run 1 shape:bolt $small -q --gl --object '*:color=red' -o out.png
@@ -39,12 +41,22 @@ opengl_refuses() {
 }
 opengl_missing() {
     wrong bench shape:cube --gl -- 'option --gl does not belong to "drypoint bench"'
-    wrong shape:cube -o out.png --backend gl -- 'option --backend does not belong'
+    wrong shape:cube -o out.png --backend gl -- 'option --backend does not belong to "drypoint MODEL"; give --gl'
     has_opengl && return # and where there is none:
     run 1 shape:cube --gl -o out.png
     one_line
     says err '--gl: '
     absent out.png
+}
+# A driver that is too old is told by its version (Mesa's, which can be told to be older).
+opengl_old() {
+    has_opengl || return
+    "$program" shape:cube --gl --size 32x32 -o probe.png --stats json 2>/dev/null | grep -q llvmpipe || return 0
+    MESA_GL_VERSION_OVERRIDE=3.3 run 1 shape:cube --gl -o out.png
+    one_line
+    says err 'OpenGL 4.3 or later is needed, here is 3.3'
+    run 0 shape:cube --gl --size 32x32 --samples 16 -o out.png
+    says err 'warning: --samples: OpenGL draws 4 of a pixel, not 16'
 }
 # The program without its viewer beside it; and wrong words are told before a window opens.
 no_viewer() {
@@ -52,5 +64,6 @@ no_viewer() {
     PATH=/nowhere ./alone view shape:cube >out 2>err && fail "a viewer was found"
     says err 'drypoint-view, is neither beside this program nor on PATH'
     wrong view shape:cube --backend vulkan -- 'is none of cpu|gl'
+    wrong view shape:cube --gl -- 'give --backend gl'
     wrong view shape:cube -o out.png -- 'option --output does not belong to "drypoint view"'
 }
