@@ -549,10 +549,48 @@ static void lives_in_two_contexts(void **state) {
     gl_context_use(test->context);
 }
 
+static dp_result refuse(void *user, dp_batch *batch, dp_diag *diag) {
+    (void)user, (void)batch, (void)diag;
+    return DP_ERR_FORMAT;
+}
+
+/* After an update that failed there are no lines, of no mesh, and then others again. */
+static void forgets_lines_of_a_failed_update(void **state) {
+    static model m;
+    gl_test *const test = *state;
+    const dp_gl_target target = gl_test_target(test, 4096, 1, 16);
+    const dp_source_callbacks callbacks = {.next = refuse};
+    const dp_style style = {.line[DP_LINE_SILHOUETTE].width = 64};
+    const dp_segment *segments;
+    dp_source *good, *bad;
+    dp_gl_mesh *mesh;
+    dp_camera camera;
+    dp_diag diag;
+    size_t count;
+    static const double eye[3] = {2, 3, 6}, at[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    assert_int_equal(dp_camera_look_at(&camera, eye, at, up), DP_OK);
+    assert_int_equal(dp_camera_orthographic(&camera, 3, 1, 0.5, 20), DP_OK);
+    make_model(&m, TORUS, 0);
+    good = source_of(&m, TORUS, false);
+    assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &bad, NULL), DP_OK);
+    assert_int_equal(dp_gl_mesh_from_source(test->gl, good, &mesh, &diag), DP_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(dp_gl_draw(test->gl, &mesh, 1, &camera, &style, &target, &diag), DP_OK);
+        assert_int_equal(dp_gl_segments(test->gl, &segments, &count, &diag), DP_OK);
+        assert_true(count > 0);
+        assert_int_equal(dp_gl_mesh_update(mesh, bad, &diag), DP_ERR_FORMAT);
+        assert_int_equal(dp_gl_segments(test->gl, &segments, &count, &diag), DP_ERR_ARGUMENT);
+        assert_int_equal(dp_gl_mesh_update(mesh, good, &diag), DP_OK);
+    }
+    dp_gl_mesh_destroy(mesh);
+    dp_source_destroy(good), dp_source_destroy(bad);
+}
+
 #define FRESH(f) cmocka_unit_test_setup_teardown(f, gl_test_setup, gl_test_teardown)
 
 int main(void) {
     const struct CMUnitTest tests[] = {FRESH(draws_as_if_new), FRESH(leaves_nothing),
-                                       FRESH(joins_many), FRESH(lives_in_two_contexts)};
+                                       FRESH(joins_many), FRESH(lives_in_two_contexts),
+                                       FRESH(forgets_lines_of_a_failed_update)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
