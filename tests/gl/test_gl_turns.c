@@ -558,7 +558,7 @@ static dp_result refuse(void *user, dp_batch *batch, dp_diag *diag) {
 static void forgets_lines_of_a_failed_update(void **state) {
     static model m;
     gl_test *const test = *state;
-    const dp_gl_target target = gl_test_target(test, 4096, 1, 16);
+    const dp_gl_target target = gl_test_target(test, 512, 1, 16);
     const dp_source_callbacks callbacks = {.next = refuse};
     const dp_style style = {.line[DP_LINE_SILHOUETTE].width = 64};
     const dp_segment *segments;
