@@ -91,12 +91,16 @@ static dp_result measure_strengths(dp_gl *gl, dp_diag *diag) {
     return DP_OK;
 }
 
+dp_result dp_gl_fit_edge_map(dp_gl *gl, dp_diag *diag) {
+    const dp_edge_map *const m = &gl->style.edge_map;
+    const dp_result result = m->enhanced ? upload_enhanced(gl, diag) : DP_OK;
+    return result || !needs_range(m) ? result : fit_range(gl, diag);
+}
+
 dp_result dp_gl_make_edge_map(dp_gl *gl, dp_diag *diag) {
     const dp_edge_map *const m = &gl->style.edge_map;
     const bool c1 = m->detector == DP_EDGE_MAP_C1;
-    dp_result result = m->enhanced ? upload_enhanced(gl, diag) : DP_OK;
-    if (!result && needs_range(m)) result = fit_range(gl, diag);
-    if (!result && !c1) result = detect(gl, -1, diag);
+    dp_result result = c1 ? DP_OK : detect(gl, -1, diag);
     for (int pass = 0; c1 && pass < (int)m->c1_passes && !result; pass++)
         result = detect(gl, pass, diag);
     return result ? result : measure_strengths(gl, diag);

@@ -356,6 +356,7 @@ dp_result dp_gl_shade(dp_gl *gl, dp_diag *diag) {
         result = smooth_colors(gl, diag);
         shown = &s->smooth;
     }
+    if (!result && map->detector) result = dp_gl_fit_edge_map(gl, diag);
     if (!result && map->detector && !map->hidden) {
         result = dp_gl_make_edge_map(gl, diag);
         if (!result) result = dp_gl_apply_edge_map(gl, shown, diag);

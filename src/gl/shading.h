@@ -62,7 +62,10 @@ dp_result dp_gl_gather_attributes(dp_gl *gl, bool textured, bool colored, dp_dia
 void dp_gl_turn_of(const dp_gl_mesh *mesh, double rows[3][3]);
 void dp_gl_attributes_free(dp_gl *gl, dp_gl_scene_attributes *attributes);
 
-/* edge_map.c: the G-buffer → edge map; its edges over `from` → s->edged, in a second pass over the model. */
+/* edge_map.c: the range of distances that maps as printed, and 8 bits, are measured in: the last pass reads it, too, also where
+ * the map is hidden. */
+dp_result dp_gl_fit_edge_map(dp_gl *gl, dp_diag *diag);
+/* The G-buffer → edge map; its edges over `from` → s->edged, in a second pass over the model. */
 dp_result dp_gl_make_edge_map(dp_gl *gl, dp_diag *diag);
 dp_result dp_gl_apply_edge_map(dp_gl *gl, const dp_gl_texture *from, dp_diag *diag);
 

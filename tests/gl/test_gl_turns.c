@@ -2,8 +2,9 @@
  *
  * A turn changes the meshes a little (positions, topology, places, the list itself, buffers of the application's), and draws
  * them by a style, projection, size and target of its own. Data structure: `scene`, from which both dp_gl can have their
- * meshes. Numbers come from seeds, DP_TEST_TURNS says how many turns a seed has (24), DP_TEST_SEED which one is run. */
+ * meshes. Numbers come from seeds, DP_TEST_SEED is one to take, of DP_TEST_TURNS turns. */
 #include "gl/context.h"
+#include "gl/models.h"
 
 #include "gl/gl.h"
 
@@ -16,7 +17,7 @@
 
 #include <cmocka.h>
 
-enum { SIDE = 112, VERTICES = 160, CORNERS = 640, POLYGONS = 192, THINGS = 3, WALL = 9 };
+enum { SIDE = 112, THINGS = 3, SIZES = 5 };
 
 /* ------- numbers ------- */
 
@@ -26,99 +27,6 @@ static uint32_t dice(uint32_t sides) {
     uint64_t z = dice_state += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u, z = (z ^ z >> 27) * 0x94d049bb133111ebu;
     return (uint32_t)((z ^ z >> 31) >> 33) % sides;
-}
-
-/* ------- models ------- */
-
-typedef enum shape { TORUS, SHEETS, BOX, NOTHING, SHAPES } shape;
-
-typedef struct model {
-    float positions[VERTICES][3], normals[VERTICES][3], texcoords[VERTICES][2];
-    uint32_t colors[VERTICES], corners[CORNERS], firsts[POLYGONS + 1];
-    uint16_t groups[POLYGONS];
-    uint32_t vertices, polygons;
-} model;
-
-static void add_polygon(model *m, uint32_t group, uint32_t count, const uint32_t *corners) {
-    const uint32_t first = m->firsts[m->polygons];
-    memcpy(m->corners + first, corners, count * sizeof *corners);
-    m->groups[m->polygons++] = (uint16_t)group;
-    m->firsts[m->polygons] = first + count;
-}
-
-static void add_vertex(model *m, double x, double y, double z) {
-    float *const p = m->positions[m->vertices], *const n = m->normals[m->vertices];
-    p[0] = (float)x, p[1] = (float)y, p[2] = (float)z;
-    memcpy(n, p, sizeof m->normals[0]);
-    m->texcoords[m->vertices][0] = p[0], m->texcoords[m->vertices][1] = p[1];
-    m->colors[m->vertices] = m->vertices * 0x35a1c7u << 8 | 0xff;
-    m->vertices++;
-}
-
-static void make_torus(model *m) {
-    enum { ROUND = 12, TUBE = 8 };
-    for (uint32_t i = 0; i < ROUND; i++)
-        for (uint32_t j = 0; j < TUBE; j++) {
-            const double u = 6.283185307179586 * i / ROUND, v = 6.283185307179586 * j / TUBE,
-                         r = 1 + 0.4 * cos(v);
-            const uint32_t i1 = (i + 1) % ROUND, j1 = (j + 1) % TUBE;
-            const uint32_t at[4] = {i * TUBE + j, i1 * TUBE + j, i1 * TUBE + j1, i * TUBE + j1};
-            add_vertex(m, r * cos(u), r * sin(u), 0.4 * sin(v));
-            add_polygon(m, 0, 4, at);
-        }
-}
-
-/* Two that cross. */
-static void make_sheets(model *m) {
-    enum { N = 4 };
-    for (uint32_t s = 0; s < 2; s++)
-        for (uint32_t i = 0; i <= N; i++)
-            for (uint32_t j = 0; j <= N; j++) {
-                const uint32_t n = s * (N + 1) * (N + 1) + i * (N + 1) + j;
-                const double a = 2.0 * i / N - 1, b = 2.0 * j / N - 1;
-                const uint32_t at[2][3] = {{n, n + 1, n + N + 2}, {n, n + N + 2, n + N + 1}};
-                if (s)
-                    add_vertex(m, a, 0.3 * a + 0.07 * b, b);
-                else
-                    add_vertex(m, a, b, 0.1 * a - 0.2 * b);
-                for (int k = 0; k < 2 && i < N && j < N; k++) add_polygon(m, s + 1, 3, at[k]);
-            }
-}
-
-static void make_box(model *m) {
-    static const uint32_t sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                         {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-    for (uint32_t v = 0; v < 8; v++)
-        add_vertex(m, v & 1 ? 0.7 : -0.7, v & 2 ? 0.8 : -0.8, v & 4 ? 0.6 : -0.6);
-    for (uint32_t s = 0; s < 6; s++) add_polygon(m, s / 2, 4, sides[s]);
-}
-
-static void make_model(model *m, shape s, float wave) {
-    memset(m, 0, sizeof *m);
-    if (s == TORUS) make_torus(m);
-    if (s == SHEETS) make_sheets(m);
-    if (s == BOX) make_box(m);
-    for (uint32_t v = 0; v < m->vertices; v++)
-        m->positions[v][0] += wave * (float)sin(2 * (double)m->positions[v][1] + 1);
-}
-
-static dp_source *source_of(const model *m, shape s, bool far_away) {
-    const bool carries = s == BOX;
-    dp_batch batch = {.positions = m->positions[0],
-                      .vertex_count = m->vertices,
-                      .indices = m->corners,
-                      .corner_count = m->firsts[m->polygons],
-                      .firsts = s == SHEETS ? NULL : m->firsts,
-                      .polygon_count = m->polygons,
-                      .groups = s == TORUS ? NULL : m->groups,
-                      .colors = carries || s == SHEETS ? m->colors : NULL};
-    if (far_away) batch.origin[0] = 0.25, batch.origin[1] = -0.125;
-    if (carries)
-        batch.normals.values = m->normals[0], batch.normals.count = m->vertices,
-        batch.texcoords.values = m->texcoords[0], batch.texcoords.count = m->vertices;
-    dp_source *source = NULL;
-    assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
-    return source;
 }
 
 /* ------- things: meshes, and what they are made of ------- */
@@ -146,8 +54,7 @@ typedef struct turns {
     const dp_gl_api *api;
     thing things[THINGS];
     uint32_t count;
-    uint32_t framebuffer, texture,
-        depth[WALL]; /* depth: of the application's, by size and samples */
+    uint32_t framebuffer, texture, depth[SIZES]; /* depth: of the application's, by size */
     dp_texture *textures[2];
 } turns;
 
@@ -350,7 +257,7 @@ static bool has_buffers(const turns *t) {
 }
 
 static void choose(turns *t, turn *u) {
-    static const uint32_t sizes[5][2] = {{96, 64}, {64, 96}, {33, 17}, {1, 1}, {SIDE, 1}};
+    static const uint32_t sizes[SIZES][2] = {{96, 64}, {64, 96}, {33, 17}, {1, 1}, {SIDE, 1}};
     const uint32_t size = dice(8) ? dice(3) : 3 + dice(2);
     memset(u, 0, sizeof *u);
     choose_lines(&u->style, t);
@@ -473,17 +380,6 @@ static int take_turn(turns *t, uint32_t number, dp_context *context) {
     if (!kept.result) use(t, u.reads, context);
     draw_fresh(t, &u, &fresh);
     const int wrong = compare(&kept, &fresh, &u, number);
-    for (int i = 0; i < atoi(getenv("DP_RB_N") ? getenv("DP_RB_N") : "0"); i++) {
-        draw(t, t->test->gl, meshes, &u, &fresh);
-        if (compare(&kept, &fresh, &u, number)) {
-            print_message("  again %d\n", i);
-            for (size_t k = 0; k < kept.count || k < fresh.count; k++) {
-                const dp_segment *a = k < kept.count ? &kept.segments[k] : NULL, *b = k < fresh.count ? &fresh.segments[k] : NULL;
-                for (int q = 0; q < 2; q++) { const dp_segment *c = q ? b : a; if (c) print_message("   %c line %d polygon %llu/%llu edge %u group %u end %d %d hider %llu %llu  %g %g %g - %g %g %g chain %u.%u%s\n", q ? '+':'-', c->line, (unsigned long long)c->polygon, (unsigned long long)c->other, c->edge, c->group, c->end[0], c->end[1], (unsigned long long)c->hider[0], (unsigned long long)c->hider[1], c->a[0], c->a[1], c->a[2], c->b[0], c->b[1], c->b[2], c->chain, c->place, c->reversed ? "r":""); }
-            }
-            break;
-        }
-    }
     free(kept.segments), free(fresh.segments);
     return wrong;
 }
@@ -494,7 +390,7 @@ static int count_objects(const turns *t) {
     enum { NAMES = 4096 };
     const dp_gl_api *const a = t->api;
     int count = 0;
-    for (int i = 0; i < WALL; i++) count -= t->depth[i] != 0;
+    for (int i = 0; i < SIZES; i++) count -= t->depth[i] != 0;
     for (GLuint i = 1; i < NAMES; i++)
         count += a->IsBuffer(i) + a->IsTexture(i) + a->IsFramebuffer(i);
     return count;
@@ -523,30 +419,33 @@ static void end(turns *t) {
         t->api->DeleteBuffers(3, t->things[i].names);
     }
     for (int i = 0; i < 2; i++) dp_texture_destroy(t->textures[i]);
-    t->api->DeleteTextures(WALL, t->depth);
+    t->api->DeleteTextures(SIZES, t->depth);
     assert_int_equal(dp_gl_stats_of(t->test->gl, &stats, NULL), DP_OK);
     assert_int_equal(complaints, 0);
 }
 
-static void draws_as_if_new(void **state) {
-    const char *const asked = getenv("DP_TEST_TURNS"), *const seed = getenv("DP_TEST_SEED");
-    const uint32_t count = asked ? (uint32_t)atoi(asked) : 24;
+static int take_turns(turns *t, uint64_t seed, uint32_t count) {
     dp_context *context;
+    int wrong = 0;
+    assert_int_equal(dp_context_create(NULL, &context, NULL), DP_OK);
+    dice_state = seed;
+    for (uint32_t i = 0; i < count; i++) wrong += take_turn(t, i, context);
+    dp_context_destroy(context);
+    return wrong;
+}
+
+static void draws_as_if_new(void **state) {
+    const char *const seed = getenv("DP_TEST_SEED"), *const asked = getenv("DP_TEST_TURNS");
+    const uint32_t count = asked ? (uint32_t)atoi(asked) : 12;
     gl_test *const test = *state;
     turns t;
-    int wrong = 0;
     if (!test->gl) skip();
-    dice_state = seed ? strtoull(seed, NULL, 0) : 1;
-    assert_int_equal(dp_context_create(NULL, &context, NULL), DP_OK);
     begin(&t, test);
-    for (uint32_t i = 0; i < count; i++) {
-        wrong += take_turn(&t, i, context);
-        if (getenv("DP_TEST_OBJECTS")) system("date +%s.%N");
-        if (getenv("DP_TEST_OBJECTS")) print_message("%u: %d objects\n", i, count_objects(&t));
-    }
+    if (seed)
+        assert_int_equal(take_turns(&t, strtoull(seed, NULL, 0), count), 0);
+    else
+        for (uint64_t s = 1; s <= 3; s++) assert_int_equal(take_turns(&t, s, count), 0);
     end(&t);
-    dp_context_destroy(context);
-    assert_int_equal(wrong, 0);
 }
 
 /* One dp_gl after the other: nothing of them stays. */
@@ -650,12 +549,48 @@ static void lives_in_two_contexts(void **state) {
     gl_context_use(test->context);
 }
 
+static dp_result refuse(void *user, dp_batch *batch, dp_diag *diag) {
+    (void)user, (void)batch, (void)diag;
+    return DP_ERR_FORMAT;
+}
+
+/* After an update that failed there are no lines, of no mesh, and then others again. */
+static void forgets_lines_of_a_failed_update(void **state) {
+    static model m;
+    gl_test *const test = *state;
+    const dp_gl_target target = gl_test_target(test, 512, 1, 16);
+    const dp_source_callbacks callbacks = {.next = refuse};
+    const dp_style style = {.line[DP_LINE_SILHOUETTE].width = 64};
+    const dp_segment *segments;
+    dp_source *good, *bad;
+    dp_gl_mesh *mesh;
+    dp_camera camera;
+    dp_diag diag;
+    size_t count;
+    static const double eye[3] = {2, 3, 6}, at[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    assert_int_equal(dp_camera_look_at(&camera, eye, at, up), DP_OK);
+    assert_int_equal(dp_camera_orthographic(&camera, 3, 1, 0.5, 20), DP_OK);
+    make_model(&m, TORUS, 0);
+    good = source_of(&m, TORUS, false);
+    assert_int_equal(dp_source_from_callbacks(&callbacks, NULL, &bad, NULL), DP_OK);
+    assert_int_equal(dp_gl_mesh_from_source(test->gl, good, &mesh, &diag), DP_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(dp_gl_draw(test->gl, &mesh, 1, &camera, &style, &target, &diag), DP_OK);
+        assert_int_equal(dp_gl_segments(test->gl, &segments, &count, &diag), DP_OK);
+        assert_true(count > 0);
+        assert_int_equal(dp_gl_mesh_update(mesh, bad, &diag), DP_ERR_FORMAT);
+        assert_int_equal(dp_gl_segments(test->gl, &segments, &count, &diag), DP_ERR_ARGUMENT);
+        assert_int_equal(dp_gl_mesh_update(mesh, good, &diag), DP_OK);
+    }
+    dp_gl_mesh_destroy(mesh);
+    dp_source_destroy(good), dp_source_destroy(bad);
+}
+
 #define FRESH(f) cmocka_unit_test_setup_teardown(f, gl_test_setup, gl_test_teardown)
 
 int main(void) {
     const struct CMUnitTest tests[] = {FRESH(draws_as_if_new), FRESH(leaves_nothing),
-                                       FRESH(joins_many), FRESH(lives_in_two_contexts)};
-    const bool one = getenv("DP_TEST_SEED") != NULL; /* long runs are of the first alone */
-    return one ? cmocka_run_group_tests_name("turns", (struct CMUnitTest[1]){tests[0]}, NULL, NULL)
-               : cmocka_run_group_tests(tests, NULL, NULL);
+                                       FRESH(joins_many), FRESH(lives_in_two_contexts),
+                                       FRESH(forgets_lines_of_a_failed_update)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }
