@@ -212,8 +212,8 @@ static void take_line_end(const dp_frame *frame, const dp_segment_batch *made, u
     } else if (hider == DP_HIDER_NONE) {
         const float world[3] = {made->world[k][0][i], made->world[k][1][i], made->world[k][2][i]};
         out->end[k] = dp_lies_on_plane(&frame->view, world) ? DP_END_PICTURE
-                      : piece->edge == DP_CROSSING       ? DP_END_CROSSING
-                                                         : DP_END_VERTEX;
+                      : piece->edge == DP_CROSSING          ? DP_END_CROSSING
+                                                            : DP_END_VERTEX;
     } else {
         out->end[k] = DP_END_HIDDEN;
         if (hider != DP_HIDER_UNKNOWN) out->hider[k] = source_number(frame, piece->hider[k]);
