@@ -52,6 +52,8 @@ try_shown() {
     command=${command//--frames 3000/--frames 3}
     case $command in
     *.mp4* | *.webm* | *.gif*) command -v ffmpeg >/dev/null || return ;;&
+    view*) return ;; # a window: tests/view
+    *--gl*) has_opengl || return ;;&
     *'--turn 360'*) [[ $command = *--frame* ]] || command+=" --frames 2" ;;&
     info* | make* | --help* | *--list* | *--size* | *--page* | *--sheet*) ;;
     *) command+=" $small" ;;
