@@ -48,7 +48,7 @@ static uint8_t *draw_gpu(gl_test *t, dp_source *source, const dp_camera *camera,
     dp_gl *const gl = t->gl;
     uint8_t *const rgba = malloc((size_t)4 * target->width * target->height);
     dp_gl_mesh *mesh = NULL;
-    dp_gl_state *state;
+    dp_gl_state *state = NULL;
     dp_diag diag = {0};
     dp_style flat = *style;
     flat.lines = DP_NO_LINES;
