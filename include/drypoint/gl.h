@@ -36,7 +36,8 @@ typedef struct dp_gl_desc {
     void *user;
     const dp_allocator *allocator; /* NULL: malloc; copied */
     /* By default each call leaves the context's state as it found it: bindings, tests, masks, all that
-     * it touches. True: the application sets its own state after each call anyhow, and saves the time
+     * it touches. Not so an error that the context remembers, which is forgotten, and queries that
+     * run, which count what is drawn; conditional rendering must be off. True: the application sets its own state after each call anyhow, and saves the time
      * (some 0.1 ms) of asking for it. */
     bool leaves_state_changed;
     /* Hears remarks of the driver (KHR_debug, where the context is a debug one) and of compilers of
@@ -59,7 +60,8 @@ DP_API void dp_gl_abandon(dp_gl *gl);
 
 /* Polygons on the device. What is made of their topology, which half-edges are each other's mates
  * (12 bytes a triangle), is kept as long as that stays; nothing is made anew for positions that
- * change. */
+ * change. Where vertices begin or cease to lie at one place as they move, say so by
+ * dp_gl_mesh_topology_changed. */
 typedef struct dp_gl_mesh dp_gl_mesh;
 
 /* Reads a source whole, and holds no reference to it. DP_ERR_MEMORY, DP_ERR_LIMIT (beyond 2^29
