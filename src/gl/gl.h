@@ -142,7 +142,6 @@ typedef struct dp_gl_lines_store {
     dp_gl_buffer pairs;      /* half-edges that may be lines (edges.c) */
     dp_gl_buffer spines;     /* [candidate] shaders/lines.glsl (visibility.c) */
     dp_gl_buffer words;      /* their sample points, 32 each (visibility.c) */
-    dp_gl_buffer own[6];     /* for files of these stages, as each says */
     uint64_t topology;       /* whose mates they are */
     struct dp_lines *read;   /* the picture's lines, read back (read.c) */
     bool have_read, have_hiders;

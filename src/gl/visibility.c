@@ -98,6 +98,5 @@ void dp_gl_lines_free(dp_gl *gl) {
                                      &l->segments, &l->disputed, &l->sides,    &l->spines,
                                      &l->words,    &l->pairs};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) dp_gl_buffer_free(gl, buffers[i]);
-    for (size_t i = 0; i < sizeof l->own / sizeof *l->own; i++) dp_gl_buffer_free(gl, &l->own[i]);
     dp_gl_eye_free(gl);
 }

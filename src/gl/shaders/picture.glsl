@@ -52,8 +52,8 @@ struct ClipPoint {
     dvec4 c;
     double distance;
 };
-ClipPoint to_clip(vec3 world) {
-    precise dvec4 p = dvec4(dvec3(world), 1.0);
+ClipPoint clip_of(dvec3 world) {
+    precise dvec4 p = dvec4(world, 1.0);
     precise ClipPoint q;
     for (int r = 0; r < 4; r++) {
         dvec4 m = picture.clip[r];
@@ -63,6 +63,7 @@ ClipPoint to_clip(vec3 world) {
     q.distance = s.x * p.x + s.y * p.y + s.z * p.z + s.w;
     return q;
 }
+ClipPoint to_clip(vec3 world) { return clip_of(dvec3(world)); }
 // Requires w > 0.
 dvec3 to_screen(ClipPoint q) {
     precise double inverse = 1.0 / q.c.w;

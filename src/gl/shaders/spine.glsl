@@ -16,17 +16,6 @@ struct Spine {
 
 uniform uint has_fans;
 
-ClipPoint clip_of(dvec3 world) {
-    precise dvec4 p = dvec4(world, 1.0);
-    precise ClipPoint q;
-    for (int r = 0; r < 4; r++) {
-        dvec4 m = picture.clip[r];
-        q.c[r] = m.x * p.x + m.y * p.y + m.z * p.z + m.w;
-    }
-    dvec4 s = picture.sight;
-    q.distance = s.x * p.x + s.y * p.y + s.z * p.z + s.w;
-    return q;
-}
 ClipPoint clip_mix(ClipPoint a, ClipPoint b, double t) {
     precise ClipPoint q;
     q.c = a.c + (b.c - a.c) * t;
