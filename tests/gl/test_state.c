@@ -1,5 +1,5 @@
 /* Nothing of the application's state is changed: all that can be set is set to odd values, all that can be asked is
- *  asked before and after calls. More than 600 lines: most are the lists of what can be set. */
+ * asked before and after calls. More than 600 lines: most are the lists of what can be set. */
 #include "gl/figure.h"
 #include "gl/gl.h"
 

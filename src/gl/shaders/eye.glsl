@@ -1,4 +1,5 @@
 // What the passes of emerge.c share: the store, edges on the screen, and how polygons lie there.
+#include "clip.glsl"
 #include "polygons.glsl"
 #include "facing.glsl"
 
@@ -68,17 +69,6 @@ struct Spine {
     uint n;     // sample points: k is (k + 1/2) / n of the way along
     bool is_there;
 };
-double inside(int plane, ClipPoint p) {
-    double g = picture.eye.w * p.c.w;
-    switch (plane) {
-    case 0: return p.c.z + p.c.w;
-    case 1: return p.c.w - p.c.z;
-    case 2: return g + p.c.x;
-    case 3: return g - p.c.x;
-    case 4: return g + p.c.y;
-    default: return g - p.c.y;
-    }
-}
 ClipPoint mixed(ClipPoint a, ClipPoint b, double t) {
     return ClipPoint(a.c + (b.c - a.c) * t, a.distance + (b.distance - a.distance) * t);
 }

@@ -6,6 +6,7 @@
 //           a ----------------- b            v = 0, on the edge
 //
 // The strip is n1, e1, a, e2, b, n2: four triangles.
+#include "clip.glsl"
 
 struct FinPoint {
     vec3 at;    // screen space
@@ -74,22 +75,6 @@ dvec2 project_direction(ClipPoint c, dvec3 n) {
     return l > 0.0lf && l - l == 0.0lf ? d / l : dvec2(0.0lf);
 }
 
-// How far inside plane i of the guarded frustum a point lies.
-double inside(int i, ClipPoint p) {
-    double g = picture.eye.w * p.c.w;
-    return i == 0   ? p.c.z + p.c.w
-           : i == 1 ? p.c.w - p.c.z
-           : i == 2 ? g + p.c.x
-           : i == 3 ? g - p.c.x
-           : i == 4 ? g + p.c.y
-                    : g - p.c.y;
-}
-ClipPoint mix_points(ClipPoint a, ClipPoint b, double t) {
-    precise ClipPoint p;
-    p.c = a.c + (b.c - a.c) * t;
-    p.distance = a.distance + (b.distance - a.distance) * t;
-    return p;
-}
 
 FinEdge fin_edge(uint half_edge, bool front) {
     uint next = next_in(half_edge);
@@ -104,7 +89,7 @@ FinEdge fin_edge(uint half_edge, bool front) {
             if (da < 0.0lf) t0 = max(t0, da / (da - db));
             if (db < 0.0lf) t1 = min(t1, da / (da - db));
         }
-    ClipPoint p = mix_points(a, b, t0), q = mix_points(a, b, t1);
+    ClipPoint p = clip_mix(a, b, t0), q = clip_mix(a, b, t1);
     e.is_seen = e.is_seen && t0 < t1 && p.c.w > 0.0lf && q.c.w > 0.0lf;
     if (!e.is_seen) return e;
     e.a = t0 > 0.0lf ? to_screen(p) : to_screen(a);

@@ -1,5 +1,6 @@
 // A polygon and its edges on the screen, for primitive shaders (features/features.h and features/build.c have the same): an
 // edge from P_i to P_j has E = unit(P_j - P_i), and O = E x N leads out of the polygon, in its plane.
+#include "clip.glsl"
 #include "polygons.glsl"
 #include "facing.glsl"
 
@@ -54,29 +55,11 @@ uint next_outer(Polygon p, uint half_edge) {
     return k == 0u ? half_edge + 1u : t == p.last ? half_edge + 1u : half_edge + 3u;
 }
 
-// Clipping: planes near, far, left, right, bottom, top.
-double inside(int plane, ClipPoint p) {
-    double g = picture.eye.w * p.c.w;
-    switch (plane) {
-    case 0: return p.c.z + p.c.w;
-    case 1: return p.c.w - p.c.z;
-    case 2: return g + p.c.x;
-    case 3: return g - p.c.x;
-    case 4: return g + p.c.y;
-    default: return g - p.c.y;
-    }
-}
 uint outcode(ClipPoint p) {
     uint code = p.c.w > 0.0 ? 0u : 1u;
     for (int i = 0; i < 6; i++)
         if (inside(i, p) < 0.0) code |= 1u << i;
     return code;
-}
-ClipPoint mix_clip(ClipPoint a, ClipPoint b, double t) {
-    precise ClipPoint q;
-    q.c = a.c + (b.c - a.c) * t;
-    q.distance = a.distance + (b.distance - a.distance) * t;
-    return q;
 }
 // False: nothing is left.
 bool clip_segment(ClipPoint a, ClipPoint b, out double t0, out double t1) {
@@ -87,7 +70,7 @@ bool clip_segment(ClipPoint a, ClipPoint b, out double t0, out double t1) {
         if (da < 0.0) t0 = max(t0, da / (da - db));
         if (db < 0.0) t1 = min(t1, da / (da - db));
     }
-    return t0 < t1 && mix_clip(a, b, t0).c.w > 0.0 && mix_clip(a, b, t1).c.w > 0.0;
+    return t0 < t1 && clip_mix(a, b, t0).c.w > 0.0 && clip_mix(a, b, t1).c.w > 0.0;
 }
 
 // An edge on the screen, clipped to the guarded frustum.
@@ -140,8 +123,8 @@ ScreenEdge screen_edge(Polygon p, uint half_edge) {
     if ((outcode(a) | code_b) != 0u && !clip_segment(a, b, t0, t1)) return e;
     // ends that are not clipped keep every bit, as the polygon's own outline runs there
     ClipPoint ca = a, cb = b;
-    if (t0 > 0.0) ca = mix_clip(a, b, t0);
-    if (t1 < 1.0) cb = mix_clip(a, b, t1);
+    if (t0 > 0.0) ca = clip_mix(a, b, t0);
+    if (t1 < 1.0) cb = clip_mix(a, b, t1);
     e.a = to_screen(ca), e.b = to_screen(cb);
     e.ends_outside = code_b != 0u;
     dvec2 u = e.b.xy - e.a.xy;
@@ -152,7 +135,7 @@ ScreenEdge screen_edge(Polygon p, uint half_edge) {
     e.n = p.front ? dvec2(-e.t.y, e.t.x) : dvec2(e.t.y, -e.t.x);
     e.along = (e.b.z - e.a.z) * (1.0 / e.length);
     e.steep = depth_step(max(e.a.z, e.b.z), STEEPEST);
-    ClipPoint middle = mix_clip(ca, cb, 0.5LF);
+    ClipPoint middle = clip_mix(ca, cb, 0.5LF);
     double inverse = 1.0 / middle.c.w;
     e.edge_on = 1e-9LF * picture.forward.w * inverse;
     e.outward = motion_of(e, middle, inverse * inverse, cross(edge_direction(from, to), p.normal));

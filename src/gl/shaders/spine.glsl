@@ -1,5 +1,6 @@
 // Spines of candidates, as core/spine.c makes them: the edge clipped to the guarded frustum, sample points every quarter
 // of a pixel, lifted off the surface along the normal. In double precision: a spine has the same points everywhere.
+#include "clip.glsl"
 #include "scene.glsl"
 #include "crossing.glsl"
 #include "folds.glsl"
@@ -16,12 +17,6 @@ struct Spine {
 
 uniform uint has_fans;
 
-ClipPoint clip_mix(ClipPoint a, ClipPoint b, double t) {
-    precise ClipPoint q;
-    q.c = a.c + (b.c - a.c) * t;
-    q.distance = a.distance + (b.distance - a.distance) * t;
-    return q;
-}
 dvec3 lifted(dvec3 p, double d, dvec3 normal) {
     double size = is_perspective() ? 1.0 / (d * picture.forward.w) : 1.0 / picture.forward.w;
     return to_screen(clip_of(p + normal * (LIFT * size)));
