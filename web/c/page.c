@@ -197,7 +197,7 @@ static bool adopt(cmdline *line, loaded *model, bool same_camera) {
     if (!done) self->restyle = true;
     cmdline_free(done ? &old_line : line);
     if (model) loaded_free(done ? &old : model);
-    if (model && done) loaded_free(&self->draft);
+    if (model && done) loaded_free(&self->draft), self->serial++;
     return done;
 }
 
@@ -251,13 +251,16 @@ EMSCRIPTEN_KEEPALIVE web_answer web_draw(int quality) {
 
 EMSCRIPTEN_KEEPALIVE const uint8_t *web_pixels(void) { return self->picture.rgba; }
 
-/* Of the last picture: width, height, ms, segments, threads, and whether the simplified model is there. */
+/* Of the last picture: width, height, ms, segments; of what can draw: threads, whether there is a draft; of the model: its
+ * number, polygons, and whether it moves. */
 EMSCRIPTEN_KEEPALIVE const double *web_frame(void) {
-    static double numbers[6];
+    static double numbers[9];
     const picture *const p = &self->picture;
     numbers[0] = p->width, numbers[1] = p->height;
     numbers[2] = p->ms, numbers[3] = (double)p->segments;
     numbers[4] = self->threads, numbers[5] = self->draft.source != NULL;
+    numbers[6] = self->serial, numbers[7] = (double)self->model.seen.extent.polygons;
+    numbers[8] = self->model.moves;
     return numbers;
 }
 

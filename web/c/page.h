@@ -1,7 +1,7 @@
 /* Between the page's worker (web/src/engine/worker.js) and the program's own code.
  *
- * The worker calls the functions that are exported by page.c, state.c, files.c and mesh.c; what these call of it, it is
- * told by the tell_… functions, which are members of its Module. */
+ * The worker calls the functions that are exported by page.c, state.c, files.c and mesh.c; what they ask of it are
+ * members of its Module: tellProgress, tellBytes and so on. */
 #ifndef WEB_PAGE_H
 #define WEB_PAGE_H
 
@@ -19,6 +19,7 @@ typedef struct page {
     free_camera camera;
     bool restyle, aim; /* what the next picture needs: options, camera */
     uint32_t threads;  /* that draw */
+    uint32_t serial;   /* number of the model, from 1 */
 } page;
 
 /* There is one page. (page.c) */
@@ -59,6 +60,12 @@ web_answer web_change(const char *name, const char *value);
 web_answer web_restore(char *text);
 web_answer web_accept(void);
 web_answer web_save(const char *ending, uint32_t width, uint32_t height);
+/* ------- mesh.c ------- */
+web_answer web_mesh(void);
+const double *web_mesh_parts(void);
+void web_mesh_free(void);
+web_answer web_draft(float *positions, size_t vertices, uint32_t *indices, size_t triangles,
+                     uint16_t *groups);
 /* ------- state.c ------- */
 const char *web_info(void);
 const char *web_state(void);

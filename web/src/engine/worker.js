@@ -8,6 +8,8 @@
 // page counts another move in `signals`, memory that both threads share. Without such memory (a page that is not
 // isolated) a picture that is begun is finished.
 //
+// Of large models drafts are of fewer triangles: another worker, of this same file, simplifies them (draft.js).
+//
 // When the module is out of memory, or fails, a new one takes the place of it: options, camera and the bytes of the last
 // model are taken over.
 
@@ -15,11 +17,13 @@ import { deflate, encodePng } from './png.js';
 
 const SETTLED = 150; // ms after the last move
 const SLOW = 60, FAST = 22; // ms: drafts that take longer are drawn worse, and those that do not, better
+const READ_SHARE = 0.5; // of the progress of opening: bytes into memory; the rest is for the model's reader
+const SLOW_CHANGE = 100; // ms: where the full picture takes longer, a draft of changed options comes first
 const FULL = 0, ONE_SAMPLE = 1, HALF = 2; // viewer/picture.h
 const DRAFT_FROM = 150000; // polygons: from there on drafts are of a simplified model
 
 let create, options; // the module's function, and what it is called with
-let module; // the module that runs
+let module, scratch; // the module that runs, and a byte in its memory
 let canvas, context, half; // half: a smaller canvas, for drafts
 let signals; // Int32Array [moves, stops] of shared memory, or null
 let moves = 0, stops = 0; // that have been read here
@@ -28,18 +32,25 @@ let stateText = ''; // options of the last state
 let size = { width: 1280, height: 800 };
 let quality = ONE_SAMPLE; // of drafts
 let drawn = null; // quality of what is on the canvas, and it is of the present state
+let fullTime = 0; // ms, of the last full picture
 let timer = 0, scheduled = false, lastMove = 0;
 let work = null; // what is told of progress
 let said = []; // messages of the module since the last call
 let lastSaid = ''; // so that a warning is not said again with every change
-let draft = null; // the worker that simplifies
-let draftFor = 0; // number of the model that it is for
+let simplifier = null; // the worker that simplifies
+let simplified = 0; // number of the model that it has, or had
 
 const post = (event, detail = {}) => postMessage({ event, detail });
 
 // ------- the module -------
 
 const text = (at) => module.UTF8ToString(at);
+
+/** The module's memory. A view of one that threads have let grow ends too early until the module itself looks. */
+function heap() {
+  if (options.threads > 1) module.stringToUTF8('', scratch, 1);
+  return module.HEAPU8;
+}
 
 /** Calls with a string in the module's memory. */
 function withText(string, call) {
@@ -72,7 +83,7 @@ function tellProgress(fraction) {
   const now = performance.now();
   if (work && now - work.told > 60) {
     work.told = now;
-    post('progress', { what: work.what, fraction });
+    post('progress', { what: work.what, fraction: fraction < 0 ? -1 : work.from + (1 - work.from) * fraction });
   }
   if (!signals) return 0;
   if (Atomics.load(signals, 1) !== stops) return 1;
@@ -80,20 +91,20 @@ function tellProgress(fraction) {
 }
 
 /** Does something that may take long, of which progress is told. */
-function working(what, movable, call) {
-  work = { what, movable, told: performance.now() };
+function working(what, movable, call, from = 0) {
+  work = { what, movable, from, told: performance.now() };
   try {
     return call();
   } finally {
-    if (work.told) post('idle');
     work = null;
+    post('idle');
   }
 }
 
 const saved = { pieces: [], picture: null, results: null, wanted: null, at: 0 };
 
 /** A block of the module's memory, copied. */
-const copyOf = (at, bytes) => module.HEAPU8.slice(at, at + bytes);
+const copyOf = (at, bytes) => heap().slice(at, at + bytes);
 
 /** What the browser makes of bytes, which takes time: named in a first pass, taken in a second. */
 function result(kind, bytes, sizeAt, extra) {
@@ -104,8 +115,8 @@ function result(kind, bytes, sizeAt, extra) {
   }
   const made = saved.results[k], at = module._malloc(made.length) >>> 0;
   if (!at) return 0;
-  module.HEAPU8.set(made, at);
-  new Uint32Array(module.HEAPU8.buffer, sizeAt, 1)[0] = made.length;
+  heap().set(made, at);
+  new Uint32Array(heap().buffer, sizeAt, 1)[0] = made.length;
   return at;
 }
 
@@ -127,6 +138,7 @@ function hooks() {
 
 async function begin() {
   module = await create({ ...options, ...hooks() });
+  scratch = module._malloc(1) >>> 0;
   module._web_begin(options.threads);
   module._web_resize(size.width, size.height);
 }
@@ -146,9 +158,11 @@ async function safely(call) {
 
 async function restart() {
   const before = module, last = opened, words = stateText;
+  before?.PThread?.terminateAllThreads();
   module = null;
   opened = null;
   drawn = null;
+  simplified = 0;
   said = [];
   await begin();
   try {
@@ -173,8 +187,10 @@ function told() {
   post('state', state);
 }
 
+/** The next picture is another; where pictures take long, a draft comes first. */
 function changed() {
   drawn = null;
+  if (fullTime > SLOW_CHANGE) lastMove = performance.now();
   told();
   schedule();
 }
@@ -210,21 +226,21 @@ function room(name, bytes) {
 async function load(file) {
   if (file.data) {
     const bytes = new Uint8Array(file.data), at = room(file.name, bytes.length);
-    module.HEAPU8.set(bytes, at);
+    heap().set(bytes, at);
     return { name: file.name, at, size: bytes.length };
   }
   const at = room(file.name, file.size), reader = file.stream().getReader();
   let read = 0;
-  const reading = { what: 'reading', told: performance.now() };
+  const reading = { what: 'reading', from: 0, told: performance.now() };
   try {
     for (;;) {
       const { done, value } = await reader.read();
       if (done) break;
       if (read + value.length > file.size) throw new Error(`${file.name} has changed; open it again`);
-      module.HEAPU8.set(value, at + read);
+      heap().set(value, at + read);
       read += value.length;
       work = reading; // pictures are drawn in between
-      if (tellProgress(0.5 * read / file.size)) throw new Stopped();
+      if (tellProgress(READ_SHARE * read / file.size)) throw new Stopped();
     }
   } catch (error) {
     module._free(at);
@@ -248,7 +264,7 @@ async function openModels(names, files) {
     loaded.push(one);
   }
   const answer = working('reading', false, () =>
-    withText(names.join('\n'), (at) => module._web_open(at)));
+    withText(names.join('\n'), (at) => module._web_open(at)), files.length ? READ_SHARE : 0);
   if (!settle(answer, 'Opening')) throw new Stopped();
   opened = { names, files: loaded };
 }
@@ -263,8 +279,8 @@ async function open(what) {
     if (!names.length) throw new Error('There is no model among these files: STL, PLY, OBJ, OFF, glTF and GLB are read');
     await openModels(names, files);
   }
-  draftFor++;
   quality = ONE_SAMPLE;
+  fullTime = 0;
   changed();
   return JSON.parse(text(module._web_state())).model;
 }
@@ -301,14 +317,15 @@ function draw(how) {
     drawn = null;
     return;
   }
-  const frame = new Float64Array(module.HEAPU8.buffer, module._web_frame() >>> 0, 6);
-  const [width, height, ms, segments, threads, simple] = frame;
+  const frame = new Float64Array(heap().buffer, module._web_frame() >>> 0, 9);
+  const [width, height, ms, segments, threads, simple, number, polygons, moving] = frame;
   show(width, height);
   const full = how === FULL;
   drawn = how;
-  if (!full) adapt(ms);
+  if (full) fullTime = ms;
+  else adapt(ms);
   post('frame', { ms, draft: !full, full, segments, width, height, threads, simplified: !full && simple === 1 });
-  if (full) wantDraft();
+  if (full && polygons > DRAFT_FROM && !moving && simplified !== number) simplify(number);
 }
 
 /** Drafts get worse when they are slow, and better when they are fast. */
@@ -319,10 +336,9 @@ function adapt(ms) {
 
 function pixels(width, height) {
   const at = module._web_pixels() >>> 0, bytes = 4 * width * height;
-  const memory = module.HEAPU8;
-  return memory.buffer instanceof ArrayBuffer
-    ? new Uint8ClampedArray(memory.buffer, at, bytes)
-    : new Uint8ClampedArray(memory.slice(at, at + bytes).buffer); // an ImageData may not lie in shared memory
+  return options.threads > 1
+    ? new Uint8ClampedArray(copyOf(at, bytes).buffer) // an ImageData may not lie in shared memory
+    : new Uint8ClampedArray(heap().buffer, at, bytes);
 }
 
 function show(width, height) {
@@ -341,7 +357,51 @@ function show(width, height) {
 
 // ------- the simplified model -------
 
-function wantDraft() {
+function endSimplifier() {
+  simplifier?.terminate();
+  simplifier = null;
+}
+
+/** Has model `number` simplified by another worker, and takes what it makes if the model is still the same. */
+function simplify(number) {
+  simplified = number;
+  endSimplifier();
+  simplifier = new Worker(self.location.href, { type: 'module', name: 'drypoint draft' });
+  simplifier.onmessage = ({ data }) => {
+    queue = queue.then(() => takeDraft(number, data)).finally(endSimplifier);
+  };
+  simplifier.onerror = () => endSimplifier();
+  queue = queue.then(() => sendMesh(number));
+}
+
+function sendMesh(number) {
+  if (!simplifier || simplified !== number || module._web_mesh()) return endSimplifier();
+  const [positions, vertices, indices, triangles, groups] = new Float64Array(heap().buffer, module._web_mesh_parts() >>> 0, 5);
+  const mesh = {
+    positions: new Float32Array(copyOf(positions, 12 * vertices).buffer),
+    indices: new Uint32Array(copyOf(indices, 12 * triangles).buffer),
+    groups: new Uint16Array(copyOf(groups, 2 * triangles).buffer),
+  };
+  module._web_mesh_free();
+  simplifier.postMessage({ name: 'simplify', mesh }, [mesh.positions.buffer, mesh.indices.buffer, mesh.groups.buffer]);
+}
+
+/** A copy in the module's memory, which it frees; 0: memory is out. */
+function given(array) {
+  const at = module._malloc(array.byteLength) >>> 0;
+  if (at) heap().set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), at);
+  return at;
+}
+
+function takeDraft(number, { error, mesh }) {
+  if (error) post('message', { text: 'Moving pictures are not simplified: ' + error, kind: 'note' });
+  if (error || simplified !== number) return;
+  const parts = [mesh.positions, mesh.indices, mesh.groups].map(given);
+  if (parts.every((at) => at))
+    module._web_draft(parts[0], mesh.positions.length / 3, parts[1], mesh.indices.length / 3, parts[2]);
+  else
+    parts.forEach((at) => module._free(at));
+  quality = ONE_SAMPLE;
 }
 
 // ------- saving -------
@@ -432,6 +492,12 @@ async function run({ name, number, args }) {
 }
 
 onmessage = ({ data }) => {
+  if (data.name === 'simplify') { // this is the other worker
+    import('./draft.js').then(({ simplify }) => simplify(data.mesh)).then(
+      (mesh) => postMessage({ mesh }, [mesh.positions.buffer, mesh.indices.buffer, mesh.groups.buffer]),
+      (error) => postMessage({ error: error.message }));
+    return;
+  }
   if (data.name === 'begin') {
     queue = start(data);
     return;
