@@ -1,0 +1,206 @@
+/* What the page does: every control, key and gesture ends in a method of App, which asks the engine.
+ *
+ * The page's only state is the engine's: a command line. App keeps its last `state` event, and what was opened. Of
+ * changes that come faster than the engine takes them the newest of each option wins. `ready` is what the document
+ * says: the full picture of the present state is on the canvas. */
+import { History } from './history.js';
+import { reason, say, say_move, tell } from './messages.js';
+
+const camera_step = 5 / 180; /* of a picture's height: five degrees */
+
+export class App extends EventTarget {
+    engine = null;
+    state = { command: 'drypoint', options: '', words: {}, effective: {}, model: null };
+    history = new History();
+    model = null; /* {shape} or {files}: what was opened */
+    #waiting = null; /* options to be set */
+    #setting = false;
+    #asked = 0; /* calls that the engine has not answered */
+    #travels = false;
+    #what = '';
+
+    attach(engine) {
+        this.engine = engine;
+        engine.addEventListener('state', (event) => this.#on_state(event.detail));
+        engine.addEventListener('frame', (event) => this.#on_frame(event.detail));
+        engine.addEventListener('message', (event) => tell(event.detail.text, event.detail.kind));
+    }
+
+    #on_state(detail) {
+        this.state = detail;
+        if (this.#travels) this.history.settle(detail.options);
+        else if (this.model) this.history.push(detail.options, this.model, this.#what, performance.now());
+        this.dispatchEvent(new CustomEvent('state', { detail }));
+    }
+
+    #on_frame(detail) {
+        if (detail.full && this.#asked === 0) this.#mark('ready');
+        else if (!detail.full) this.#mark('drawing');
+        this.dispatchEvent(new CustomEvent('frame', { detail }));
+    }
+
+    #mark(state) {
+        const root = document.documentElement;
+        if (root.dataset.state === 'loading' && state !== 'ready') return;
+        if (root.dataset.state === 'loading') performance.mark('first-picture');
+        root.dataset.state = state;
+    }
+
+    /* Asks the engine for something that changes the picture. */
+    async #ask(call) {
+        this.#asked++;
+        this.#mark('drawing');
+        try {
+            return await call();
+        } finally {
+            this.#asked--;
+        }
+    }
+
+    /* ------- options ------- */
+
+    /** Sets options: {name: value, '' for flags, null takes away}. `what` names the control: its steps undo as one. */
+    set(options, what = '') {
+        this.#waiting = { ...this.#waiting, ...options };
+        this.#what = what;
+        if (!this.#setting) this.#flush();
+    }
+
+    async #flush() {
+        this.#setting = true;
+        while (this.#waiting) {
+            const options = this.#waiting;
+            this.#waiting = null;
+            try {
+                await this.#ask(() => this.engine.set(options));
+            } catch (error) {
+                tell(reason(error), 'error');
+                this.#refused();
+            }
+        }
+        this.#setting = false;
+    }
+
+    /* Nothing changed: controls show again what is, and the picture is the one that was there. */
+    #refused() {
+        this.#mark('ready');
+        this.dispatchEvent(new CustomEvent('state', { detail: this.state }));
+    }
+
+    /** Takes the place of what was set of lines and looks, as the viewer's presets do. */
+    set_preset(name) {
+        const groups = new Set(['Lines', 'Surface', 'Strokes', 'Edge map']);
+        const options = {};
+        for (const word of Object.keys(this.state.words)) {
+            const option = this.engine.options.find((each) => each.name === word);
+            if (option && groups.has(option.groupName) && word !== 'mirror') options[word] = null;
+        }
+        for (const word of ['paper', 'surface']) if (word in this.state.words) options[word] = null;
+        this.set({ ...options, preset: name || null }, '');
+        say(name ? `Preset: ${name}` : 'No preset');
+    }
+
+    /** Options and camera as a text; false: it was refused, and a message says why. */
+    async restore(text, { quiet = false } = {}) {
+        this.#what = '';
+        try {
+            await this.#ask(() => this.engine.restore(text));
+            return true;
+        } catch (error) {
+            if (!quiet) tell(reason(error), 'error');
+            this.#refused();
+            return false;
+        }
+    }
+
+    /* ------- models ------- */
+
+    /** Opens {shape} or {files}. False: it failed, what was there stays, and a message says why. */
+    async open(model) {
+        const before = this.model;
+        this.#what = '';
+        this.model = model; /* so that the state that comes with it is noted as its own */
+        try {
+            await this.#ask(() => this.engine.open(model));
+            return true;
+        } catch (error) {
+            this.model = before;
+            if (error.name !== 'AbortError') tell(reason(error), 'error');
+            this.#refused();
+            return false;
+        }
+    }
+
+    cancel() {
+        this.engine?.cancel();
+        say('Cancelled');
+    }
+
+    /* ------- camera ------- */
+
+    #moves(what) {
+        this.#what = what;
+        this.#mark('drawing');
+    }
+
+    turn(right, down) {
+        this.#moves('turn');
+        this.engine.turn(right, down);
+        say_move({ right: right * 180, down: down * 180 });
+    }
+
+    pan(right, down) {
+        this.#moves('pan');
+        this.engine.pan(right, down);
+        say_move({ pan_right: right, pan_down: down });
+    }
+
+    /** Zooms about a point that lies so many picture heights right of and below the middle. */
+    zoom(factor, right = 0, down = 0) {
+        this.#moves('zoom');
+        this.engine.zoom(factor, right, down);
+        say_move({ zoom: factor });
+    }
+
+    step(right, down, pans) {
+        if (pans) this.pan(right * 0.05, down * 0.05);
+        else this.turn(right * camera_step, down * camera_step);
+    }
+
+    #camera(call, text) {
+        this.#moves('');
+        Promise.resolve(call()).catch((error) => {
+            tell(reason(error), 'error');
+            this.#refused();
+        });
+        say(text);
+    }
+
+    fit() {
+        this.#camera(() => this.engine.fit(), 'The model fills the picture');
+    }
+
+    view(name) {
+        this.#camera(() => this.engine.view(name), name ? `View: ${name}` : 'View of the beginning');
+    }
+
+    project(orthographic) {
+        this.#camera(() => this.engine.project(orthographic), orthographic ? 'Orthographic' : 'In perspective');
+    }
+
+    /* ------- undo ------- */
+
+    async travel(step) {
+        const moment = this.history.at(step);
+        if (!moment || this.#travels) return;
+        this.#travels = true;
+        let arrived = true;
+        if (moment.model !== this.model) arrived = await this.open(moment.model);
+        if (arrived) arrived = await this.restore(moment.text);
+        if (arrived) this.history.go(step);
+        this.#travels = false;
+        if (arrived) this.history.settle(this.state.options);
+        if (arrived) say(step < 0 ? 'Undone' : 'Done again');
+        this.dispatchEvent(new CustomEvent('state', { detail: this.state }));
+    }
+}
