@@ -1,7 +1,7 @@
 /* Keeps the page in the browser: all files of one version, in one cache, so that no visit mixes two.
  *
  * The build defines PRECACHE, [[name, hash], ...], and VERSION. Files that the version before has with the same hash
- * are taken from its cache. A new version waits until no page is open that uses the old one. Answers carry the headers
+ * are taken from its cache. A new version waits until no page is open that uses the old one, or until a page asks for it. Answers carry the headers
  * that let threads share memory, so that hosts whose headers cannot be set draw with all cores from the second visit on. */
 /* global PRECACHE, VERSION */
 
@@ -56,6 +56,7 @@ async function answer(request) {
 
 self.addEventListener('install', (event) => event.waitUntil(install()));
 self.addEventListener('activate', (event) => event.waitUntil(activate()));
+self.addEventListener('message', (event) => event.data === 'take over' && self.skipWaiting());
 self.addEventListener('fetch', (event) => {
     const { method, url } = event.request;
     if (method === 'GET' && url.startsWith(self.registration.scope)) event.respondWith(answer(event.request));

@@ -13,6 +13,7 @@ export class App extends EventTarget {
     state = { command: 'drypoint', options: '', words: {}, effective: {}, model: null };
     history = new History();
     model = null; /* {shape} or {files}: what was opened */
+    opening = ''; /* the name of what is being opened */
     #waiting = null; /* options to be set */
     #setting = false;
     #asked = 0; /* calls that the engine has not answered */
@@ -87,16 +88,9 @@ export class App extends EventTarget {
         this.dispatchEvent(new CustomEvent('state', { detail: this.state }));
     }
 
-    /** Takes the place of what was set of lines and looks, as the viewer's presets do. */
+    /** A preset takes the place of what was set of lines and looks (the engine sees to that), and of the colours. */
     set_preset(name) {
-        const groups = new Set(['Lines', 'Surface', 'Strokes', 'Edge map']);
-        const options = {};
-        for (const word of Object.keys(this.state.words)) {
-            const option = this.engine.options.find((each) => each.name === word);
-            if (option && groups.has(option.groupName) && word !== 'mirror') options[word] = null;
-        }
-        for (const word of ['paper', 'surface']) if (word in this.state.words) options[word] = null;
-        this.set({ ...options, preset: name || null }, '');
+        this.set({ preset: name || null, paper: null, surface: null });
         say(name ? `Preset: ${name}` : 'No preset');
     }
 
@@ -119,6 +113,7 @@ export class App extends EventTarget {
     async open(model) {
         const before = this.model;
         this.#what = '';
+        this.opening = model.shape ?? model.files[0].name;
         this.model = model; /* so that the state that comes with it is noted as its own */
         try {
             await this.#ask(() => this.engine.open(model));

@@ -33,7 +33,8 @@ export function sort_files(files) {
     if (empty.length) return { files: [], error: `${names(empty)}: the file is empty (0 bytes).`, warning: null };
     if (beside.length && !others.length)
         return { files: [], error: `${names(beside)} lies beside a model: drop it together with the .obj or .gltf.`, warning: null };
-    return { files: [], error: `${names(others)}: no model that can be read here. ${formats} are.`, warning: null };
+    const verb = others.length > 1 ? 'are no models' : 'is no model';
+    return { files: [], error: `${names(others)} ${verb} that can be read here: ${formats} can.`, warning: null };
 }
 
 /** Opens files if there is a model among them. */

@@ -87,7 +87,7 @@ export function bind_progress(app) {
     app.engine.addEventListener('progress', ({ detail }) => {
         if (detail.fraction < 0 || !Number.isFinite(detail.fraction)) bar.removeAttribute('value');
         else bar.value = Math.min(detail.fraction, 1);
-        by_id('progress-text').textContent = doing[detail.what] ?? detail.what;
+        by_id('progress-text').textContent = detail.what === 'reading' ? `Reading ${app.opening}` : (doing[detail.what] ?? detail.what);
         timer ||= setTimeout(() => {
             box.hidden = false;
             if (shown !== detail.what) say(doing[detail.what] ?? detail.what);

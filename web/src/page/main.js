@@ -6,7 +6,7 @@ import { bind_files } from './files.js';
 import { bind_frame, bind_help, bind_progress, bind_theme } from './frame.js';
 import { bind_keys } from './keys.js';
 import { read_link, without_camera, write_link } from './link.js';
-import { reason, say, tell } from './messages.js';
+import { reason, tell } from './messages.js';
 import { missing_need, show_fatal } from './needs.js';
 import { register_offline } from './offline.js';
 import { bind_panel, copy, fill_panel, panel_keys } from './panel.js';
@@ -161,9 +161,9 @@ async function start() {
     });
     register_offline(() => {
         by_id('offline').hidden = false;
-    }, () => {
-        say('A new version is ready');
-        tell('A newer version of the page is ready: it is there when the page is opened again.', 'note');
+    }, (change) => {
+        const text = 'A newer version of the page is there. Lines, look and view stay; a file has to be opened again.';
+        tell(text, 'note', { label: 'Load it', act: change });
     });
 }
 

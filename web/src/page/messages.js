@@ -25,21 +25,24 @@ function dismiss(box) {
     if (held) (next?.querySelector('button') ?? by_id('picture')).focus();
 }
 
-/** Shows a message. kind: 'error', 'warning' or 'note'. */
-export function tell(text, kind = 'note') {
+/** Shows a message. kind: 'error', 'warning' or 'note'; `offer` is a button: {label, act}. */
+export function tell(text, kind = 'note', offer = null) {
     const list = by_id('messages');
     const same = [...list.children].find((box) => box.firstElementChild.textContent === text);
-    if (same) {
-        same.remove();
-    }
+    same?.remove();
     const box = make('div', { class: `message ${kind}`, role: kind === 'error' ? 'alert' : null }, make('p', {}, text));
     const close = make('button', { type: 'button', class: 'square', 'aria-label': 'Dismiss' }, icon('close'));
     on(close, 'click', () => dismiss(box));
+    if (offer) {
+        const button = make('button', { type: 'button', class: 'offer' }, offer.label);
+        on(button, 'click', offer.act);
+        box.append(button);
+    }
     box.append(close);
     const notes = list.querySelectorAll('.note');
     if (list.children.length >= most) (notes[0] ?? list.children[0]).remove();
     list.append(box);
-    if (kind === 'note') leave_in_time(box);
+    if (kind === 'note' && !offer) leave_in_time(box);
 }
 
 /** The text of what was thrown. */

@@ -103,10 +103,11 @@ const number_text = (count) => count.toLocaleString('en').replaceAll(',', ' ');
 
 function show_model(app) {
     const { model } = app.state;
-    by_id('model-name').textContent = model?.name ?? '';
+    const name = (model?.name ?? '').replace(/^shape:/, '');
+    by_id('model-name').textContent = name;
     by_id('model-size').textContent = model ? `${number_text(model.polygons)} polygons` : '';
-    document.title = model ? `${model.name} – Drypoint` : 'Drypoint';
-    by_id('picture').setAttribute('aria-label', model ? `Drawing of ${model.name}` : 'Drawing');
+    document.title = model ? `${name} – Drypoint` : 'Drypoint';
+    by_id('picture').setAttribute('aria-label', model ? `Drawing of ${name}` : 'Drawing');
     const remark = by_id('model-remark');
     remark.hidden = !model?.remark;
     remark.textContent = model?.remark ?? '';
