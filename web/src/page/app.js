@@ -17,6 +17,7 @@ export class App extends EventTarget {
     #waiting = null; /* options to be set */
     #setting = false;
     #asked = 0; /* calls that the engine has not answered */
+    #full = false; /* the last frame was a full picture, and nothing was asked for since */
     #travels = false;
     #what = '';
 
@@ -24,6 +25,7 @@ export class App extends EventTarget {
         this.engine = engine;
         engine.addEventListener('state', (event) => this.#on_state(event.detail));
         engine.addEventListener('frame', (event) => this.#on_frame(event.detail));
+        engine.addEventListener('idle', () => this.#asked === 0 && this.#mark('ready'));
         engine.addEventListener('message', (event) => tell(event.detail.text, event.detail.kind));
     }
 
@@ -35,26 +37,34 @@ export class App extends EventTarget {
     }
 
     #on_frame(detail) {
-        if (detail.full && this.#asked === 0) this.#mark('ready');
-        else if (!detail.full) this.#mark('drawing');
+        this.#full = detail.full;
+        this.#mark(detail.full && this.#asked === 0 ? 'ready' : 'drawing');
         this.dispatchEvent(new CustomEvent('frame', { detail }));
     }
 
     #mark(state) {
         const root = document.documentElement;
-        if (root.dataset.state === 'loading' && state !== 'ready') return;
-        if (root.dataset.state === 'loading') performance.mark('first-picture');
+        if (root.dataset.state === 'loading') {
+            if (state !== 'ready') return; // until there is a first picture
+            performance.mark('first-picture');
+        }
         root.dataset.state = state;
     }
 
-    /* Asks the engine for something that changes the picture. */
+    /* Asks the engine for something that changes the picture. What fails changes nothing. */
     async #ask(call) {
+        const before = this.#full;
         this.#asked++;
+        this.#full = false;
         this.#mark('drawing');
         try {
             return await call();
+        } catch (error) {
+            this.#full ||= before;
+            throw error;
         } finally {
             this.#asked--;
+            if (this.#asked === 0 && this.#full) this.#mark('ready');
         }
     }
 
@@ -82,9 +92,8 @@ export class App extends EventTarget {
         this.#setting = false;
     }
 
-    /* Nothing changed: controls show again what is, and the picture is the one that was there. */
+    /* Nothing changed: controls show again what is. */
     #refused() {
-        this.#mark('ready');
         this.dispatchEvent(new CustomEvent('state', { detail: this.state }));
     }
 
@@ -135,6 +144,7 @@ export class App extends EventTarget {
 
     #moves(what) {
         this.#what = what;
+        this.#full = false;
         this.#mark('drawing');
     }
 
@@ -162,13 +172,15 @@ export class App extends EventTarget {
         else this.turn(right * camera_step, down * camera_step);
     }
 
-    #camera(call, text) {
-        this.#moves('');
-        Promise.resolve(call()).catch((error) => {
+    async #camera(call, text) {
+        this.#what = '';
+        try {
+            await this.#ask(call);
+            say(text);
+        } catch (error) {
             tell(reason(error), 'error');
             this.#refused();
-        });
-        say(text);
+        }
     }
 
     fit() {

@@ -4,8 +4,8 @@ import { recall, remember } from './store.js';
 
 const control = /Mac|iPhone|iPad/.test(navigator.platform) ? '⌘' : 'Ctrl';
 
-/* [keys, what help calls them, what they do, act(app, page)]; keys are KeyboardEvent.key, or NULL where the event is
- * looked at in `arrows`. Rows without a name are told in the row above. */
+/* [keys, what help calls them, what they do, act]; keys are KeyboardEvent.key. Rows without a name are told in the row above;
+ * arrows are looked at by themselves. */
 const table = (app, page) => [
     ['', 'arrows', 'turn by five degrees', null],
     ['', 'shift + arrows', 'move', null],
@@ -54,7 +54,7 @@ function is_taken(event) {
     return at !== document.body && at !== document.documentElement && at.id !== 'picture';
 }
 
-const writes = (event) => /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName) && !/^(checkbox|range|color)$/.test(event.target.type);
+const writes = (event) => /^(INPUT|TEXTAREA)$/.test(event.target.tagName) && !/^(checkbox|range|color)$/.test(event.target.type);
 
 function undo_key(app, event) {
     const key = event.key.toLowerCase();

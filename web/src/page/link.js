@@ -9,13 +9,8 @@ const longest = 8000; /* characters of options: more was not written by this pag
 /** {shape, text} of an address, either may be null; `wrong` is a sentence if something in it makes no sense. */
 export function read_link(hash) {
     const found = { shape: null, text: null, wrong: null };
-    if (!hash.includes('=')) return found; // a place in the page, or nothing
-    let words;
-    try {
-        words = new URLSearchParams(hash.replace(/^#/, ''));
-    } catch {
-        return found;
-    }
+    if (hash.length < 2) return found;
+    const words = new URLSearchParams(hash.slice(1)); // takes anything
     const shape = words.get('shape');
     const text = words.get('with');
     if (shape === null && text === null) {

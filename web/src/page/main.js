@@ -63,7 +63,7 @@ function follow() {
         } catch {
             /* too many changes for this browser: the next one is written */
         }
-    }, 500);
+    }, 250);
 }
 
 async function copy_link() {
