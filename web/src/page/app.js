@@ -31,8 +31,7 @@ export class App extends EventTarget {
 
     #on_state(detail) {
         this.state = detail;
-        if (this.#travels) this.history.settle(detail.options);
-        else if (this.model) this.history.push(detail.options, this.model, this.#what, performance.now());
+        if (this.model && !this.#travels) this.history.push(detail.options, this.model, this.#what, performance.now());
         this.dispatchEvent(new CustomEvent('state', { detail }));
     }
 
@@ -204,10 +203,12 @@ export class App extends EventTarget {
         let arrived = true;
         if (moment.model !== this.model) arrived = await this.open(moment.model);
         if (arrived) arrived = await this.restore(moment.text);
-        if (arrived) this.history.go(step);
+        if (arrived) {
+            this.history.go(step);
+            this.history.settle(this.state.options); // as the engine writes it
+            say(step < 0 ? 'Undone' : 'Done again');
+        }
         this.#travels = false;
-        if (arrived) this.history.settle(this.state.options);
-        if (arrived) say(step < 0 ? 'Undone' : 'Done again');
         this.dispatchEvent(new CustomEvent('state', { detail: this.state }));
     }
 }
