@@ -56,6 +56,8 @@ export function bind_theme() {
     const show = () => {
         if (choice.value === 'auto') delete document.documentElement.dataset.theme;
         else document.documentElement.dataset.theme = choice.value;
+        const desk = getComputedStyle(document.documentElement).getPropertyValue('--desk').trim();
+        if (choice.value !== 'auto') for (const meta of document.querySelectorAll('meta[name=theme-color]')) meta.content = desk;
     };
     const kept = recall('theme', 'auto');
     choice.value = ['light', 'dark'].includes(kept) ? kept : 'auto';

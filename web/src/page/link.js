@@ -34,7 +34,7 @@ export function write_link(shape, text) {
 }
 
 /* Options that say where from. */
-const camera_names = new Set(['eye', 'target', 'fov', 'ortho', 'view', 'azimuth', 'elevation', 'zoom']);
+export const camera_names = new Set(['eye', 'target', 'fov', 'ortho', 'view', 'azimuth', 'elevation', 'zoom']);
 
 /** The options without those of the camera: what one model's camera sees of another is nothing. */
 export function without_camera(text) {

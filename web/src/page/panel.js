@@ -4,6 +4,7 @@ import { by_id, choose, fill, is_edited, make, on } from './dom.js';
 import { hex_of, value_of } from './effective.js';
 import { bind_galleries, complete_galleries, show_galleries } from './galleries.js';
 import { all_widths, bind_lines, show_lines, step_angle } from './lines.js';
+import { camera_names } from './link.js';
 import { say, tell } from './messages.js';
 import { label_of, pairs_of, words_of } from './words.js';
 
@@ -11,6 +12,8 @@ import { label_of, pairs_of, words_of } from './words.js';
 const choices = [['style', 'flat'], ['hidden', 'none'], ['detail', 'auto'], ['smooth', 'off']];
 
 const xray_text = (value) => (value > 0 && value < 1 ? `${Math.round(100 * (1 - value))} %` : 'off');
+
+const seconds = (time) => `${time.toFixed(2)} s`;
 
 /* A slider that says how much shines through, where the option says how much does not. */
 const xray_option = (through) => (through > 0 ? (1 - through).toFixed(2) : null);
@@ -23,7 +26,11 @@ export function bind_panel(app) {
     for (const [name] of choices) on(by_id(name), 'change', (event) => app.set({ [name]: event.target.value }));
     on(by_id('up'), 'change', (event) => app.set({ up: event.target.value || null }));
     on(by_id('preset'), 'change', (event) => app.set_preset(event.target.value));
-    on(by_id('stroke'), 'change', (event) => app.set({ stroke: event.target.value || null }));
+    for (const name of ['stroke', 'clip']) on(by_id(name), 'change', (event) => app.set({ [name]: event.target.value || null }));
+    on(by_id('time'), 'input', (event) => {
+        by_id('time-out').textContent = seconds(event.target.valueAsNumber);
+        app.set({ time: event.target.value }, 'time');
+    });
     for (const name of ['paper', 'surface']) on(by_id(name), 'input', (event) => app.set({ [name]: event.target.value }, name));
     on(by_id('xray'), 'input', (event) => {
         const value = xray_option(event.target.valueAsNumber);
@@ -116,6 +123,15 @@ function show_model(app) {
     by_id('up').value = up ?? '';
 }
 
+/* Models that move: at which time they are seen. */
+function show_time(app) {
+    const { moves, time = 0, duration } = app.state.effective ?? {};
+    by_id('time-row').hidden = !moves;
+    by_id('time').max = String(duration > 0 ? duration : 10);
+    if (!is_edited(by_id('time'))) by_id('time').value = String(time);
+    by_id('time-out').textContent = seconds(time);
+}
+
 function show_choices(app) {
     const { state } = app;
     for (const [name, usual] of choices) {
@@ -124,6 +140,7 @@ function show_choices(app) {
     }
     choose(by_id('preset'), state.words.preset ?? '', label_of('preset', state.words.preset ?? 'none'));
     choose(by_id('stroke'), value_of(state, 'stroke', '') || '');
+    choose(by_id('clip'), state.words.clip ?? '');
     if (state.words.up) choose(by_id('up'), state.words.up);
     by_id('ortho').checked = Boolean(value_of(state, 'orthographic', false));
     for (const name of ['paper', 'surface']) by_id(name).value = hex_of(value_of(state, name)) ?? '#ffffff';
@@ -134,6 +151,7 @@ function show_choices(app) {
 
 export function show_panel(app) {
     show_model(app);
+    show_time(app);
     show_choices(app);
     show_lines(app);
     show_galleries(app);
@@ -150,10 +168,9 @@ function show_figures({ ms, segments, full }) {
 /* ------- what keys do ------- */
 
 export function reset(app) {
-    const options = Object.fromEntries(Object.keys(app.state.words).filter((name) => name !== 'up').map((name) => [name, null]));
-    const camera = new Set(['eye', 'target', 'fov', 'ortho', 'view', 'azimuth', 'elevation', 'zoom']);
-    for (const name of Object.keys(options)) if (camera.has(name)) delete options[name];
-    app.set(options);
+    const stay = new Set([...camera_names, 'up', 'time']);
+    const names = Object.keys(app.state.words).filter((name) => !stay.has(name));
+    app.set(Object.fromEntries(names.map((name) => [name, null])));
     say('Plain lines');
 }
 
