@@ -3,7 +3,7 @@ import { by_id, make, on } from './dom.js';
 import { label_of } from './words.js';
 
 /* In the order of the shelf; what the program has beyond these follows. */
-const shapes = ['bolt', 'gear', 'bracket', 'stairs', 'boxes', 'torus', 'cube', 'cylinder', 'sphere', 'tetrahedron', 'flag', 'torso', 'terrain'];
+const shapes = ['bolt', 'gear', 'bracket', 'stairs', 'boxes', 'torus', 'cube', 'tetrahedron', 'cylinder', 'sphere', 'flag', 'torso', 'terrain'];
 /* Presets that look different on a screen. Those for offices and machines are in the choice below them. */
 const looks = ['', 'technical', 'illustration', 'cartoon', 'engraving', 'blueprint', 'sketch', 'pencil', 'patent'];
 
