@@ -3,16 +3,7 @@
 #define VIEWER_LOAD_H
 
 #include "cmdline.h"
-#include "commands.h"
-
-/* A model that is there. Zero is none. */
-typedef struct loaded {
-    dp_source *source; /* NULL: none */
-    measured seen;     /* no camera is fitted in it */
-    bool moves;        /* it is another at another time */
-    double lasts;      /* s; 0: without end, or it does not move */
-    double time;       /* s: where it is */
-} loaded;
+#include "loaded.h"
 
 typedef struct load_job load_job;
 
@@ -28,6 +19,5 @@ bool load_end(load_job *job, loaded *out);
 void load_stop(void);
 /* Has it heard that, so that it failed for no reason of the model's? Asked after its end. */
 bool load_was_stopped(void);
-void loaded_free(loaded *model);
 
 #endif
