@@ -89,6 +89,12 @@ if(TARGET drypoint_tool AND NOT CMAKE_CROSSCOMPILING)
   install(FILES ${completions}/drypoint DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   install(FILES ${completions}/_drypoint DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
   install(FILES ${completions}/drypoint.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  if(TARGET drypoint_view) # shells look for a file of that name; the scripts know it
+    file(CREATE_LINK drypoint ${completions}/drypoint-view SYMBOLIC)
+    file(CREATE_LINK drypoint.fish ${completions}/drypoint-view.fish SYMBOLIC)
+    install(FILES ${completions}/drypoint-view DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${completions}/drypoint-view.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  endif()
 endif()
 # The viewer's place among the desktop's programs.
 if(TARGET drypoint_view)
