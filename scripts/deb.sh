@@ -33,7 +33,7 @@ git ls-files -z --deduplicate | while IFS= read -r -d '' file; do
 done | tar --create --null --files-from=- --mtime="@$(dpkg-parsechangelog -S Timestamp)" | tar --extract -C "$source"
 
 say "building in $source, which takes some minutes; $log tells more"
-if ! (cd "$source" && DEB_BUILD_OPTIONS="parallel=$jobs ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -us -uc) >"$log" 2>&1; then
+if ! (cd "$source" && DEB_BUILD_OPTIONS="parallel=$jobs noautodbgsym ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -us -uc) >"$log" 2>&1; then
     grep -nE 'error:|Error|missing' "$log" | tail -n 10 >&2
     tail -n 20 "$log" >&2
     exit 1
