@@ -30,6 +30,8 @@ help:
 	@echo 'make bench-big  draw a 5 GB file; TRIANGLES=2000000 makes it smaller'
 	@echo 'make gallery    draw the pictures of docs/gallery again'
 	@echo 'make install    install below PREFIX=/usr/local'
+	@echo 'make uninstall  remove what make install put there'
+	@echo 'make deb        install what is missing, and build Debian packages in build/deb'
 	@echo 'make setup      only install what is missing to build'
 	@echo 'make format     format the C sources; make format-check only looks'
 	@echo 'make clean      remove the build directory'
@@ -83,6 +85,14 @@ gallery: setup
 install: all
 	@cmake --install $(BUILD) --prefix "$(PREFIX)"
 
+# What was installed last, by CMake's manifest.
+uninstall:
+	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/Uninstall.cmake
+
+deb:
+	@scripts/setup.sh deb
+	@scripts/deb.sh
+
 format:
 	@clang-format -i $(SOURCES)
 
@@ -93,4 +103,4 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all help setup setup-check demo check check-all check-gl test sanitize fuzz mutants accuracy twins bench bench-big gallery \
-        install format format-check clean
+        install uninstall deb format format-check clean

@@ -1,9 +1,10 @@
 #!/bin/sh
-# setup.sh [build|check]: installs what is missing to build, or also to run all checks.
+# setup.sh [build|check|deb]: installs what is missing to build, or also to run all checks, or to build Debian packages.
 #
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
 # rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
 set -eu
+here=$(dirname "$0")/..
 
 have() { command -v "$1" >/dev/null 2>&1; }
 module() { have pkg-config && pkg-config --exists "$1" 2>/dev/null; }
@@ -35,6 +36,7 @@ loadable() { [ -n "$(find /usr/lib /usr/lib64 /usr/local/lib -name "$1" -print -
 # window, and programs under libdrypoint-preload.so (hacks to draw: 8 MB, 20 MB unpacked).
 find_optional() {
     optional=
+    [ "${1:-build}" != deb ] || return 0 # they are needed there
     header GL/glcorearb.h || optional="$optional libgl-dev"
     loadable libEGL.so.1 || optional="$optional libegl1"
     { loadable swrast_dri.so || loadable 'libgallium*.so'; } || optional="$optional libgl1-mesa-dri"
@@ -50,8 +52,26 @@ find_optional() {
     [ -x /usr/libexec/xscreensaver/gears ] || [ -x /usr/lib/xscreensaver/gears ] || optional="$optional xscreensaver-gl"
 }
 
+# What debian/control says that the packages are built with, and is not here, without versions.
+unmet() {
+    if have dpkg-checkbuilddeps; then
+        dpkg-checkbuilddeps "$here/debian/control" 2>&1 | sed -n 's/.*[Uu]nmet build dependencies: //p'
+    else
+        sed -n '/^Build-Depends:/,/^$/{s/^Build-Depends://;p;}' "$here/debian/control" | tr ',' ' '
+    fi | sed 's/([^)]*)//g'
+}
+find_for_deb() {
+    have dpkg-buildpackage || missing="$missing build-essential"
+    have dh || missing="$missing debhelper"
+    have lintian || missing="$missing lintian"
+    for package in $(unmet); do
+        case " $missing " in *" $package "*) ;; *) missing="$missing $package" ;; esac
+    done
+}
+
 find_missing() {
     missing=
+    [ "${1:-build}" != deb ] || { find_for_deb; return; }
     { have cc && have c++ && have make; } || missing="$missing build-essential"
     recent_cmake || missing="$missing cmake"
     have ninja || missing="$missing ninja-build"
