@@ -58,7 +58,7 @@ def enum_class(enum):
     text = f"class {title(enum.name)}(IntEnum):\n"
     text += f'    """{documentation(enum.doc, 4).strip() or title(enum.name) + "."}\n\n'
     for member in members:
-        text += f"    {member.name.removeprefix(prefix)}: {documentation(member.doc, 8).strip()}\n"
+        text += f"    {member.name.removeprefix(prefix)}: {documentation(member.doc, 8).strip()}".rstrip(" :") + "\n"
     text = text.rstrip() + '\n    """\n\n'
     for number, member in enumerate(members):
         text += f"    {member.name.removeprefix(prefix)} = {number}\n"
@@ -119,7 +119,8 @@ class Writer:
             if kind:
                 kinds[member.name] = kind
             fields += f"    {member.name}: {annotation} = {default}\n"
-            text += f"        {member.name}: {documentation(member.doc, 12).strip()}\n"
+            note = documentation(member.doc, 12).strip() or "see " + annotation.split(" ")[0]
+            text += f"        {member.name}: {note}\n"
         text = "\n".join(line.rstrip() for line in text.splitlines()) + '\n    """\n\n'
         text += f'    _c: ClassVar[str] = "{name}"\n    _kinds: ClassVar[dict[str, str]] = {kinds}\n\n'
         return text + fields

@@ -22,7 +22,7 @@ class Reporter:
         self.failure: Optional[BaseException] = None
         self._handle = ffi.new_handle(self)
         self.pointer = ffi.new("drypoint_progress *")
-        self.call = lib.drypoint_progress_call
+        self.call = ffi.addressof(lib, "drypoint_progress_call")
 
     def run(self, function: Optional[Progress], action: Callable[[], None]) -> None:
         """Runs an action in C; its reports go to `function`."""
