@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import zlib
+from collections.abc import Iterator
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -60,10 +61,10 @@ class Polylines(NamedTuple):
     lines: np.ndarray
     points: np.ndarray
 
-    def __iter__(self) -> Any:
+    def each(self) -> Iterator[tuple[Any, np.ndarray]]:
         """(line, its points), line by line."""
-        lines, points = self[0], self[1]
-        return iter([(line, points[line["first"] : line["first"] + line["count"]]) for line in lines])
+        for line in self.lines:
+            yield line, self.points[line["first"] : line["first"] + line["count"]]
 
 
 def chains_of(segments: np.ndarray) -> Polylines:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 from enum import IntEnum
+from numbers import Integral
 from typing import TypeVar, Union
 
 from ._errors import ArgumentError
@@ -90,7 +91,7 @@ def _named(text: str, what: str, colors: dict[str, int]) -> int:
 
 def _channels(values: tuple[float, ...], what: str) -> int:
     channels = list(values)
-    whole = all(hasattr(value, "__index__") for value in channels)
+    whole = all(isinstance(value, Integral) for value in channels)
     if len(channels) == 3:
         channels.append(255 if whole else 1.0)
     most = 255 if whole else 1
@@ -108,10 +109,10 @@ def color(value: Color, what: str, colors: dict[str, int], transparent: int) -> 
         return 0
     if isinstance(value, str):
         result = _named(value, what, colors)
-    elif hasattr(value, "__index__"):
-        result = int(value)  # type: ignore[arg-type]
-        if not 0 <= result < 1 << 32:
+    elif isinstance(value, Integral):
+        if not 0 <= value < 1 << 32:
             raise ArgumentError(f"{what}: {value!r} is not 0xRRGGBBAA")
+        return int(value)  # as in C, where 0 is the default
     else:
         try:
             result = _channels(tuple(value), what)  # type: ignore[arg-type]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import operator
 from collections.abc import Mapping
 from typing import Any, ClassVar, TypeVar, Union, dataclass_transform
 
@@ -94,7 +95,9 @@ class Filler:
             kind, *words = value._kinds.get(name, "plain").split()
             try:
                 getattr(self, "_" + kind)(target, name, item, words, what, keep)
-            except (TypeError, OverflowError) as error:
+            except ArgumentError:
+                raise
+            except (TypeError, ValueError, OverflowError) as error:
                 raise ArgumentError(f"{what}: {item!r} does not fit: {error}") from None
 
     def _plain(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
@@ -113,7 +116,7 @@ class Filler:
             if item is not True and item is not False and not isinstance(item, np.bool_):
                 raise ArgumentError(f"{what}: {item!r} is neither True nor False")
             return bool(item)
-        return item.__index__() if wanted is int and hasattr(item, "__index__") else item if wanted is int else float(item)
+        return operator.index(item) if wanted is int else float(item)
 
     def _enum(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
         setattr(target, name, int(_names.member(getattr(self.generated, words[0]), item, what)))
