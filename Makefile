@@ -82,7 +82,6 @@ gallery: setup
 	@scripts/gallery.sh $(BUILD)/drypoint
 
 wheel: setup
-	@$(MAKE) --no-print-directory all
 	@scripts/wheel.sh $(BUILD)
 
 install: all

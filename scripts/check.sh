@@ -207,7 +207,7 @@ any() { # PATTERN...: is there a file of one of these names?
 has_gl() { [ -z "$(no_gl)" ]; }
 
 # The Python package: its wheel, of the libraries of the gcc phase, and its tests with it.
-python() {
+python_package() {
     local log=$logs/python.log start=$SECONDS good wrong status
     : >"$log"
     begin "Python: the wheel and its tests" "$log"
@@ -275,7 +275,7 @@ run_phase() {
             echo "skipped (no $(no_gl): make setup-check installs it where it can)"
         fi
         ;;
-    python) python ;;
+    python) python_package ;;
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
     accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)

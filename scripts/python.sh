@@ -14,9 +14,9 @@ lacking() { # what the tests need beyond the wheel, as Debian calls it
     "$python" -c 'import ensurepip' 2>/dev/null || echo python3-venv
     "$python" -c 'import os, sysconfig; exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))' || echo python3-dev
 }
-missing=$(lacking)
+missing=$(lacking | xargs)
 if [ -n "$missing" ]; then
-    echo "no $(echo $missing)"
+    echo "no $missing"
     exit 77
 fi
 scripts/wheel.sh "${1:-build}"

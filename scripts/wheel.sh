@@ -6,9 +6,9 @@ set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build}
 python=${PYTHON:-/usr/bin/python3}
-lacking=$(for module in cffi setuptools wheel build; do "$python" -c "import $module" 2>/dev/null || echo "python3-$module"; done)
+lacking=$(for module in cffi setuptools wheel build; do "$python" -c "import $module" 2>/dev/null || echo "python3-$module"; done | xargs)
 if [ -n "$lacking" ]; then
-    echo "wheel: $python lacks: $(echo $lacking); as Debian packages: apt-get install $(echo $lacking)" >&2
+    echo "wheel: $python lacks Debian's $lacking: apt-get install $lacking" >&2
     exit 1
 fi
 [ -e "$build/CMakeCache.txt" ] || cmake --preset release $(scripts/generator.sh)

@@ -12,7 +12,7 @@ from . import cdef
 HERE = os.path.dirname(os.path.abspath(__file__))
 INCLUDE = os.path.join(os.path.dirname(os.path.dirname(HERE)), "include")
 
-# The package's own: what C calls in Python (drypoint/_library.py), and native.c.
+# The package's own: what C calls in Python (src/drypoint), and native.c.
 TYPES = """
 typedef struct drypoint_progress {
     void *handle; /* of the Python object that is told; NULL: nobody is */

@@ -43,7 +43,7 @@ def struct(cls: type[S]) -> type[S]:
                 raise _names.unknown(made.__name__, name, known)
         plain(self, *arguments, **named)
 
-    made.__init__ = init  # type: ignore[method-assign]
+    made.__init__ = init  # type: ignore
     return made
 
 
@@ -56,11 +56,15 @@ class Struct:
 
     def replace(self: S, **changes: Any) -> S:
         """A copy with other values for some fields."""
-        known = {field.name for field in dataclasses.fields(self)}  # type: ignore[arg-type]
         for name in changes:
-            if name not in known:
-                raise _names.unknown(type(self).__name__, name, known)
+            if name not in names_of(type(self)):
+                raise _names.unknown(type(self).__name__, name, names_of(type(self)))
         return dataclasses.replace(self, **changes)  # type: ignore[type-var]
+
+
+def names_of(cls: Any) -> tuple[str, ...]:
+    """Names of the fields of a dataclass, which are its slots."""
+    return cls.__slots__
 
 
 def coerce(cls: type[S], value: Union[S, Mapping[str, object], None], what: str) -> S:
@@ -89,7 +93,7 @@ class Filler:
 
     def fill(self, target: Any, value: Struct, keep: list[Any]) -> None:
         """Copies all fields."""
-        for name in value.__slots__:
+        for name in names_of(type(value)):
             what = f"{type(value).__name__}.{name}"
             item = getattr(value, name)
             kind, *words = value._kinds.get(name, "plain").split()
@@ -192,7 +196,7 @@ class Filler:
     def read(self, cls: type[S], value: Any) -> S:
         """A dataclass of a C struct. What it points to (textures, images) is left out."""
         made = cls()
-        for name in cls.__slots__:
+        for name in names_of(cls):
             kind, *words = cls._kinds.get(name, "plain").split()
             if kind not in ("texture", "image", "counted"):
                 setattr(made, name, self._read(kind, words, getattr(value, name)))

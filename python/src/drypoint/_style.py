@@ -14,7 +14,8 @@ from ._texture import Texture, filler
 def resolved(style: Any = None) -> Style:
     """A style with every default filled in; refuses what is out of range.
 
-    >>> resolved(Style(line={"ridge": {"width": 3}})).line["ridge"].width
+    >>> from drypoint import Line
+    >>> resolved(Style(line={"ridge": {"width": 3}})).line[Line.RIDGE].width
     3.0
     >>> resolved().ridge_angle
     150.0

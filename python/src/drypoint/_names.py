@@ -110,9 +110,10 @@ def color(value: Color, what: str, colors: dict[str, int], transparent: int) -> 
     if isinstance(value, str):
         result = _named(value, what, colors)
     elif isinstance(value, Integral):
-        if not 0 <= value < 1 << 32:
+        result = int(value)
+        if not 0 <= result < 1 << 32:
             raise ArgumentError(f"{what}: {value!r} is not 0xRRGGBBAA")
-        return int(value)  # as in C, where 0 is the default
+        return result  # as in C, where 0 is the default
     else:
         try:
             result = _channels(tuple(value), what)  # type: ignore[arg-type]

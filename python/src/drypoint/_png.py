@@ -24,5 +24,5 @@ def encode(rgba: np.ndarray, dpi: float = 0) -> bytes:
     if dpi > 0:
         per_metre = round(dpi / 0.0254)
         parts.append(_chunk(b"pHYs", struct.pack(">IIB", per_metre, per_metre, 1)))
-    parts += [_chunk(b"IDAT", zlib.compress(rows, 1)), _chunk(b"IEND", b"")]
+    parts += [_chunk(b"IDAT", zlib.compress(rows.data, 1)), _chunk(b"IEND", b"")]
     return b"".join(parts)

@@ -131,10 +131,11 @@ class Drawing:
         info = self.info
         lines, points = np.zeros(info.paths, PATH), np.zeros(info.points, POINT)
         path, first = ffi.new("dp_path *"), 0
+        copied = [name for name in PATH.fields or () if name not in ("first", "count")]
         raw = np.frombuffer(ffi.buffer(path), dtype_of("dp_path"))
         for index in range(info.paths):
             lib.dp_drawing_path(self._owned._pointer, index, path)
-            for name in PATH.names[:-2]:
+            for name in copied:
                 lines[name][index] = raw[name][0]
             buffer = ffi.buffer(path.points, path.count * POINT.itemsize)
             points[first : first + path.count] = np.frombuffer(buffer, POINT)

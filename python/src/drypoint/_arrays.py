@@ -66,11 +66,12 @@ def floats(values: Any, columns: int, what: str) -> np.ndarray:
 
 def far_origin(vertices: np.ndarray) -> np.ndarray:
     """From where positions are to be counted so that float32 keeps their digits; 0: from 0."""
-    origin = np.zeros(3)
-    finite = vertices[np.isfinite(vertices).all(axis=1)]
+    origin, finite = np.zeros(3), vertices
+    if not np.isfinite(vertices).all():
+        finite = vertices[np.isfinite(vertices).all(axis=1)]
     if not len(finite):
         return origin
-    low, high = finite.min(axis=0).astype(float), finite.max(axis=0).astype(float)
+    low, high = (np.array([one(finite[:, k]) for k in range(3)], float) for one in (np.min, np.max))
     size = (high - low).max()
     far = np.maximum(abs(low), abs(high)) > FAR * size
     if size == 0 or not far.any() or (finite.astype(np.float32) == finite).all():
@@ -111,12 +112,14 @@ def as_indices(array: np.ndarray, vertices: int, check: bool) -> np.ndarray:
                                     f"{vertices - 1}", item=polygon)
     if flat.dtype == np.int32 and flat.dtype.isnative and flat.flags.aligned:
         flat = flat.view(np.uint32)  # negative ones become too large ones
+    if check:
+        return np.require(flat, np.uint32, ["C", "A"])
     if flat.dtype.itemsize == 8:
         flat = np.where((flat < 0) | (flat > MOST), NO_VERTEX, flat)
     elif flat.dtype.kind == "i":
         flat = flat.astype(np.int64)
         flat = np.where(flat < 0, NO_VERTEX, flat)
-    return np.require(flat, np.uint32, "CA")
+    return np.require(flat, np.uint32, ["C", "A"])
 
 
 def polygons_of(faces: Any, vertices: int, check: bool) -> tuple[np.ndarray, Optional[np.ndarray], int]:
@@ -136,8 +139,8 @@ def polygons_of(faces: Any, vertices: int, check: bool) -> tuple[np.ndarray, Opt
     count, corners = array.shape
     if corners < 3 and check:
         raise ArgumentError(f"faces: polygons of {corners} corners")
-    firsts = None if corners == 3 else np.arange(0, count * corners + 1, corners, dtype=np.uint32)
-    return as_indices(array, vertices, check), firsts, count
+    starts = None if corners == 3 else np.arange(0, count * corners + 1, corners, dtype=np.uint32)
+    return as_indices(array, vertices, check), starts, count
 
 
 def soup(vertices: np.ndarray) -> tuple[np.ndarray, Optional[np.ndarray], int]:
@@ -153,7 +156,7 @@ def soup(vertices: np.ndarray) -> tuple[np.ndarray, Optional[np.ndarray], int]:
 
 def refuse_infinite(positions: np.ndarray, indices: Optional[np.ndarray], vertices: np.ndarray) -> None:
     """Raises where a polygon uses a vertex that is not finite; others harm nobody."""
-    if np.isfinite(positions.sum(dtype=np.float64)):
+    if np.isfinite(positions).all():
         return
     bad = ~np.isfinite(positions).all(axis=1)
     used = np.ones(len(bad), bool) if indices is None else np.zeros(len(bad), bool)
@@ -172,7 +175,7 @@ def group_numbers(values: Any, polygons: int) -> np.ndarray:
         raise ArgumentError(f"groups: an array of shape {array.shape} is not ({polygons},), one for each polygon")
     if array.size and not (0 <= array.min() and array.max() <= 65535):
         raise ArgumentError("groups: numbers are 0 to 65535")
-    return np.require(array, np.uint16, "CA")
+    return np.require(array, np.uint16, ["C", "A"])
 
 
 def vertex_colors(values: Any, vertices: int) -> np.ndarray:
@@ -182,7 +185,7 @@ def vertex_colors(values: Any, vertices: int) -> np.ndarray:
         raise ArgumentError(f"colors: an array of shape {array.shape} is not ({vertices},), ({vertices}, 3) or "
                             f"({vertices}, 4)")
     if array.ndim == 1:
-        return np.require(numbers(array, "colors"), np.uint32, "CA")
+        return np.require(numbers(array, "colors"), np.uint32, ["C", "A"])
     most = 1 if array.dtype.kind == "f" else 255
     if array.size and not (0 <= array.min() and array.max() <= most):
         raise ArgumentError(f"colors: channels of {array.dtype} are 0 to {most}")
@@ -199,7 +202,7 @@ def edge_kinds(values: Any, corners: int) -> np.ndarray:
     array = numbers(values, "edges").reshape(-1)
     if array.shape != (corners,):
         raise ArgumentError(f"edges: {array.size} kinds for {corners} corners")
-    return np.require(np.clip(array, 0, 255), np.uint8, "CA")
+    return np.require(np.clip(array, 0, 255), np.uint8, ["C", "A"])
 
 
 def attribute(values: Any, columns: int, vertices: int, corners: int, what: str) -> np.ndarray:
@@ -216,11 +219,11 @@ def gather(vertices: Any, faces: Any = None, *, groups: Any = None, edges: Any =
     given = real(vertices, "vertices")
     if not given.size:
         given = np.empty((0, 3), np.float32)
+    indices: Optional[np.ndarray] = None
     if given.ndim not in (2, 3) or given.shape[-1] != 3 or (given.ndim == 3 and faces is not None):
         raise ArgumentError(f"vertices: an array of shape {given.shape} is not (n, 3), nor (m, k, 3) without faces")
     if faces is None:
         given, firsts, count = soup(given)
-        indices = None
     if len(given) > MOST:
         raise LimitError(f"vertices: {len(given)} are more than {MOST}")
     if faces is not None:

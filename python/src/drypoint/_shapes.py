@@ -51,7 +51,7 @@ def counted(numbers: Any) -> Any:
 
 
 def _trimesh_colors(mesh: Any) -> Any:
-    visual = getattr(mesh, "visual", None)
+    visual: Any = getattr(mesh, "visual", None)
     return visual.vertex_colors if getattr(visual, "kind", None) == "vertex" else None
 
 

@@ -324,9 +324,10 @@ class Source:
 
     def _group(self, group: Any, number: int) -> Group:
         name = text(lib.dp_source_group_name(self._pointer, number))
-        finite = math.isfinite(group.min[0])
-        box = (tuple(group.min), tuple(group.max)) if finite else (None, None)
-        return Group(number, name, lib.dp_source_group_color(self._pointer, number), group.polygons, *box)
+        low: Any
+        high: Any
+        low, high = (tuple(group.min), tuple(group.max)) if math.isfinite(group.min[0]) else (None, None)
+        return Group(number, name, lib.dp_source_group_color(self._pointer, number), group.polygons, low, high)
 
     def _wrapped(self, function: Any, value: Any) -> "Source":
         """A source that owns this one."""
