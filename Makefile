@@ -29,6 +29,7 @@ help:
 	@echo 'make bench      time frames, ten minutes long, beside Mesa; BENCH_QUICK=1: two'
 	@echo 'make bench-big  draw a 5 GB file; TRIANGLES=2000000 makes it smaller'
 	@echo 'make gallery    draw the pictures of docs/gallery again'
+	@echo 'make wheel      make the Python package, build/python/dist/*.whl'
 	@echo 'make install    install below PREFIX=/usr/local'
 	@echo 'make uninstall  remove what make install put there'
 	@echo 'make deb        install what is missing, and build Debian packages in build/deb'
@@ -82,6 +83,9 @@ gallery: setup
 	@$(MAKE) --no-print-directory all
 	@scripts/gallery.sh $(BUILD)/drypoint
 
+wheel: setup
+	@scripts/wheel.sh $(BUILD)
+
 install: all
 	@cmake --install $(BUILD) --prefix "$(PREFIX)"
 
@@ -103,4 +107,4 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all help setup setup-check demo check check-all check-gl test sanitize fuzz mutants accuracy twins bench bench-big gallery \
-        install uninstall deb format format-check clean
+        wheel install uninstall deb format format-check clean
