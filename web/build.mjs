@@ -5,7 +5,7 @@
  * Debian's package puts it there), copies page, style, icons and both WebAssembly builds, and tells the service worker
  * which files there are and by which hash of their content. At the end it lists the sizes, as brotli makes them, and
  * fails if a visit takes more than `most` without optional parts: those that are loaded when a script asks for them
- * (import()), and the WebAssembly build that the visitor's browser does not choose. */
+ * (import()), the WebAssembly build that the visitor's browser does not choose, and icons for whoever installs the page. */
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cp, mkdir, readdir, readFile, rename, rm, stat, writeFile } from 'node:fs/promises';
@@ -59,7 +59,7 @@ function package_words() {
     return missing.map((name) => `--external:${name}`);
 }
 
-/* Bundles the script whose name in the page is `name`, and tells which parts of it are loaded at once: {once, later}. */
+/* Bundles the script whose name in the page is `name`, and tells which files of it are loaded later, by import(). */
 async function bundle(name, source) {
     const meta = path.join(work, `${name}.meta.json`);
     esbuild(
@@ -71,12 +71,12 @@ async function bundle(name, source) {
     const file_of = (key) => path.relative(work, path.resolve(web, key));
     const once = new Set();
     const visit = (key) => {
-        if (!outputs[key] || once.has(file_of(key))) return;
-        once.add(file_of(key));
+        if (!outputs[key] || once.has(key)) return;
+        once.add(key);
         for (const used of outputs[key].imports) if (used.kind === 'import-statement') visit(used.path);
     };
     visit(Object.keys(outputs).find((key) => file_of(key) === `${name}.js`));
-    return { once: [...once] };
+    return Object.keys(outputs).filter((key) => !once.has(key)).map(file_of);
 }
 
 async function copy_page() {
@@ -126,33 +126,35 @@ async function write_service_worker() {
 
 const brotli = (bytes) => brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }).length;
 
-/* Lists the sizes; `parts` are the files of a visit, without the WebAssembly builds, one of which a visit takes. */
-async function report(parts, builds) {
+/* Lists the sizes; `later` are the scripts that import() loads; of the WebAssembly builds a visit takes one. */
+async function report(later, builds) {
+    const parts = [];
     const size = {};
     for (const name of await list(work)) {
         if (name.endsWith('.map')) continue;
         const bytes = await readFile(path.join(work, name));
         size[name] = brotli(bytes);
-        const needed = parts.has(name) || builds.some((names) => names.includes(name));
+        const needed = !later.has(name) && !/^icons\/icon-.*png$/.test(name);
+        if (needed && !builds.some((names) => names.includes(name))) parts.push(name);
         console.log(`${name.padEnd(32)} ${String(bytes.length).padStart(8)} ${String(size[name]).padStart(8)}${needed ? '' : '  optional'}`);
     }
     const sum = (names) => names.reduce((total, name) => total + (size[name] ?? 0), 0);
-    const visit = sum([...parts]) + Math.max(...builds.map(sum));
+    const visit = sum(parts) + Math.max(...builds.map(sum));
     console.log(`build: a visit takes ${(visit / 1024).toFixed(1)} KiB by brotli, of at most ${most / 1024}; all files ${(sum(Object.keys(size)) / 1024).toFixed(1)} KiB`);
     if (visit > most && !option.debug) fail('that is too much');
 }
 
 await rm(work, { recursive: true, force: true });
 await mkdir(work, { recursive: true });
-const parts = new Set(['index.html', 'style.css', 'sw.js']);
+const later = new Set();
 for (const [name, source] of [['page', 'src/page/main.js'], ['worker', 'src/engine/worker.js']]) {
     if (!existsSync(path.join(web, source))) fail(`there is no web/${source}`);
-    for (const file of (await bundle(name, source)).once) parts.add(file);
+    for (const file of await bundle(name, source)) later.add(file);
 }
 await copy_page();
 const builds = [await copy_wasm(option.single, 'drypoint'), await copy_wasm(option.threads, 'drypoint-threads')];
 await write_service_worker();
-await report(parts, builds);
+await report(later, builds);
 await rm(out, { recursive: true, force: true });
 await rename(work, out);
 console.log(`build: ${path.relative(process.cwd(), out) || '.'} is ready; \`make serve\` shows it`);
