@@ -19,6 +19,7 @@ export class App extends EventTarget {
     #asked = 0; /* calls that the engine has not answered */
     #full = false; /* the last frame was a full picture, and nothing was asked for since */
     #travels = false;
+    #opens = 0; /* models that are being opened */
     #what = '';
 
     attach(engine) {
@@ -31,7 +32,7 @@ export class App extends EventTarget {
 
     #on_state(detail) {
         this.state = detail;
-        if (this.model && !this.#travels) this.history.push(detail.options, this.model, this.#what, performance.now());
+        if (this.model && !this.#travels && !this.#opens) this.history.push(detail.options, this.model, this.#what, performance.now());
         this.dispatchEvent(new CustomEvent('state', { detail }));
     }
 
@@ -119,19 +120,20 @@ export class App extends EventTarget {
 
     /** Opens {shape} or {files}. False: it failed, what was there stays, and a message says why. */
     async open(model) {
-        const before = this.model;
         this.#what = '';
+        this.#opens++;
         this.opening = model.shape ?? model.files[0].name;
-        this.model = model; /* so that the state that comes with it is noted as its own */
         try {
             await this.#ask(() => this.engine.open(model));
-            return true;
+            this.model = model;
         } catch (error) {
-            this.model = before;
             if (error.name !== 'AbortError') tell(reason(error), 'error');
-            this.#refused();
             return false;
+        } finally {
+            this.#opens--;
+            this.#on_state(this.state); // of this model, if it is open; and of what is there, if not
         }
+        return true;
     }
 
     cancel() {
