@@ -5,7 +5,6 @@
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
 # rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
 set -eu
-here=$(dirname "$0")/..
 
 have() { command -v "$1" >/dev/null 2>&1; }
 module() { have pkg-config && pkg-config --exists "$1" 2>/dev/null; }
