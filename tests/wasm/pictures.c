@@ -20,16 +20,16 @@ enum { WIDTH = 320, HEIGHT = 240 };
 #define TAN  DP_RGB(224, 196, 150)
 #define BLUE DP_RGB(40, 60, 160)
 
-typedef struct look {
+typedef struct picture_look {
     const char *name;
     dp_style style;
     const char *texture; /* of strokes, with its own way to draw them; NULL: none */
     const char *pattern; /* on lines; NULL: none */
     dp_stroke_u u;       /* of the texture */
     bool cut;            /* by two planes through the middle of the model */
-} look;
+} picture_look;
 
-static const look looks[] = {
+static const picture_look looks[] = {
     {.name = "plain"},
     {.name = "gooch",
      .style = {.surface = TAN,
@@ -140,7 +140,8 @@ static dp_result open_model(const char *file, uint32_t number, dp_source **out, 
                 : dp_source_from_shape(&shapes[number], out, diag);
 }
 
-static dp_result complete(const look *look, dp_style *style, dp_texture **texture, dp_diag *diag) {
+static dp_result complete(const picture_look *look, dp_style *style, dp_texture **texture,
+                          dp_diag *diag) {
     const char *const name = look->texture ? look->texture : look->pattern;
     *style = look->style;
     dp_result result = name ? dp_texture_named(name, 3, NULL, texture, diag) : DP_OK;
@@ -169,7 +170,8 @@ static dp_result draw(dp_context *context, dp_source *source, const dp_style *st
 }
 
 /* One line. */
-static void print_look(dp_context *context, const char *file, uint32_t number, const look *look) {
+static void print_look(dp_context *context, const char *file, uint32_t number,
+                       const picture_look *look) {
     const char *const slash = file ? strrchr(file, '/') : NULL;
     dp_diag diag = {0};
     dp_source *source = NULL;
