@@ -16,6 +16,7 @@ cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target drypoint drypoint
 rm -rf build/python/tree build/python/dist
 mkdir -p build/python/tree build/python/dist
 cp -r --parents include tools/colors.c python LICENSE build/python/tree
+cp LICENSE build/python/tree/python
 DRYPOINT_BUILD=$(realpath "$build") "$python" -m build --wheel --no-isolation --outdir build/python/dist build/python/tree/python \
     >build/python/wheel.log 2>&1 || { tail -n 30 build/python/wheel.log >&2; exit 1; }
 ls -s build/python/dist/*.whl

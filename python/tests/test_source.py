@@ -55,6 +55,8 @@ class Files(unittest.TestCase):
             drypoint.Source.open("-")  # a file of that name, not standard input
         with self.assertRaises(TypeError):
             drypoint.Source.open(7)
+        with self.assertRaises(drypoint.ArgumentError):
+            drypoint.Source.open(f"{bad}\0.stl")
         (self.folder / "a.xyz").write_text("what is this")
         with self.assertRaises(drypoint.Error):
             drypoint.Source.open(self.folder / "a.xyz")

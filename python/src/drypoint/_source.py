@@ -117,6 +117,8 @@ class Source:
         source = cls()
         options = source._options(format)
         encoded = os.fsencode("./-" if name == "-" else name)
+        if b"\0" in encoded:
+            raise ArgumentError(f"{name!r}: a file's name has no zero in it")
         function = lib.dp_io_open if has_io else lib.dp_source_open
         assert source._reporter
         source._reporter.run(
@@ -364,7 +366,8 @@ class _Beside:
 
 
 def _beside_failed(kind: Any, failure: BaseException, trace: Any) -> None:
-    ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
+    if trace is not None:
+        ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
 
 
 @ffi.def_extern(name="drypoint_open_beside", error=False, onerror=_beside_failed)
