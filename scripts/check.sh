@@ -31,6 +31,7 @@ usual() {
     accuracy) seconds=60 ;;
     gl) seconds=60 ;;
     python) seconds=60 ;;
+    web) seconds=240 ;;
     *) seconds=1 ;;
     esac
     [ "$jobs" -le 2 ] || seconds=$((seconds * 2 / jobs))
@@ -233,12 +234,42 @@ python_package() {
     [ "$wrong" -eq 0 ] || grep -v '^ok ' "$log" | tail -n 60 | sed 's/^/    /'
 }
 
+# What building the page lacks here; its tests say themselves what they lack.
+no_web() {
+    command -v emcc >/dev/null || { echo emscripten; return; }
+    command -v node >/dev/null || { echo nodejs; return; }
+    command -v esbuild >/dev/null || [ -x web/node_modules/.bin/esbuild ] || echo esbuild
+}
+
+# The page for browsers: its WebAssembly and itself, then their tests, which compare with the native build.
+web() {
+    local title="the page for browsers, WebAssembly"
+    if [ -n "$(no_web)" ]; then
+        printf "%-${width}s" "$title"
+        echo "skipped (no $(no_web): make setup-check installs it where it can)"
+        return
+    fi
+    : >"$logs/web.log"
+    begin "$title: its build" "$logs/web.log"
+    scripts/web.sh >"$logs/web.log.build" 2>&1
+    local status=$?
+    end
+    if [ "$status" -ne 0 ]; then
+        failed=$((failed + 1))
+        printf "%-${width}s" "$title"
+        printf 'does not build (%s)\n' "$logs/web.log.build"
+        tail -n 15 "$logs/web.log.build" | sed 's/^/    /'
+        return
+    fi
+    phase check-gcc "$title" web_tests -L '^web$'
+}
+
 run_phase() {
     case $1 in
     format) format ;;
     structure) structure ;;
     gcc) # pictures by OpenGL are drawn under the sanitizers (gl): compiling their shaders takes long
-        phase check-gcc "gcc, release, -Werror: all tests" all -E '^gl\.test_'
+        phase check-gcc "gcc, release, -Werror: all tests" all -E '^gl\.test_' -LE '^web$'
         ;;
     clang)
         # Another compiler may answer differently what is arithmetic: kernels, pictures, headers, and the tests that see most
@@ -275,17 +306,18 @@ run_phase() {
             echo "skipped (no $(no_gl): make setup-check installs it where it can)"
         fi
         ;;
+    web) web ;;
     python) python_package ;;
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
     accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)
-        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, python, tsan, hostile, fuzz)" >&2
+        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, python, tsan, hostile, fuzz, web)" >&2
         exit 2
         ;;
     esac
 }
 
-[ $# -gt 0 ] || set -- format structure gcc python clang asan gl tsan hostile fuzz
+[ $# -gt 0 ] || set -- format structure gcc web python clang asan gl tsan hostile fuzz
 total=0
 for name; do total=$((total + $(usual "$name"))); done
 echo "check: $*: about $(spoken $total) with $jobs processors; longer where much is to be built"

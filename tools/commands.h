@@ -19,6 +19,8 @@ int draw_scene(const tool_settings *s);
 /* Opens all models as one scene: files, standard input ("-") or generated ones
  * ("shape:NAME[:TRIANGLES]"). 0, or the exit code after a message. */
 int open_model(const tool_settings *s, dp_source **out);
+/* Opens a model's file, or standard input. */
+dp_result open_file(const tool_settings *s, const char *model, dp_source **out, dp_diag *diag);
 /* Reports a failure of the open model; the exit code. */
 int report_model(const tool_settings *s, const dp_diag *diag);
 /* Warns of something about this run's model, which is named if others come before or after. */

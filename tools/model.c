@@ -1,5 +1,4 @@
 /* Opens models for every command: files, standard input, generated shapes; several as one scene. */
-#include "apart.h"
 #include "clips.h"
 #include "commands.h"
 #include "deform.h"
@@ -10,8 +9,6 @@
 #include "progress.h"
 #include "report.h"
 #include "section.h"
-
-#include <drypoint/io.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,18 +51,6 @@ static int open_shape(const char *text, dp_source **out) {
 static bool is_drawn_unseen(const tool_settings *s) {
     return s->command == COMMAND_DRAW && s->passes == 1 && s->has_eye && s->has_target &&
            s->ink != 2 && !s->has_deform && !s->morph && !objects_asked(s);
-}
-
-/* Own formats are read here, all others in a process of their own. What is no regular file can be
- * read only once, and is no other format: Assimp wants to go back in it. */
-static dp_result open_file(const tool_settings *s, const char *model, dp_source **out,
-                           dp_diag *diag) {
-    const dp_file_options options = {.progress = progress_report};
-    struct stat status;
-    if (!strcmp(model, "-") || stat(model, &status) || !S_ISREG(status.st_mode))
-        return dp_io_open(model, &options, out, diag);
-    const dp_result result = dp_source_open(model, &options, out, diag);
-    return result == DP_ERR_UNSUPPORTED ? open_apart(model, s->read_time, out, diag) : result;
 }
 
 static int open_named(const tool_settings *s, const char *model, dp_source **out) {

@@ -53,93 +53,44 @@ static void next_word(const char *words, int now, int step, char word[32]) {
 /* ------- camera ------- */
 
 bool view_free_camera(viewer *v) {
-    model_sides sides;
-    if (!v->picture.styled || !v->model.source) return false;
-    if (v->is_free) return true;
-    /* of the options alone: a view from above has an --up of its own */
-    parsed given;
-    cmdline plain = v->line;
-    plain.camera = (cmd_options){0};
-    const bool sound = cmdline_parse(&plain, NULL, &given);
-    if (sound) sides_of(&given.settings, v->model.source, &sides);
-    parsed_free(&given);
-    if (!sound) return false;
-    v->orbit = orbit_of(&v->picture.plan.views[0].camera, &sides, &v->model.seen.extent);
-    v->is_free = true;
-    return true;
+    return free_camera_begin(&v->camera, &v->line, &v->picture, &v->model);
 }
 
 void view_moved(viewer *v) {
-    orbit_write(&v->orbit, &v->line.camera);
+    orbit_write(&v->camera.orbit, &v->line.camera);
     v->aim = true;
     v->last_move = view_now();
 }
 
-/* Is the camera orthographic now? */
-static bool is_orthographic(const viewer *v) {
-    return v->is_free ? v->orbit.orthographic : cmdline_get(&v->line.camera, "ortho") != NULL;
-}
-
-static void set_number(cmd_options *options, const char *name, double value) {
-    char text[32];
-    snprintf(text, sizeof text, "%.6g", value);
-    cmdline_set(options, name, text);
-}
-
-/* A camera that is fitted again keeps how it projects. */
-static void keep_projection(viewer *v, bool orthographic) {
-    cmd_options *const camera = &v->line.camera;
-    const bool usual = fabs(v->orbit.fov - 35) < 0.01;
-    if (orthographic)
-        cmdline_set(camera, "ortho", "0");
-    else if (v->is_free && !usual)
-        set_number(camera, "fov", v->orbit.fov);
-    v->is_free = false;
-    v->aim = true;
-}
-
 void act_fit(viewer *v, int arg) {
-    const bool orthographic = is_orthographic(v);
     (void)arg;
-    if (!v->is_free) return;
-    cmdline_clear(&v->line.camera);
-    set_number(&v->line.camera, "azimuth", round(v->orbit.azimuth * 1e3) / 1e3);
-    set_number(&v->line.camera, "elevation", round(v->orbit.elevation * 1e3) / 1e3);
-    keep_projection(v, orthographic);
+    v->aim |= free_camera_fit(&v->camera, &v->line);
 }
 
 void act_view(viewer *v, int word) {
-    const bool orthographic = is_orthographic(v);
-    char name[32];
-    cmdline_clear(&v->line.camera);
-    if (word && word_at(view_words("view"), word - 1, name))
-        cmdline_set(&v->line.camera, "view", name);
-    keep_projection(v, orthographic);
+    char name[32] = "";
+    if (word) word_at(view_words("view"), word - 1, name);
+    free_camera_view(&v->camera, &v->line, *name ? name : NULL);
+    v->aim = true;
 }
 
 void act_ortho(viewer *v, int arg) {
+    const bool now = free_camera_is_orthographic(&v->camera, &v->line);
     (void)arg;
-    if (!v->is_free && !cmdline_get(&v->line.camera, "eye")) {
-        cmdline_set(&v->line.camera, "fov", NULL);
-        cmdline_set(&v->line.camera, "ortho", is_orthographic(v) ? NULL : "0");
-        v->aim = true;
-    } else if (view_free_camera(v)) {
-        orbit_project(&v->orbit, !v->orbit.orthographic);
-        view_moved(v);
-    }
+    v->aim |= free_camera_project(&v->camera, &v->line, &v->picture, &v->model, !now);
 }
 
 void act_turn(viewer *v, int side) {
     static const double right[] = {-1, 1, 0, 0}, down[] = {0, 0, -1, 1};
     const double step = 5.0 / 180;
     if (!view_free_camera(v)) return;
-    orbit_turn(&v->orbit, step * right[side], step * down[side]);
+    orbit_turn(&v->camera.orbit, step * right[side], step * down[side]);
     view_moved(v);
 }
 
 void act_zoom(viewer *v, int step) {
     if (!view_free_camera(v)) return;
-    orbit_zoom(&v->orbit, pow(1.25, step), 0, 0);
+    orbit_zoom(&v->camera.orbit, pow(1.25, step), 0, 0);
     view_moved(v);
 }
 
@@ -416,7 +367,10 @@ void view_stop_reading(viewer *v) {
     if (!v->job) return;
     messages_mute(true);
     load_stop();
-    if (load_end(v->job, &none)) loaded_free(&none);
+    if (load_end(v->job, &none))
+        loaded_free(&none);
+    else if (!v->model.source && !load_was_stopped())
+        v->code = EXIT_FAILED; /* it had failed before; a key came between */
     cmdline_free(&v->reading);
     v->job = NULL;
     messages_mute(false);

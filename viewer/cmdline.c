@@ -103,9 +103,14 @@ bool cmdline_models(cmdline *line, uint32_t count, const char *const *models) {
     return done;
 }
 
+cmd_options *cmdline_list(cmdline *line, const char *name) {
+    if (word_index(own_names, name)) return NULL;
+    return word_index(camera_names, name) ? &line->camera : &line->options;
+}
+
 static bool add_option(cmdline *line, const char *name, const char *value) {
-    if (word_index(own_names, name)) return true;
-    return append(word_index(camera_names, name) ? &line->camera : &line->options, name, value);
+    cmd_options *const list = cmdline_list(line, name);
+    return !list || append(list, name, value);
 }
 
 /* "--name=value", or "--name" and perhaps a word after it, which is taken. */

@@ -35,6 +35,8 @@ typedef struct parsed {
  * is out. */
 bool cmdline_read(cmdline *line, int count, char **words);
 void cmdline_free(cmdline *line);
+/* The list that an option is in; NULL: of a picture's size, say, which is none of the options. */
+cmd_options *cmdline_list(cmdline *line, const char *name);
 /* Names other models; copied. */
 bool cmdline_models(cmdline *line, uint32_t count, const char *const *models);
 

@@ -5,7 +5,6 @@
  * it calls nothing else that other threads may have locked. */
 #include "load.h"
 
-#include "deform.h"
 #include "progress.h"
 #include "report.h"
 
@@ -24,45 +23,27 @@ struct load_job {
 };
 
 static atomic_int per_mille = -1; /* of the reading; -1: not known */
-static atomic_bool stop;
+static atomic_bool stop, stopped;
 
 static int hear(double fraction) {
     atomic_store(&per_mille, fraction < 0 ? -1 : (int)(1000 * fmin(fraction, 1)));
-    return atomic_load(&stop);
+    if (!atomic_load(&stop)) return 0;
+    atomic_store(&stopped, true);
+    return 1;
 }
 
 double load_fraction(void) { return atomic_load(&per_mille) / 1000.0; }
 
 void load_stop(void) {
     atomic_store(&stop, true);
-    interrupt_child(); /* Assimp's reader does not listen */
+    if (interrupt_child()) atomic_store(&stopped, true); /* Assimp's reader does not listen */
 }
 
-/* Is it another at another time, by what its options say? */
-static bool moves_by_options(const tool_settings *s) {
-    const bool stands = s->deform.kind == DP_DEFORM_TWIST && !(fabs(s->deform.speed) > 0);
-    return (s->has_deform && !stands) || (s->morph && !s->has_blend);
-}
-
-static bool open_it(tool_settings *s, loaded *m) {
-    s->command = COMMAND_VIEW; /* drawn often: never from a pipe */
-    s->has_eye = s->has_target = false;
-    if (!s->has_time) s->has_time = true, s->time[0] = s->time[1] = 0;
-    m->time = s->time[0];
-    if (open_model(s, &m->source)) return false;
-    if (measure_model(s, m->source, &m->seen)) return false;
-    m->seen.aspect = 0;
-    m->lasts = dp_source_duration(m->source);
-    m->moves = m->lasts > 0 || moves_by_options(s);
-    if (!isfinite(m->lasts)) m->lasts = 0;
-    const char *const remark = dp_source_remark(m->source);
-    if (remark) warn("%s", remark);
-    return true;
-}
+bool load_was_stopped(void) { return atomic_load(&stopped); }
 
 static void *run(void *argument) {
     load_job *const job = argument;
-    job->failed = !open_it(&job->line.settings, &job->model);
+    job->failed = !loaded_open(&job->line.settings, &job->model);
     atomic_store(&job->ended, true);
     job->wake();
     return NULL;
@@ -73,6 +54,7 @@ load_job *load_begin(const cmdline *line, void (*wake)(void)) {
     if (!job) return wrong_usage("out of memory"), NULL;
     job->wake = wake;
     atomic_store(&stop, false);
+    atomic_store(&stopped, false);
     atomic_store(&per_mille, -1);
     progress_to(hear);
     if (!cmdline_parse(line, NULL, &job->line)) {
@@ -99,9 +81,4 @@ bool load_end(load_job *job, loaded *out) {
     parsed_free(&job->line);
     free(job);
     return done;
-}
-
-void loaded_free(loaded *model) {
-    dp_source_destroy(model->source);
-    *model = (loaded){0};
 }

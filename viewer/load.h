@@ -3,16 +3,7 @@
 #define VIEWER_LOAD_H
 
 #include "cmdline.h"
-#include "commands.h"
-
-/* A model that is there. Zero is none. */
-typedef struct loaded {
-    dp_source *source; /* NULL: none */
-    measured seen;     /* no camera is fitted in it */
-    bool moves;        /* it is another at another time */
-    double lasts;      /* s; 0: without end, or it does not move */
-    double time;       /* s: where it is */
-} loaded;
+#include "loaded.h"
 
 typedef struct load_job load_job;
 
@@ -26,6 +17,7 @@ double load_fraction(void);
 bool load_end(load_job *job, loaded *out);
 /* Tells the job to stop. */
 void load_stop(void);
-void loaded_free(loaded *model);
+/* Has it heard that, so that it failed for no reason of the model's? Asked after its end. */
+bool load_was_stopped(void);
 
 #endif

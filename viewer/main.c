@@ -63,9 +63,9 @@ static void on_pointer(GLFWwindow *window, double x, double y) {
     v->x = x, v->y = y;
     if (v->drag == DRAG_NONE || !view_free_camera(v)) return;
     if (v->drag == DRAG_TURN)
-        orbit_turn(&v->orbit, right, down);
+        orbit_turn(&v->camera.orbit, right, down);
     else
-        orbit_pan(&v->orbit, right, down);
+        orbit_pan(&v->camera.orbit, right, down);
     view_moved(v);
 }
 
@@ -76,7 +76,7 @@ static void focus(viewer *v, double right, double down) {
     v->focus_x = v->x, v->focus_y = v->y, v->focus_time = time;
     if (same && since < 1) return;
     const double depth = picture_depth(&v->picture, &v->model, right, down);
-    if (depth > 0) orbit_focus(&v->orbit, depth);
+    if (depth > 0) orbit_focus(&v->camera.orbit, depth);
 }
 
 static void on_wheel(GLFWwindow *window, double x, double y) {
@@ -87,7 +87,7 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
     glfwGetWindowSize(window, &width, &height);
     glfwGetCursorPos(window, &v->x, &v->y);
     focus(v, v->x / fmax(width, 1), v->y / fmax(height, 1));
-    orbit_zoom(&v->orbit, pow(1.15, y), (v->x - 0.5 * width) / fmax(height, 1),
+    orbit_zoom(&v->camera.orbit, pow(1.15, y), (v->x - 0.5 * width) / fmax(height, 1),
                (v->y - 0.5 * height) / fmax(height, 1));
     view_moved(v);
 }
@@ -247,7 +247,7 @@ static int spin(viewer *v, uint32_t frames) {
     const double start = view_now();
     for (uint32_t k = 0; k < frames; k++) {
         glfwPollEvents();
-        orbit_turn(&v->orbit, -2.0 / frames, 0);
+        orbit_turn(&v->camera.orbit, -2.0 / frames, 0);
         view_moved(v);
         update_picture(v);
         show(v);
@@ -353,6 +353,7 @@ static int run(viewer *v, const tool_settings *s) {
         }
         wait_for_events(v, &more);
     }
+    view_stop_reading(v); /* which may have failed, and been told so */
     return v->code;
 }
 

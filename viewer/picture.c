@@ -89,6 +89,7 @@ static bool make_context(picture *p) {
     const tool_settings *const s = &p->line.settings;
     /* frames are drawn from memory, unless --memory asks for streaming */
     const dp_context_desc desc = {.threads = s->threads,
+                                  .progress = p->progress,
                                   .memory = s->memory > 0 ? (size_t)s->memory : SIZE_MAX / 2};
     dp_diag diag = {0};
     if (p->context || !dp_context_create(&desc, &p->context, &diag)) return true;
@@ -143,7 +144,9 @@ bool picture_draw(picture *p, const loaded *model, tool_gl *gl, picture_quality 
     target.rgba = gl ? NULL : p->rgba;
     const double start = now_ms();
     const dp_result result = draw(p, model, gl, &style, &target, &diag);
-    if (result) return report_failure(NULL, &diag), false;
+    p->stopped = result == DP_ERR_CANCELLED;
+    if (result && !p->stopped) report_failure(NULL, &diag);
+    if (result) return false;
     p->ms = now_ms() - start;
     p->width = target.width, p->height = target.height;
     p->by_gl = gl != NULL;

@@ -2,8 +2,9 @@
 #ifndef VIEWER_PICTURE_H
 #define VIEWER_PICTURE_H
 
+#include "cmdline.h"
 #include "draw.h"
-#include "load.h"
+#include "loaded.h"
 
 /* How well it is drawn: while something moves, a picture that takes too long is drawn worse. */
 typedef enum picture_quality {
@@ -28,6 +29,9 @@ typedef struct picture {
     uint32_t width, height; /* px, as drawn last */
     bool by_gl;             /* it lies on the device instead */
     double ms;              /* it took */
+    /* Asked while the processor draws; anything but 0 stops it. NULL: nobody is. Set before the first picture. */
+    int (*progress)(void *user, double fraction);
+    bool stopped; /* the last one was */
     uint64_t segments;
 } picture;
 

@@ -3,8 +3,8 @@
 #define VIEWER_VIEWER_H
 
 #include "cmdline.h"
+#include "free_camera.h"
 #include "load.h"
-#include "orbit.h"
 #include "picture.h"
 #include "screen.h"
 
@@ -23,8 +23,7 @@ typedef struct viewer {
     load_job *job;   /* NULL: none is read */
     cmdline reading; /* what it reads */
 
-    orbit orbit; /* if `is_free`: the camera's; else the command line's own words say it */
-    bool is_free;
+    free_camera camera;
     bool restyle, aim, draw; /* what the next picture needs: options, camera, pixels */
     picture picture;
     picture_quality quality,

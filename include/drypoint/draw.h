@@ -31,7 +31,8 @@ typedef struct dp_context dp_context;
 typedef struct dp_context_desc {
     const dp_allocator *allocator; /* NULL: malloc; copied */
     uint32_t threads;              /* workers, the caller included; 0: one per processor. There are
-                                      256 at most; a larger number means 256 */
+                                      256 at most; a larger number means 256. In WebAssembly as
+                                      many of them as the module's pool has (DRYPOINT_WEB_POOL) */
     /* The application's own thread pool: must call task(arg, i) once for every i in [0, count),
      * in any order and from any threads, one is enough, and return when all calls have. No call
      * waits for another: of more than `threads` at once the extra ones leave their work to the

@@ -1,7 +1,7 @@
 /* Vectors of DP_LANES floats or ints, for kernels that are written once and compiled for several
  * widths.
  *
- *    DP_LANES 1: plain C    4: any processor (SSE2, NEON)    8: AVX2    16: AVX-512
+ *    DP_LANES 1: plain C    4: any processor (SSE2, NEON, WebAssembly)    8: AVX2    16: AVX-512
  *
  *    l_…     dp_lf          floats
  *    li_…    dp_li, dp_lu   ints, unsigned ints
@@ -23,6 +23,10 @@
 
 #if DP_LANES >= 8
 #include <immintrin.h>
+#elif DP_LANES == 4 && defined __SSE2__
+#include <emmintrin.h>
+#elif DP_LANES == 4 && defined __wasm_simd128__
+#include <wasm_simd128.h>
 #endif
 
 /* Inlines kernels whose arguments are constants; compilers do that only when they optimise. */
@@ -89,9 +93,6 @@ DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (int32_t)v; }
 /* ------- four lanes ------- */
 
 #elif DP_LANES == 4
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 DP_LANES_INLINE dp_lf l_splat(float v) { return (dp_lf){v, v, v, v}; }
 DP_LANES_INLINE dp_li li_splat(int32_t v) { return (dp_li){v, v, v, v}; }
 DP_LANES_INLINE dp_lm l_lt(dp_lf a, dp_lf b) { return a < b; }
@@ -103,7 +104,13 @@ DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
 DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return ~a; }
-DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return (m & a) | (~m & b); }
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) {
+#ifdef __wasm_simd128__
+    return (dp_li)wasm_v128_bitselect((v128_t)a, (v128_t)b, (v128_t)m);
+#else
+    return (m & a) | (~m & b);
+#endif
+}
 DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) {
     return (dp_lf)li_select(m, (dp_li)a, (dp_li)b);
 }
@@ -114,6 +121,18 @@ DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf)_mm_sqrt_ps((__m128)v); }
 DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) { return (dp_lf)_mm_min_ps((__m128)a, (__m128)b); }
 DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) { return (dp_lf)_mm_max_ps((__m128)a, (__m128)b); }
 DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)_mm_cvttps_epi32((__m128)v); }
+#elif defined __wasm_simd128__
+/* pmin(x, y) is y < x ? y : x, so the arguments change places; also right for NaN and for zeros of
+ * either sign. */
+DP_LANES_INLINE uint32_t lm_bits(dp_lm m) { return wasm_i32x4_bitmask((v128_t)m); }
+DP_LANES_INLINE dp_lf l_sqrt(dp_lf v) { return (dp_lf)wasm_f32x4_sqrt((v128_t)v); }
+DP_LANES_INLINE dp_lf l_min(dp_lf a, dp_lf b) {
+    return (dp_lf)wasm_f32x4_pmin((v128_t)b, (v128_t)a);
+}
+DP_LANES_INLINE dp_lf l_max(dp_lf a, dp_lf b) {
+    return (dp_lf)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
+}
+DP_LANES_INLINE dp_li l_truncate(dp_lf v) { return (dp_li)wasm_i32x4_trunc_sat_f32x4((v128_t)v); }
 #else
 DP_LANES_INLINE uint32_t lm_bits(dp_lm m) {
     return ((uint32_t)m[0] & 1) | ((uint32_t)m[1] & 2) | ((uint32_t)m[2] & 4) |
@@ -224,6 +243,8 @@ DP_LANES_INLINE dp_li li_max_bytes(dp_li a, dp_li b) {
     return (dp_li)_mm256_max_epu8((__m256i)a, (__m256i)b);
 #elif DP_LANES == 4 && defined __SSE2__
     return (dp_li)_mm_max_epu8((__m128i)a, (__m128i)b);
+#elif DP_LANES == 4 && defined __wasm_simd128__
+    return (dp_li)wasm_u8x16_max((v128_t)a, (v128_t)b);
 #else
     uint8_t x[4 * DP_LANES], y[4 * DP_LANES];
     memcpy(x, &a, sizeof x);
@@ -281,6 +302,8 @@ DP_LANES_INLINE dp_ld ld_sqrt(dp_ld v) {
     return (dp_ld)_mm256_sqrt_pd((__m256d)v);
 #elif defined __SSE2__
     return (dp_ld)_mm_sqrt_pd((__m128d)v);
+#elif defined __wasm_simd128__
+    return (dp_ld)wasm_f64x2_sqrt((v128_t)v);
 #else
     return (dp_ld){sqrt(v[0]), sqrt(v[1])};
 #endif
@@ -377,6 +400,12 @@ DP_LANES_INLINE void l_transpose(dp_lf r[4]) {
                  d = _mm_unpackhi_ps((__m128)r[2], (__m128)r[3]);
     r[0] = (dp_lf)_mm_movelh_ps(a, c), r[1] = (dp_lf)_mm_movehl_ps(c, a);
     r[2] = (dp_lf)_mm_movelh_ps(b, d), r[3] = (dp_lf)_mm_movehl_ps(d, b);
+#elif DP_LANES == 4 && defined __wasm_simd128__
+    const v128_t p = (v128_t)r[0], q = (v128_t)r[1], s = (v128_t)r[2], t = (v128_t)r[3];
+    const v128_t a = wasm_i32x4_shuffle(p, q, 0, 4, 1, 5), b = wasm_i32x4_shuffle(p, q, 2, 6, 3, 7);
+    const v128_t c = wasm_i32x4_shuffle(s, t, 0, 4, 1, 5), d = wasm_i32x4_shuffle(s, t, 2, 6, 3, 7);
+    r[0] = (dp_lf)wasm_i64x2_shuffle(a, c, 0, 2), r[1] = (dp_lf)wasm_i64x2_shuffle(a, c, 1, 3);
+    r[2] = (dp_lf)wasm_i64x2_shuffle(b, d, 0, 2), r[3] = (dp_lf)wasm_i64x2_shuffle(b, d, 1, 3);
 #elif DP_LANES == 4
     const dp_lf a = r[0], b = r[1], c = r[2], d = r[3];
     r[0] = (dp_lf){a[0], b[0], c[0], d[0]}, r[1] = (dp_lf){a[1], b[1], c[1], d[1]};

@@ -155,14 +155,49 @@ static uint32_t processors(void) {
     return online < 1 ? 1 : online > MAX_THREADS ? MAX_THREADS : (uint32_t)online;
 }
 
-dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
-                              const dp_allocator *allocator) {
+/* In WebAssembly a thread is one of the module's pool, which is filled before the program starts;
+ * what is asked for beyond would start only after the caller returns to the event loop: never, as
+ * the caller waits for it. So all contexts together hire no more than there are, and where the
+ * pool is smaller than DRYPOINT_WEB_POOL (pthread_create then fails, as all modules are linked with
+ * -sPTHREAD_POOL_SIZE_STRICT=2), they do with fewer. */
+#ifdef __EMSCRIPTEN__
+static atomic_uint hired;
+enum { POOL = DRYPOINT_WEB_POOL, DOES_WITH_FEWER = 1 };
+
+static bool hire(void) {
+    if (atomic_fetch_add(&hired, 1) < POOL) return true;
+    atomic_fetch_sub(&hired, 1);
+    return false;
+}
+static void dismiss(uint32_t count) { atomic_fetch_sub(&hired, count); }
+#else
+enum { DOES_WITH_FEWER = 0 };
+static bool hire(void) { return true; }
+static void dismiss(uint32_t count) { (void)count; }
+#endif
+
+/* Starts the next worker. False: there is no thread for it. */
+static bool start_worker(dp_threads *threads) {
+    const uint32_t index = threads->started + 1;
+    worker *const w = &threads->workers[index];
+    *w = (worker){.threads = threads, .index = index};
+    if (!hire()) return false;
+    if (pthread_create(&w->thread, NULL, thread_main, w)) {
+        dismiss(1);
+        return false;
+    }
+    threads->started = index;
+    return true;
+}
+
+dp_result dp_threads_start(uint32_t count, dp_parallel_for *loop, void *user,
+                           const dp_allocator *allocator, dp_threads **out) {
+    *out = NULL;
     if (!count) count = processors();
     if (count > MAX_THREADS) count = MAX_THREADS;
     dp_threads *const threads = dp_alloc_zeroed(allocator, sizeof *threads);
-    if (!threads) return NULL;
+    if (!threads) return DP_ERR_MEMORY;
     threads->allocator = *allocator;
-    threads->count = count;
     threads->loop = loop;
     threads->lingers = count <= processors();
     threads->user = user;
@@ -174,15 +209,14 @@ dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
     pthread_mutex_init(&threads->mutex, NULL);
     pthread_cond_init(&threads->wake, NULL);
     pthread_cond_init(&threads->done, NULL);
-    for (uint32_t i = 1; i < count && !loop; i++) {
-        threads->workers[i] = (worker){.threads = threads, .index = i};
-        if (pthread_create(&threads->workers[i].thread, NULL, thread_main, &threads->workers[i])) {
-            dp_threads_destroy(threads);
-            return NULL;
-        }
-        threads->started++;
+    while (!loop && threads->started + 1 < count && start_worker(threads)) continue;
+    threads->count = loop ? count : threads->started + 1;
+    if (threads->count < count && !DOES_WITH_FEWER) {
+        dp_threads_destroy(threads);
+        return DP_ERR_LIMIT;
     }
-    return threads;
+    *out = threads;
+    return DP_OK;
 }
 
 void dp_threads_destroy(dp_threads *threads) {
@@ -192,6 +226,7 @@ void dp_threads_destroy(dp_threads *threads) {
     pthread_cond_broadcast(&threads->wake);
     pthread_mutex_unlock(&threads->mutex);
     for (uint32_t i = 1; i <= threads->started; i++) pthread_join(threads->workers[i].thread, NULL);
+    dismiss(threads->started);
     pthread_cond_destroy(&threads->wake);
     pthread_cond_destroy(&threads->done);
     pthread_mutex_destroy(&threads->mutex);

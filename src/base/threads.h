@@ -15,10 +15,27 @@ typedef void dp_parallel_for(void *user, uint32_t count, void (*task)(void *arg,
 typedef struct dp_threads dp_threads;
 
 /* count 0: one per processor. With `loop` no thread is started; `count` is how many of the
- * application's threads work at once, and further calls return immediately. NULL: out of memory or
- * threads. */
-dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
-                              const dp_allocator *allocator);
+ * application's threads work at once, and further calls return immediately. DP_ERR_MEMORY;
+ * DP_ERR_LIMIT: the system starts no more threads. In WebAssembly there are as many as the module's
+ * pool still has, and it is no error if that is fewer than asked for. */
+dp_result dp_threads_start(uint32_t count, dp_parallel_for *loop, void *user,
+                           const dp_allocator *allocator, dp_threads **out);
+
+/* The same, for callers to whom either error is lack of memory. NULL: error. */
+static inline dp_threads *dp_threads_create(uint32_t count, dp_parallel_for *loop, void *user,
+                                            const dp_allocator *allocator) {
+    dp_threads *threads;
+    return dp_threads_start(count, loop, user, allocator, &threads) ? NULL : threads;
+}
+
+/* How many threads are worth starting for one loop: one per processor. In WebAssembly the caller
+ * works alone: the threads of a pool come back only when the page's event loop turns. */
+#ifdef __EMSCRIPTEN__
+enum { DP_THREADS_BRIEF = 1 };
+#else
+enum { DP_THREADS_BRIEF = 0 };
+#endif
+
 void dp_threads_destroy(dp_threads *threads);
 uint32_t dp_threads_count(const dp_threads *threads);
 /* Of the allocator's; what the system keeps for its threads is not counted. */

@@ -85,10 +85,13 @@ dp_result dp_context_create(const dp_context_desc *desc, dp_context **out, dp_di
     c->progress = d.progress;
     c->share_to = 1;
     c->user = d.user;
-    c->threads = dp_threads_create(d.threads, d.parallel_for, d.user, &c->memory);
-    if (!c->threads || !make_workers(c)) {
+    const dp_result started =
+        dp_threads_start(d.threads, d.parallel_for, d.user, &c->memory, &c->threads);
+    if (started || !make_workers(c)) {
         dp_context_destroy(c);
-        return dp_fail(diag, DP_ERR_MEMORY, "out of memory or threads for a context");
+        return started == DP_ERR_LIMIT
+                   ? dp_fail(diag, DP_ERR_LIMIT, "the system starts no more threads: ask for fewer")
+                   : dp_fail(diag, DP_ERR_MEMORY, "out of memory for a context");
     }
     *out = c;
     return DP_OK;

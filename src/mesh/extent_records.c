@@ -208,7 +208,7 @@ dp_result dp_records_measure(dp_source *source, dp_extent *extent, dp_reach *rea
     *extent = (dp_extent){.polygons = r->count, .corners = 3 * r->count, .vertices = 3 * r->count};
     /* small files are read faster than threads start */
     dp_threads *const threads =
-        dp_threads_create(r->count > 64 * BLOCK ? 0 : 1, NULL, NULL, memory);
+        dp_threads_create(r->count > 64 * BLOCK ? DP_THREADS_BRIEF : 1, NULL, NULL, memory);
     const uint32_t workers = threads ? dp_threads_count(threads) : 0;
     seen *const seen_by = threads ? dp_alloc_array(memory, workers, sizeof *seen_by) : NULL;
     dp_result result =
