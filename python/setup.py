@@ -34,7 +34,7 @@ def libraries():
         folder = os.path.join(ROOT, "build")
         if not os.path.exists(os.path.join(folder, "CMakeCache.txt")):
             subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
-        subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "drypoint", "drypoint_io"], check=True)
+        subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "drypoint_io"], check=True)
     if not os.path.exists(os.path.join(folder, "libdrypoint.a")):
         raise SystemExit(f"there is no libdrypoint.a in {folder}: build the target drypoint there first")
     return os.path.abspath(folder)

@@ -55,8 +55,8 @@ now() {
         printf 'building %s' "$(grep -aoE '^\[[^]]*\]' "$1.build" 2>/dev/null | tail -n 1)"
         return
     fi
-    over=$(grep -acE '^ *[0-9]+/[0-9]+ +Test +#' "$1")
-    printf '%d tests are over, %s runs' "$over" "$(sed -n 's/^ *Start *[0-9]*: *//p' "$1" | tail -n 1)"
+    over=$(grep -acE '^ *[0-9]+/[0-9]+ +Test +#|^(not )?ok ' "$1")
+    printf '%d tests are over, %s runs' "$over" "$(sed -n 's/^ *Start *[0-9]*: *//p;/^ok /s/.*/the next/p' "$1" | tail -n 1)"
 }
 
 # begin TITLE LOG: from now on a line every 25 s says what runs, until `end`. It shares no output with its sleep, which

@@ -78,8 +78,9 @@ class Writer:
         if (owner, member.name) in SETS:
             return "Lines", "None", "lines"
         if (owner, member.name) in COUNTS:
-            kind = "counted " + COUNTS[owner, member.name]
-            return (f"Sequence[{self.names[base]}]" if base in self.names else "Sequence[int]"), "()", kind
+            element = self.names.get(base, "")
+            kind = f"counted {COUNTS[owner, member.name]} {element}".strip()
+            return f"Sequence[{element or 'int'}]", "()", kind
         if base == "dp_color":
             return "Color", "None", "color"
         if base == "dp_texture":

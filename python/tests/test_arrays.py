@@ -175,6 +175,8 @@ class Mistakes(unittest.TestCase):
         for vertices, faces in (([], []), (CUBE, []), (CUBE, np.empty((0, 3), int)), ([], None), ([], QUADS)):
             self.refuse("", vertices, faces)
         self.refuse("no polygons", np.empty((0, 3)))
+        with self.assertRaises(drypoint.FormatError):  # the only polygon has no area
+            draw(CUBE[:1].astype(np.float32)[::-1], [(0, 0, 0)])
 
     def test_attributes(self):
         for name, value in (("groups", [0] * 5), ("groups", [-1] * 6), ("groups", [70000] * 6), ("groups", [0.5] * 6),

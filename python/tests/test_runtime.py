@@ -123,7 +123,7 @@ class Stopping(unittest.TestCase):
             for _ in range(100):
                 drypoint.draw(source, **LONG)
         timer.join()
-        self.assertLess(time.monotonic() - start, 10)
+        self.assertLess(time.monotonic() - start, 30)
         self.assertGreater(len(drypoint.draw(drypoint.Source.shape("cube")).segments()), 0)
 
 

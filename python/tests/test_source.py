@@ -55,6 +55,8 @@ class Files(unittest.TestCase):
             drypoint.Source.open("-")  # a file of that name, not standard input
         with self.assertRaises(TypeError):
             drypoint.Source.open(7)
+        with self.assertRaises(drypoint.ArgumentError):
+            drypoint.Source.open(f"{bad}\0.stl")
         (self.folder / "a.xyz").write_text("what is this")
         with self.assertRaises(drypoint.Error):
             drypoint.Source.open(self.folder / "a.xyz")
@@ -142,7 +144,7 @@ class Models(unittest.TestCase):
         self.assertIn(drypoint.Line.SECTION, draw(source).segments()["line"])
         clip = drypoint.Clip(planes=[drypoint.ClipPlane((0, 0, 1), 0.5)], look="plain")
         self.assertNotIn(drypoint.Line.HATCHING, draw(drypoint.Source.shape("cube").clip(clip)).segments()["line"])
-        for wrong in ([((0, 0, 0), 1.0)], [((1, 0, 0), 0.0)] * 9, [3], [((1, 0), 0.0)]):
+        for wrong in (drypoint.Clip(planes=[3]), [((0, 0, 0), 1.0)], [((1, 0, 0), 0.0)] * 9, [3], [((1, 0), 0.0)]):
             with self.assertRaises((drypoint.ArgumentError, TypeError)):
                 drypoint.Source.shape("cube").clip(wrong)
 

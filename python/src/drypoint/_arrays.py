@@ -234,6 +234,8 @@ def gather(vertices: Any, faces: Any = None, *, groups: Any = None, edges: Any =
     if check:
         refuse_infinite(positions, indices, given)
     corners = len(given) if indices is None else len(indices)
+    if corners > MOST:
+        raise LimitError(f"faces: {corners} corners are more than {MOST}")
     made = Arrays(positions, origin, indices, firsts, corners, count)
     if groups is not None:
         made.groups = group_numbers(groups, count)

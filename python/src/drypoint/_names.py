@@ -50,10 +50,8 @@ def line_bits(lines: Lines, line_enum: type[IntEnum], no_lines: int, what: str =
         if not 0 <= lines < 1 << 32:
             raise ArgumentError(f"{what}: {lines} is no set of lines")
         return lines
-    if lines == "all":
-        return 0
-    if lines == "none":
-        return no_lines
+    if isinstance(lines, str) and lines in ("all", "none"):
+        return 0 if lines == "all" else no_lines
     single = isinstance(lines, (str, IntEnum))
     try:
         members = [lines] if single else list(lines)  # type: ignore[arg-type]

@@ -39,14 +39,11 @@ class Reporter:
         finally:
             self.function, self.pointer.handle = None, ffi.NULL
 
-    def failed(self, kind: Any, failure: BaseException, trace: Any) -> None:
-        """Keeps what was raised while C waited."""
-        self.failure = failure
-
 
 def _failed(kind: Any, failure: BaseException, trace: Any) -> None:
     """cffi calls this where a report raised: the frame's `handle` says whose."""
-    ffi.from_handle(trace.tb_frame.f_locals["handle"]).failed(kind, failure, trace)
+    if trace is not None:
+        ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
 
 
 @ffi.def_extern(name="drypoint_report", error=1, onerror=_failed)

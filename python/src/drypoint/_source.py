@@ -117,6 +117,8 @@ class Source:
         source = cls()
         options = source._options(format)
         encoded = os.fsencode("./-" if name == "-" else name)
+        if b"\0" in encoded:
+            raise ArgumentError(f"{name!r}: a file's name has no zero in it")
         function = lib.dp_io_open if has_io else lib.dp_source_open
         assert source._reporter
         source._reporter.run(
@@ -285,7 +287,7 @@ class Source:
         """The dp_batch of arrays, which it keeps alive."""
         batch = ffi.new("dp_batch *")
         batch.positions = self._borrow("float[]", arrays.positions)
-        batch.position_stride = arrays.positions.strides[0] if len(arrays.positions) else 0
+        batch.position_stride = _row_stride(arrays.positions)
         batch.vertex_count = len(arrays.positions)
         batch.corner_count, batch.polygon_count = arrays.corners, arrays.polygons
         batch.indices = self._borrow("uint32_t[]", arrays.indices)
@@ -303,7 +305,7 @@ class Source:
 
     def _attribute(self, target: Any, values: np.ndarray, arrays: _arrays.Arrays) -> None:
         target.values, target.count = self._borrow("float[]", values), len(values)
-        target.stride = values.strides[0]
+        target.stride = _row_stride(values)
         if len(values) != len(arrays.positions):  # one for each corner
             target.indices = self._borrow("uint32_t[]", np.arange(len(values), dtype=np.uint32))
 
@@ -345,6 +347,11 @@ class Source:
             self._keep.append((part._keep, part._reporter, part._owned))
 
 
+def _row_stride(array: np.ndarray) -> int:
+    """Bytes from row to row; 0, which is tight, for a single row: its stride may be anything."""
+    return array.strides[0] if len(array) > 1 else 0
+
+
 class _Beside:
     """Files beside one in memory, while it is opened."""
 
@@ -364,7 +371,8 @@ class _Beside:
 
 
 def _beside_failed(kind: Any, failure: BaseException, trace: Any) -> None:
-    ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
+    if trace is not None:
+        ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
 
 
 @ffi.def_extern(name="drypoint_open_beside", error=False, onerror=_beside_failed)

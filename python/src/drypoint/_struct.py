@@ -163,7 +163,8 @@ class Filler:
             if len(item) > len(array):
                 raise ArgumentError(f"{what}: {len(item)} of them; there are {len(array)} at most")
             for number, element in enumerate(item):
-                self.fill(array[number], element, keep)
+                cls = getattr(self.generated, words[1])
+                self.fill(array[number], coerce(cls, element, f"{what}[{number}]"), keep)
         else:
             made = self.ffi.new("uint8_t[]", [int(number) for number in item])
             keep.append(made)
