@@ -24,6 +24,10 @@ if ! grep -q "^Package: libdrypoint$minor$" debian/control; then
     exit 1
 fi
 
+if ! git rev-parse --git-dir >/dev/null 2>&1; then
+    say "this is no git checkout, which says what belongs to the source: here dpkg-buildpackage -b does without" >&2
+    exit 1
+fi
 rm -rf "$out"
 source=$out/drypoint-$version
 mkdir -p "$source"
