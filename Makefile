@@ -106,7 +106,7 @@ install: all
 
 # What was installed last, by CMake's manifest.
 uninstall:
-	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/Uninstall.cmake
+	@cmake -DBUILD=$(BUILD) -P cmake/Uninstall.cmake
 
 deb:
 	@scripts/setup.sh deb
