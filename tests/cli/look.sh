@@ -46,7 +46,7 @@ weights_of_sizes() {
     weighs "ridge 0.75 silhouette 1.5" --lines silhouette,ridge --size 800x600
     weighs "ridge 0.75 silhouette 1.5" --lines silhouette,ridge --size 600x900
     weighs "ridge 5 silhouette 10" --lines silhouette,ridge --size 4000x4000
-    weighs "ridge 40 silhouette 64" --lines silhouette,ridge --size 32000x32000
+    [ -n "${SANITIZED:-}" ] || weighs "ridge 40 silhouette 64" --lines silhouette,ridge --size 32000x32000
 }
 weights_on_paper() {
     weighs "ridge 2.5 silhouette 5" --lines silhouette,ridge --page A4 --dpi 254
