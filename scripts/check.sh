@@ -22,14 +22,14 @@ usual() {
     seconds=$(awk -v phase="$1" '$1 == phase { print $2 }' "$logs/times" 2>/dev/null)
     [ -z "$seconds" ] || { echo "$seconds"; return; }
     case $1 in
-    gcc) seconds=290 ;;
-    clang) seconds=230 ;;
-    asan) seconds=300 ;;
-    hostile) seconds=150 ;;
+    gcc) seconds=400 ;;
+    clang) seconds=130 ;;
+    asan) seconds=450 ;;
+    hostile) seconds=400 ;;
     tsan) seconds=130 ;;
-    fuzz) seconds=120 ;;
+    fuzz) seconds=170 ;;
     accuracy) seconds=60 ;;
-    gl) seconds=60 ;;
+    gl) seconds=150 ;;
     *) seconds=1 ;;
     esac
     [ "$jobs" -le 2 ] || seconds=$((seconds * 2 / jobs))
