@@ -33,7 +33,10 @@ help:
 	@echo 'make serve      build the page if it is not there and show it: PORT=8000'
 	@echo 'make check-web  test the page in Chromium, and its WebAssembly in node'
 	@echo 'make gallery    draw the pictures of docs/gallery again'
+	@echo 'make wheel      make the Python package, build/python/dist/*.whl'
 	@echo 'make install    install below PREFIX=/usr/local'
+	@echo 'make uninstall  remove what make install put there'
+	@echo 'make deb        install what is missing, and build Debian packages in build/deb'
 	@echo 'make setup      only install what is missing to build'
 	@echo 'make format     format the C sources; make format-check only looks'
 	@echo 'make clean      remove the build directory'
@@ -95,8 +98,19 @@ serve:
 check-web: setup-check
 	@scripts/check.sh web
 
+wheel: setup
+	@scripts/wheel.sh $(BUILD)
+
 install: all
 	@cmake --install $(BUILD) --prefix "$(PREFIX)"
+
+# What was installed last, by CMake's manifest.
+uninstall:
+	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/Uninstall.cmake
+
+deb:
+	@scripts/setup.sh deb
+	@scripts/deb.sh
 
 format:
 	@clang-format -i $(SOURCES)
@@ -108,4 +122,4 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all help setup setup-check demo check check-all check-gl test sanitize fuzz mutants accuracy twins bench bench-big gallery \
-        web serve check-web install format format-check clean
+        web serve check-web wheel install uninstall deb format format-check clean

@@ -31,6 +31,7 @@ usual() {
     accuracy) seconds=60 ;;
     gl) seconds=60 ;;
     web) seconds=240 ;;
+    python) seconds=60 ;;
     *) seconds=1 ;;
     esac
     [ "$jobs" -le 2 ] || seconds=$((seconds * 2 / jobs))
@@ -236,6 +237,33 @@ web() {
     phase check-gcc "$title" web_tests -L '^web$'
 }
 
+# The Python package: its wheel, of the libraries of the gcc phase, and its tests with it.
+python_package() {
+    local log=$logs/python.log start=$SECONDS good wrong status
+    : >"$log"
+    begin "Python: the wheel and its tests" "$log"
+    if ! build check-gcc drypoint_io >"$log.build" 2>&1; then
+        status=1
+        cp "$log.build" "$log"
+    else
+        scripts/python.sh build/check-gcc >"$log" 2>&1
+        status=$?
+    fi
+    end
+    printf "%-${width}s" "Python: the wheel and its tests"
+    if [ "$status" -eq 77 ]; then
+        echo "skipped ($(tail -n 1 "$log"))"
+        return
+    fi
+    good=$(grep -c '^ok ' "$log") wrong=$(grep -c '^not ok ' "$log")
+    if [ "$status" -ne 0 ] && [ "$wrong" -eq 0 ]; then wrong=1; fi
+    passed=$((passed + good)) failed=$((failed + wrong))
+    printf '%5d passed' "$good"
+    [ "$wrong" -eq 0 ] || printf ', %d failed (%s)' "$wrong" "$log"
+    printf '  %d s\n' $((SECONDS - start))
+    [ "$wrong" -eq 0 ] || grep -v '^ok ' "$log" | tail -n 60 | sed 's/^/    /'
+}
+
 run_phase() {
     case $1 in
     format) format ;;
@@ -279,16 +307,17 @@ run_phase() {
         fi
         ;;
     web) web ;;
+    python) python_package ;;
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
     accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)
-        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, tsan, hostile, fuzz, web)" >&2
+        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, python, tsan, hostile, fuzz, web)" >&2
         exit 2
         ;;
     esac
 }
 
-[ $# -gt 0 ] || set -- format structure gcc web clang asan gl tsan hostile fuzz
+[ $# -gt 0 ] || set -- format structure gcc python web clang asan gl tsan hostile fuzz
 total=0
 for name; do total=$((total + $(usual "$name"))); done
 echo "check: $*: about $(spoken $total) with $jobs processors; longer where much is to be built"

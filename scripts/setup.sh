@@ -5,6 +5,7 @@
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
 # rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
 set -eu
+here=$(dirname "$0")/..
 
 have() { command -v "$1" >/dev/null 2>&1; }
 module() { have pkg-config && pkg-config --exists "$1" 2>/dev/null; }
@@ -71,12 +72,12 @@ find_web() {
     missing_web=
     have emcc || missing_web="$missing_web emscripten"
     have node || missing_web="$missing_web nodejs"
-    { have esbuild || [ -x web/node_modules/.bin/esbuild ]; } || missing_web="$missing_web esbuild"
+    { have esbuild || [ -x "$here/web/node_modules/.bin/esbuild" ]; } || missing_web="$missing_web esbuild"
 }
 
 # What tests it, and fetches the packages of its tests and of its optional parts.
 find_browser() {
-    have npm || [ -d web/node_modules ] || browser="$browser npm"
+    have npm || [ -d "$here/web/node_modules" ] || browser="$browser npm"
     have chromium || [ -n "${CHROMIUM:-}" ] || browser="$browser chromium"
 }
 
@@ -89,8 +90,26 @@ find_python() {
     python "sysconfig, os, sys; sys.exit(not os.path.exists(sysconfig.get_paths()['include'] + '/Python.h'))" || py="$py python3-dev"
 }
 
+# What debian/control says that the packages are built with, and is not here, without versions.
+unmet() {
+    if have dpkg-checkbuilddeps; then
+        dpkg-checkbuilddeps "$here/debian/control" 2>&1 | sed -n 's/.*[Uu]nmet build dependencies: //p'
+    else
+        sed -n '/^Build-Depends:/,/^$/{s/^Build-Depends://;p;}' "$here/debian/control" | tr ',' ' '
+    fi | sed 's/([^)]*)//g'
+}
+find_for_deb() {
+    have dpkg-buildpackage || missing="$missing build-essential"
+    have dh || missing="$missing debhelper"
+    have lintian || missing="$missing lintian"
+    for package in $(unmet); do
+        case " $missing " in *" $package "*) ;; *) missing="$missing $package" ;; esac
+    done
+}
+
 find_missing() {
     missing=
+    [ "$kind" != deb ] || { find_for_deb; return; }
     if [ "$kind" = web ]; then
         recent_cmake || missing="$missing cmake"
         have ninja || missing="$missing ninja-build"
@@ -105,13 +124,6 @@ find_missing() {
     module libpng || missing="$missing libpng-dev"
     module zlib || missing="$missing zlib1g-dev"
     module assimp || missing="$missing libassimp-dev"
-    if [ "$kind" = deb ]; then
-        have dh || missing="$missing debhelper"
-        have dh_python3 || missing="$missing dh-python"
-        have debuild || missing="$missing devscripts"
-        have fakeroot || missing="$missing fakeroot"
-        have lintian || missing="$missing lintian"
-    fi
     [ "$kind" = check ] || return 0
     module cmocka || missing="$missing libcmocka-dev"
     have clang || missing="$missing clang"
@@ -130,7 +142,6 @@ find_missing() {
     fuzzer_runtime || missing="$missing $(compiler_rt)"
 }
 
-cd "$(dirname "$0")/.."
 kind=${1:-build}
 case $kind in
 build | check | web | deb) ;;

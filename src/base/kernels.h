@@ -38,6 +38,15 @@ uint32_t dp_lanes_best(void);
         return lanes >= 4 ? &type##_base : &type##_plain;                                          \
     }                                                                                              \
     typedef type type##_tables
+#elif defined __wasm_simd128__
+/* A module is for one width: plain kernels, a fifth of it, would never be called. */
+#define DP_KERNEL_TABLES(type)                                                                     \
+    extern const type type##_plain, type##_base;                                                   \
+    static inline const type *type##_for(uint32_t lanes) {                                         \
+        (void)lanes;                                                                               \
+        return &type##_base;                                                                       \
+    }                                                                                              \
+    typedef type type##_tables
 #else
 #define DP_KERNEL_TABLES(type)                                                                     \
     extern const type type##_plain, type##_base;                                                   \

@@ -19,6 +19,7 @@ export class App extends EventTarget {
     #asked = 0; /* calls that the engine has not answered */
     #full = false; /* the last frame was a full picture, and nothing was asked for since */
     #travels = false;
+    #trip = Promise.resolve(); /* through history */
     #opens = 0; /* models that are being opened */
     #what = '';
 
@@ -26,7 +27,6 @@ export class App extends EventTarget {
         this.engine = engine;
         engine.addEventListener('state', (event) => this.#on_state(event.detail));
         engine.addEventListener('frame', (event) => this.#on_frame(event.detail));
-        engine.addEventListener('idle', () => this.#asked === 0 && this.#mark('ready'));
         engine.addEventListener('message', (event) => tell(event.detail.text, event.detail.kind));
     }
 
@@ -85,7 +85,7 @@ export class App extends EventTarget {
             try {
                 await this.#ask(() => this.engine.set(options));
             } catch (error) {
-                tell(reason(error), 'error');
+                if (!error.stopped) tell(reason(error), 'error');
                 this.#refused();
             }
         }
@@ -110,7 +110,7 @@ export class App extends EventTarget {
             await this.#ask(() => this.engine.restore(text));
             return true;
         } catch (error) {
-            if (!quiet) tell(reason(error), 'error');
+            if (!quiet && !error.stopped) tell(reason(error), 'error');
             this.#refused();
             return false;
         }
@@ -127,7 +127,7 @@ export class App extends EventTarget {
             await this.#ask(() => this.engine.open(model));
             this.model = model;
         } catch (error) {
-            if (error.name !== 'AbortError') tell(reason(error), 'error');
+            if (!error.stopped) tell(reason(error), 'error');
             return false;
         } finally {
             this.#opens--;
@@ -159,6 +159,20 @@ export class App extends EventTarget {
         this.#moves('pan');
         this.engine.pan(right, down);
         say_move({ pan_right: right, pan_down: down });
+    }
+
+    /** The picture's size, px. */
+    async resize(width, height) {
+        try {
+            await this.#ask(() => this.engine.resize(width, height));
+        } catch (error) {
+            tell(reason(error), 'error');
+        }
+    }
+
+    /** Turns and zooms about what is seen at a point from now on; shares of the picture, from its upper left. */
+    focus(x, y) {
+        this.engine.focus(x, y);
     }
 
     /** Zooms about a point that lies so many picture heights right of and below the middle. */
@@ -198,9 +212,15 @@ export class App extends EventTarget {
 
     /* ------- undo ------- */
 
-    async travel(step) {
+    /** Goes that many moments on (back: -1), after those steps that are under way. */
+    travel(step) {
+        this.#trip = this.#trip.then(() => this.#go(step));
+        return this.#trip;
+    }
+
+    async #go(step) {
         const moment = this.history.at(step);
-        if (!moment || this.#travels) return;
+        if (!moment) return;
         this.#travels = true;
         let arrived = true;
         if (moment.model !== this.model) arrived = await this.open(moment.model);

@@ -22,18 +22,30 @@ function set_width(app, name, px) {
     app.set({ width: with_piece(app.state.words.width, name, digits(clamp(px, thinnest, widest), 3)) }, `width ${name}`);
 }
 
+/* Arrows step by tenths of a pixel, with shift by whole ones. */
+function step_width(app, name, field, event) {
+    const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const px = clamp(Math.round(10 * field.valueAsNumber + way * (event.shiftKey ? 10 : 1)) / 10, thinnest, widest);
+    if (!(px > 0)) return;
+    field.value = digits(px, 3);
+    set_width(app, name, px);
+}
+
 function row_of(app, [name, label]) {
     const row = make('div', { class: 'line', 'data-line': name, role: 'group', 'aria-label': label });
     const toggle = make('input', { type: 'checkbox', role: 'switch', class: 'switch', id: `line-${name}`, checked: true });
     const text = make('label', { for: `line-${name}` }, label);
     const width = make('input', {
-        type: 'number', class: 'width', min: thinnest, max: widest, step: 0.1, inputmode: 'decimal',
+        type: 'number', class: 'width', min: thinnest, max: widest, step: 'any', inputmode: 'decimal',
         'aria-label': `Width of ${label.toLowerCase()} in pixels`, title: 'Width in pixels',
     });
     const color = make('input', { type: 'color', class: 'color', value: '#000000', 'aria-label': `Colour of ${label.toLowerCase()}`, title: 'Colour' });
     on(toggle, 'change', () => set_class(app, name, toggle.checked));
     on(width, 'input', () => width.validity.valid && set_width(app, name, width.valueAsNumber));
     on(width, 'change', () => set_width(app, name, width.valueAsNumber));
+    on(width, 'keydown', (event) => step_width(app, name, width, event));
     on(color, 'input', () => app.set({ color: with_piece(app.state.words.color, name, color.value) }, `color ${name}`));
     row.append(toggle, text, width, color);
     return row;

@@ -22,7 +22,7 @@ const app = new App();
 /* ------- size ------- */
 
 /* The drawing has the pixels of the screen that it covers. */
-function bind_size(engine) {
+function bind_size() {
     const sheet = by_id('sheet');
     const fit = () => {
         const box = sheet.getBoundingClientRect();
@@ -30,7 +30,7 @@ function bind_size(engine) {
         const width = Math.max(1, Math.round(box.width * scale));
         const height = Math.max(1, Math.round(box.height * scale));
         set_screen_size(width, height);
-        engine.resize(width, height);
+        app.resize(width, height);
     };
     let frame = 0;
     new ResizeObserver(() => {
@@ -145,7 +145,7 @@ async function start() {
         app.attach(engine);
         window.drypoint = { engine };
         bind_progress(app);
-        bind_size(engine);
+        bind_size();
         fill_panel(app);
         app.addEventListener('frame', () => {
             by_id('waiting').hidden = true;

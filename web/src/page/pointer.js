@@ -2,6 +2,7 @@
  * to what is below the pointer. Steps within a frame of the screen are one. */
 import { by_id, on } from './dom.js';
 
+const wheel_pause = 400; /* ms after which the wheel turns anew */
 const wheel_step = 0.0015; /* of a pixel of the wheel, in factors of e */
 
 export function bind_pointer(app) {
@@ -10,11 +11,18 @@ export function bind_pointer(app) {
     const steps = { right: 0, down: 0, pan_right: 0, pan_down: 0, zoom: 1, x: 0, y: 0 };
     let frame = 0;
     let pans = false;
+    let last_wheel = -Infinity;
 
     /* Where a point of the window lies, in picture heights from the middle. */
     const place = (x, y) => {
         const box = canvas.getBoundingClientRect();
         return [(x - box.left - box.width / 2) / box.height, (y - box.top - box.height / 2) / box.height];
+    };
+
+    /* The model turns about what lies there from now on, so that zooming never passes it. */
+    const focus = (x, y) => {
+        const box = canvas.getBoundingClientRect();
+        app.focus((x - box.left) / box.width, (y - box.top) / box.height);
     };
 
     const act = () => {
@@ -44,6 +52,7 @@ export function bind_pointer(app) {
         canvas.setPointerCapture(event.pointerId);
         fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
         pans = event.button > 0 || event.shiftKey;
+        if (fingers.size === 2) focus(middle().x, middle().y);
         canvas.classList.add('held');
         by_id('hint').hidden = true;
     });
@@ -80,6 +89,8 @@ export function bind_pointer(app) {
         (event) => {
             if (!app.engine) return;
             event.preventDefault();
+            if (event.timeStamp - last_wheel > wheel_pause) focus(event.clientX, event.clientY);
+            last_wheel = event.timeStamp;
             const unit = event.deltaMode === 1 ? 33 : event.deltaMode === 2 ? 400 : 1; /* lines, pages, pixels */
             const amount = Math.max(-240, Math.min(240, event.deltaY * unit)) * (event.ctrlKey ? 6 : 1);
             steps.zoom *= Math.exp(-amount * wheel_step);

@@ -64,7 +64,7 @@ async function save(app, kind) {
         download(blob, `${base_of(app)}.${kind}`);
         say(`Saved as ${kind.toUpperCase()}`);
     } catch (error) {
-        if (error.name !== 'AbortError') tell(`${kind.toUpperCase()}: ${reason(error)}`, 'error');
+        if (!error.stopped) tell(`${kind.toUpperCase()}: ${reason(error)}`, 'error');
     } finally {
         saving = false;
         by_id('part-save').removeAttribute('aria-busy');
