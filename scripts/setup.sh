@@ -71,12 +71,12 @@ find_web() {
     missing_web=
     have emcc || missing_web="$missing_web emscripten"
     have node || missing_web="$missing_web nodejs"
-    { have esbuild || [ -x web/node_modules/.bin/esbuild ]; } || missing_web="$missing_web esbuild"
+    { have esbuild || [ -x "$here/web/node_modules/.bin/esbuild" ]; } || missing_web="$missing_web esbuild"
 }
 
 # What tests it, and fetches the packages of its tests and of its optional parts.
 find_browser() {
-    have npm || [ -d web/node_modules ] || browser="$browser npm"
+    have npm || [ -d "$here/web/node_modules" ] || browser="$browser npm"
     have chromium || [ -n "${CHROMIUM:-}" ] || browser="$browser chromium"
 }
 
@@ -141,7 +141,6 @@ find_missing() {
     fuzzer_runtime || missing="$missing $(compiler_rt)"
 }
 
-cd "$(dirname "$0")/.."
 kind=${1:-build}
 case $kind in
 build | check | web | deb) ;;
