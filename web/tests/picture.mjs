@@ -27,9 +27,16 @@ try {
     await page.goto(`${server.address}#${what}`);
     await page.waitForFunction(() => document.documentElement.dataset.state === 'ready');
     await page.evaluate(() => document.getElementById('part-look').scrollIntoView());
+    await page.evaluate(() => {
+        // once more: the first picture also waits for the compiler
+        const { engine } = window.drypoint;
+        const drawn = new Promise((resolve) => engine.addEventListener('frame', ({ detail }) => detail.full && resolve()));
+        engine.resize(...['size-width', 'size-height'].map((id) => document.getElementById(id).valueAsNumber));
+        return drawn;
+    });
     await page.waitForTimeout(500);
     await page.screenshot({ path: positionals[0] });
-    execFileSync('convert', [positionals[0], '+dither', '-colors', '200', '-strip', `PNG8:${positionals[0]}`]);
+    execFileSync('convert', [positionals[0], '+dither', '-colors', '256', '-strip', `PNG8:${positionals[0]}`]);
 } finally {
     await browser.close();
     await server.close();
