@@ -1,5 +1,6 @@
 #!/usr/bin/env node
-/* run.mjs [--page FOLDER] [--program FILE] [--no-slow] [--list] [PATTERN...]: tests the page in Chromium, and prints TAP.
+/* run.mjs [--page FOLDER] [--program FILE] [--no-slow] [--no-isolation] [--list] [PATTERN...]: tests the page in Chromium, and
+ * prints TAP. --no-isolation: all of them with the build of one thread, but those that need the other.
  *
  * PATTERN: only tests whose names hold one of these. Exit status 77: there is no browser, or no package to drive it. */
 import { readdir } from 'node:fs/promises';
@@ -12,6 +13,7 @@ const { values: option, positionals: patterns } = parseArgs({
         page: { type: 'string' },
         program: { type: 'string' },
         'no-slow': { type: 'boolean', default: false },
+        'no-isolation': { type: 'boolean', default: false },
         list: { type: 'boolean', default: false },
     },
 });
@@ -45,7 +47,7 @@ function in_time(promise, name) {
 }
 
 async function run_one(browser, { name, run, isolated }) {
-    const server = await start_server(isolated);
+    const server = await start_server(isolated && !option['no-isolation']);
     const bench = new Bench(browser, server);
     try {
         const note = await in_time(run(bench), name);
@@ -54,7 +56,7 @@ async function run_one(browser, { name, run, isolated }) {
     } catch (error) {
         return { error, faults: bench.visits.flatMap((visit) => visit.faults) };
     } finally {
-        await bench.end();
+        await in_time(bench.end(), 'closing').catch((error) => console.log(`# ${error.message.split('\n')[0]}`));
         await server.close();
     }
 }
@@ -62,7 +64,7 @@ async function run_one(browser, { name, run, isolated }) {
 for (const file of (await readdir(import.meta.dirname ?? new URL('.', import.meta.url))).sort()) {
     if (file.endsWith('.test.mjs')) await import(`./${file}`);
 }
-const chosen = tests.filter(({ name, slow }) => (!patterns.length || patterns.some((p) => name.includes(p))) && !(slow && option['no-slow']));
+const chosen = tests.filter(({ name, slow }) => (!patterns.length || patterns.some((p) => name.includes(p))) && !(slow && option['no-slow']) && !(/on threads/.test(name) && option['no-isolation']));
 if (option.list) {
     for (const { name } of chosen) console.log(name);
     process.exit(0);
@@ -71,11 +73,12 @@ if (!chosen.length) {
     console.error('run: no test has such a name');
     process.exit(2);
 }
-const browser = await start_browser();
+let browser = await start_browser();
 let number = 0;
 let failed = 0;
 for (const one of chosen) {
     const start = performance.now();
+    if (!browser.isConnected()) browser = await start_browser(); // it crashed: the test before has failed
     const { error, note, faults } = await run_one(browser, one);
     const seconds = ((performance.now() - start) / 1000).toFixed(1);
     number++;
@@ -84,5 +87,5 @@ for (const one of chosen) {
     if (error) console.log(`${error.stack ?? error}${faults.length ? `\nthe page: ${faults.join('\n')}` : ''}`.replace(/^/gm, '# '));
 }
 console.log(`1..${number}`);
-await browser.close();
+await browser.close().catch(() => 0);
 process.exit(failed ? 1 : 0);
