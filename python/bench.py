@@ -1,10 +1,12 @@
-"""bench.py [MODEL]: what Python adds to C, and Drypoint beside VTK's silhouettes and feature edges, in one run.
+"""bench.py [MODEL]: what Python adds to C, and Drypoint beside VTK's silhouettes and feature
+edges, in one run.
 
     build/python/venv/bin/python python/bench.py stanford-bunny.obj
 
-Frames are of 1600 x 1200 px, times the least of some frames, ms: what else the machine does shows least in it. Without VTK
-(python3-vtk9) its rows are left out. PyVista's add_silhouette() and extract_feature_edges() are these two of VTK's filters.
---render also lets VTK draw them, which needs a display: xvfb-run.
+Frames are of 1600 x 1200 px, times the least of some frames, ms: what else the machine does shows
+    least in it. Without VTK
+(python3-vtk9) its rows are left out. PyVista's add_silhouette() and extract_feature_edges() are
+these two of VTK's filters. --render also lets VTK draw them, which needs a display: xvfb-run.
 """
 
 import sys
@@ -43,9 +45,13 @@ def mesh(path):
         return np.array(vertices), np.array(faces)
     t, p = np.meshgrid(np.linspace(0, np.pi, 133), np.linspace(0, 2 * np.pi, 265), indexing="ij")
     radius = 1 + 0.1 * np.sin(9 * t) * np.sin(8 * p)
-    points = radius[..., None] * np.stack([np.sin(t) * np.cos(p), np.cos(t), -np.sin(t) * np.sin(p)], -1)
+    points = radius[..., None] * np.stack(
+        [np.sin(t) * np.cos(p), np.cos(t), -np.sin(t) * np.sin(p)], -1
+    )
     i = (np.arange(132)[:, None] * 265 + np.arange(264)).reshape(-1)
-    return points.reshape(-1, 3), np.concatenate([np.stack([i, i + 265, i + 266], 1), np.stack([i, i + 266, i + 1], 1)])
+    return points.reshape(-1, 3), np.concatenate(
+        [np.stack([i, i + 265, i + 266], 1), np.stack([i, i + 266, i + 1], 1)]
+    )
 
 
 def overhead(source, camera):
@@ -69,7 +75,8 @@ def overhead(source, camera):
 
 
 def vtk_parts(vertices, faces):
-    """(polydata, camera) as VTK has them; ImportError without. Cameras must be made after their back end was imported."""
+    """(polydata, camera) as VTK has them; ImportError without. Cameras must be made after their
+    back end was imported."""
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -89,7 +96,8 @@ def vtk_parts(vertices, faces):
 
 
 def vtk_lines(data, camera):
-    """Silhouette, and edges that bend by more than 30 degrees or are borders: lines in space, hidden ones too."""
+    """Silhouette, and edges that bend by more than 30 degrees or are borders: lines in space,
+    hidden ones too."""
     from vtkmodules.vtkFiltersCore import vtkFeatureEdges
     from vtkmodules.vtkFiltersHybrid import vtkPolyDataSilhouette
 
@@ -109,8 +117,13 @@ def vtk_lines(data, camera):
 def vtk_picture(data, camera, size):
     """The same rendered over the surface, off the screen, as an array."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-                                             vtkWindowToImageFilter)
+    from vtkmodules.vtkRenderingCore import (
+        vtkActor,
+        vtkPolyDataMapper,
+        vtkRenderer,
+        vtkRenderWindow,
+        vtkWindowToImageFilter,
+    )
 
     window, renderer = vtkRenderWindow(), vtkRenderer()
     window.SetOffScreenRendering(1)
@@ -151,7 +164,10 @@ def beside_vtk(vertices, faces, display):
         return
     theirs, found = least_ms(lambda: vtk_lines(data, camera))
     lines = sum(part.GetOutput().GetNumberOfLines() for part in found)
-    print(f"{'VTK: silhouette + feature edges, not rendered':52}{theirs:9.2f} ms   {theirs / ours:.1f} x   {lines} lines, hidden ones too")
+    print(
+        f"{'VTK: silhouette + feature edges, not rendered':52}{theirs:9.2f} ms   "
+        f"{theirs / ours:.1f} x   {lines} lines, hidden ones too"
+    )
     if display:
         theirs, _ = least_ms(lambda: vtk_picture(data, camera, SMALL))
         print(f"{'VTK: the same rendered':52}{theirs:9.2f} ms   {theirs / ours:.1f} x")
@@ -159,7 +175,10 @@ def beside_vtk(vertices, faces, display):
 
 def main(path, display):
     vertices, faces = mesh(path)
-    print(f"{path or 'a ball with bumps'}: {len(faces)} triangles, {SIZE[0]} x {SIZE[1]} px, drypoint {drypoint.__version__}")
+    print(
+        f"{path or 'a ball with bumps'}: {len(faces)} triangles, {SIZE[0]} x {SIZE[1]} px, "
+        f"drypoint {drypoint.__version__}"
+    )
     source = drypoint.Source.from_arrays(vertices.astype(np.float32), faces.astype(np.uint32))
     overhead(source, drypoint.Camera.fit().resolve(source, SIZE))
     beside_vtk(vertices, faces, display)
