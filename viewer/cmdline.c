@@ -232,6 +232,14 @@ void parsed_free(parsed *p) {
     *p = (parsed){0};
 }
 
+void parsed_move(parsed *to, parsed *from) {
+    const bool several = from->settings.model == from->settings.models_name;
+    parsed_free(to);
+    *to = *from;
+    if (several) to->settings.model = to->settings.models_name;
+    *from = (parsed){0};
+}
+
 /* ------- for a shell ------- */
 
 static bool is_plain(const char *word) {

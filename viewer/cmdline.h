@@ -50,6 +50,8 @@ bool cmdline_copy(cmd_options *to, const cmd_options *from);
 /* As `drypoint MODEL... -o OUTPUT` reads it; OUTPUT may be NULL. False: a message was said. Call parsed_free in any case. */
 bool cmdline_parse(const cmdline *line, const char *output, parsed *out);
 void parsed_free(parsed *p);
+/* Moves one to another place, whose own are freed: settings point into themselves. */
+void parsed_move(parsed *to, parsed *from);
 /* The command line for a shell; the caller frees it. */
 char *cmdline_text(const cmdline *line, const char *output);
 

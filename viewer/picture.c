@@ -58,8 +58,7 @@ bool picture_aim(picture *p, const cmdline *line, loaded *model, bool restyle) {
     }
     restyle |= !p->styled;
     if (restyle) free_style(p);
-    parsed_free(&p->line);
-    p->line = next;
+    parsed_move(&p->line, &next);
     const int code = restyle ? make_look(p, model, &seen) : make_camera_again(p, model, &seen);
     if (code) return false;
     look_deepen(&p->style, &seen.extent, &p->plan.views[0].camera);

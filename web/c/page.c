@@ -54,7 +54,7 @@ static web_answer failed(void) { return stopped ? ANSWER_STOPPED : ANSWER_FAILED
 
 EMSCRIPTEN_KEEPALIVE void web_begin(uint32_t threads) {
     progress_to(hear);
-    self->threads = threads;
+    self->threads = threads ? threads : 1;
     self->line.width = 1280, self->line.height = 800;
     self->picture.progress = hear_drawing;
 }
@@ -194,7 +194,10 @@ static bool adopt(cmdline *line, loaded *model, bool same_camera) {
     const bool done = !self->model.source || make_ready();
     if (!done) *line = self->line, self->line = old_line, self->camera = camera;
     if (!done && model) *model = self->model, self->model = old;
-    if (!done) self->restyle = true;
+    if (!done) {
+        self->restyle = true;
+        if (self->model.source) make_ready();
+    }
     cmdline_free(done ? &old_line : line);
     if (model) loaded_free(done ? &old : model);
     if (model && done) loaded_free(&self->draft), self->serial++;

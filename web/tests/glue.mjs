@@ -63,6 +63,8 @@ function save(kind) {
     return Buffer.concat(saved.pieces).toString('latin1');
 }
 
+m._web_begin(1);
+
 const tests = {
     'tells options, presets, shapes and textures'() {
         const info = JSON.parse(m.UTF8ToString(m._web_info()));
@@ -125,7 +127,7 @@ const tests = {
         m._web_turn(0.25, 0.1);
         assert.equal(m._web_draw(0), 0);
         const turned = state();
-        assert.match(turned.options, /--eye .* --target.* --fov/);
+        assert.match(turned.options, /--eye.* --target.* --fov/);
         assert.notEqual(hash(), at_first);
         const picture = hash();
         assert.equal(restore(''), 0);
@@ -141,7 +143,7 @@ const tests = {
     },
     'words with spaces and quotes survive'() {
         assert.equal(set({ title: `a 'b' "c" \\d` }), 1, 'no option of a page');
-        add("a 'quoted' name.off", 'OFF 4 4 6 0 0 0 1 0 0 0 1 0 0 0 1 3 0 2 1 3 0 1 3 3 1 2 3 3 0 3 2');
+        add("a 'quoted' name.off", 'OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n');
         assert.equal(open("a 'quoted' name.off"), 0, said.at(-1));
         m._web_draw(0);
         assert.ok(state().command.startsWith(`drypoint 'a '\\''quoted'\\'' name.off'`), state().command);
