@@ -87,6 +87,9 @@ gallery: setup
 	@$(MAKE) --no-print-directory all
 	@scripts/gallery.sh $(BUILD)/drypoint
 
+wheel: setup
+	@scripts/wheel.sh $(BUILD)
+
 web:
 	@scripts/setup.sh web
 	@scripts/web.sh
@@ -98,15 +101,12 @@ serve:
 check-web: setup-check
 	@scripts/check.sh web
 
-wheel: setup
-	@scripts/wheel.sh $(BUILD)
-
 install: all
 	@cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 # What was installed last, by CMake's manifest.
 uninstall:
-	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/Uninstall.cmake
+	@cmake -DBUILD=$(BUILD) -P cmake/Uninstall.cmake
 
 deb:
 	@scripts/setup.sh deb

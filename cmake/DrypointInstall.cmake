@@ -3,6 +3,9 @@
 # away again.
 include(CMakePackageConfigHelpers)
 
+# For cmake/Uninstall.cmake, beside the manifest.
+install(CODE "file(WRITE \"${PROJECT_BINARY_DIR}/install_prefix.txt\" \"\${CMAKE_INSTALL_PREFIX}\\n\")")
+
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/drypoint)
 
 install(DIRECTORY include/drypoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")

@@ -1,31 +1,37 @@
-# cmake -DMANIFEST=build/install_manifest.txt -P cmake/Uninstall.cmake: removes the files that `cmake --install` wrote
-# last, as its manifest lists them, below $DESTDIR if that is set, and the directories that are empty then.
+# cmake -DBUILD=build -P cmake/Uninstall.cmake: removes the files that `cmake --install` wrote last, as its manifest lists them,
+# below $DESTDIR if that is set, and the directories of the prefix that are empty then. The prefix itself stays.
 #
-# Of a prefix that other packages use, too, only directories of Drypoint's own go: /usr/local/bin stays, empty or not.
+# Of a prefix that all packages use only directories of Drypoint's own go: /usr/local/bin stays, empty or not.
 cmake_minimum_required(VERSION 3.21)
 
-if(NOT EXISTS "${MANIFEST}")
-  message(FATAL_ERROR "There is nothing to uninstall: `make install` has left no ${MANIFEST}.")
+set(manifest "${BUILD}/install_manifest.txt")
+if(NOT EXISTS "${manifest}")
+  message(FATAL_ERROR "There is nothing to uninstall: `make install` has left no ${manifest}.")
 endif()
+file(STRINGS "${manifest}" paths)
+file(STRINGS "${BUILD}/install_prefix.txt" prefix LIMIT_COUNT 1)
 set(root "$ENV{DESTDIR}")
+set(top "${root}${prefix}")
+set(shared FALSE)
+if("${top}" MATCHES "^/(usr|usr/local)?/*$")
+  set(shared TRUE)
+endif()
 
-# Removes `directory` and those above it as long as they are empty, up to $DESTDIR.
+# Removes `directory` and those above it as long as they are empty and below the prefix.
 function(remove_empty directory)
-  while(NOT "${directory}" STREQUAL "${root}" AND NOT "${directory}" STREQUAL "/" AND IS_DIRECTORY "${directory}")
-    if("${root}" STREQUAL "" AND "${directory}" MATCHES "^/usr/" AND NOT "${directory}" MATCHES "drypoint")
-      return()
-    endif()
+  string(FIND "${directory}" "${top}/" at)
+  while(at EQUAL 0 AND IS_DIRECTORY "${directory}")
     file(GLOB inside LIST_DIRECTORIES TRUE "${directory}/*" "${directory}/.*")
     list(FILTER inside EXCLUDE REGEX "/\\.\\.?$")
-    if(inside)
+    if(inside OR (shared AND NOT "${directory}" MATCHES "drypoint"))
       return()
     endif()
     file(REMOVE_RECURSE "${directory}")
     get_filename_component(directory "${directory}" DIRECTORY)
+    string(FIND "${directory}" "${top}/" at)
   endwhile()
 endfunction()
 
-file(STRINGS "${MANIFEST}" paths)
 set(count 0)
 set(directories)
 foreach(path IN LISTS paths)
@@ -46,4 +52,4 @@ foreach(directory IN LISTS directories)
 endforeach()
 list(LENGTH paths listed)
 message(STATUS "Uninstalled: ${count} of ${listed} files that were installed")
-file(REMOVE "${MANIFEST}")
+file(REMOVE "${manifest}")

@@ -1,10 +1,12 @@
-"""bench.py [MODEL]: what Python adds to C, and Drypoint beside VTK's silhouettes and feature edges, in one run.
+"""bench.py [MODEL]: what Python adds to C, and Drypoint beside VTK's silhouettes and feature
+edges, in one run.
 
     build/python/venv/bin/python python/bench.py stanford-bunny.obj
 
-Frames are of 1600 x 1200 px, times the least of some frames, ms: what else the machine does shows least in it. Without VTK
-(python3-vtk9) its rows are left out; PyVista's silhouette and feature edges are these two of VTK's filters, and its
-extract_feature_edges() and add_silhouette() are used where it can be imported.
+Frames are of 1600 x 1200 px, times the least of some frames, ms: what else the machine does shows
+    least in it. Without VTK
+(python3-vtk9) its rows are left out. PyVista's add_silhouette() and extract_feature_edges() are
+these two of VTK's filters. --render also lets VTK draw them, which needs a display: xvfb-run.
 """
 
 import sys
@@ -15,6 +17,7 @@ import numpy as np
 import drypoint
 
 SIZE = (1600, 1200)
+SMALL = (800, 600)  # of draw() unless it is told another one
 FRAMES = 15
 
 
@@ -42,9 +45,13 @@ def mesh(path):
         return np.array(vertices), np.array(faces)
     t, p = np.meshgrid(np.linspace(0, np.pi, 133), np.linspace(0, 2 * np.pi, 265), indexing="ij")
     radius = 1 + 0.1 * np.sin(9 * t) * np.sin(8 * p)
-    points = radius[..., None] * np.stack([np.sin(t) * np.cos(p), np.cos(t), -np.sin(t) * np.sin(p)], -1)
+    points = radius[..., None] * np.stack(
+        [np.sin(t) * np.cos(p), np.cos(t), -np.sin(t) * np.sin(p)], -1
+    )
     i = (np.arange(132)[:, None] * 265 + np.arange(264)).reshape(-1)
-    return points.reshape(-1, 3), np.concatenate([np.stack([i, i + 265, i + 266], 1), np.stack([i, i + 266, i + 1], 1)])
+    return points.reshape(-1, 3), np.concatenate(
+        [np.stack([i, i + 265, i + 266], 1), np.stack([i, i + 266, i + 1], 1)]
+    )
 
 
 def overhead(source, camera):
@@ -68,7 +75,9 @@ def overhead(source, camera):
 
 
 def vtk_parts(vertices, faces):
-    """(polydata, camera) as VTK has them; ImportError without."""
+    """(polydata, camera) as VTK has them; ImportError without. Cameras must be made after their
+    back end was imported."""
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -87,7 +96,8 @@ def vtk_parts(vertices, faces):
 
 
 def vtk_lines(data, camera):
-    """Silhouette, and edges that bend by more than 30 degrees or are borders: lines in space, hidden ones too."""
+    """Silhouette, and edges that bend by more than 30 degrees or are borders: lines in space,
+    hidden ones too."""
     from vtkmodules.vtkFiltersCore import vtkFeatureEdges
     from vtkmodules.vtkFiltersHybrid import vtkPolyDataSilhouette
 
@@ -104,17 +114,21 @@ def vtk_lines(data, camera):
     return outline, edges
 
 
-def vtk_picture(data, camera):
+def vtk_picture(data, camera, size):
     """The same rendered over the surface, off the screen, as an array."""
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (the factory's back end)
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-                                             vtkWindowToImageFilter)
+    from vtkmodules.vtkRenderingCore import (
+        vtkActor,
+        vtkPolyDataMapper,
+        vtkRenderer,
+        vtkRenderWindow,
+        vtkWindowToImageFilter,
+    )
 
     window, renderer = vtkRenderWindow(), vtkRenderer()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(4)
-    window.SetSize(*SIZE)
+    window.SetSize(*size)
     window.AddRenderer(renderer)
     renderer.SetBackground(1, 1, 1)
     renderer.SetActiveCamera(camera)
@@ -123,7 +137,7 @@ def vtk_picture(data, camera):
         if part is data:
             mapper.SetInputData(data)
         else:
-            mapper.SetInputConnection(part.GetOutputPort())
+            mapper.SetInputData(part.GetOutput())
             actor.GetProperty().SetColor(0, 0, 0)
             actor.GetProperty().SetLineWidth(2)
         mapper.ScalarVisibilityOff()
@@ -139,8 +153,10 @@ def vtk_picture(data, camera):
 
 def beside_vtk(vertices, faces, display):
     """One call of each, from arrays to lines, and to a picture."""
-    ours, image = least_ms(lambda: drypoint.draw(vertices, faces, size=SIZE))
-    print(f"{'drypoint.draw(vertices, faces): lines and picture':52}{ours:9.2f} ms   {len(image.segments())} segments")
+    for size in (SIZE, SMALL):
+        ours, image = least_ms(lambda: drypoint.draw(vertices, faces, size=size))
+        words = f"drypoint.draw(vertices, faces), {size[0]} x {size[1]} px"
+        print(f"{words:52}{ours:9.2f} ms   {len(image.segments())} visible segments")
     try:
         data, camera = vtk_parts(vertices, faces)
     except ImportError as error:
@@ -148,15 +164,21 @@ def beside_vtk(vertices, faces, display):
         return
     theirs, found = least_ms(lambda: vtk_lines(data, camera))
     lines = sum(part.GetOutput().GetNumberOfLines() for part in found)
-    print(f"{'VTK: silhouette + feature edges, not rendered':52}{theirs:9.2f} ms   {theirs / ours:.1f} x   {lines} lines")
+    print(
+        f"{'VTK: silhouette + feature edges, not rendered':52}{theirs:9.2f} ms   "
+        f"{theirs / ours:.1f} x   {lines} lines, hidden ones too"
+    )
     if display:
-        theirs, _ = least_ms(lambda: vtk_picture(data, camera))
+        theirs, _ = least_ms(lambda: vtk_picture(data, camera, SMALL))
         print(f"{'VTK: the same rendered':52}{theirs:9.2f} ms   {theirs / ours:.1f} x")
 
 
 def main(path, display):
     vertices, faces = mesh(path)
-    print(f"{path or 'a ball with bumps'}: {len(faces)} triangles, {SIZE[0]} x {SIZE[1]} px, drypoint {drypoint.__version__}")
+    print(
+        f"{path or 'a ball with bumps'}: {len(faces)} triangles, {SIZE[0]} x {SIZE[1]} px, "
+        f"drypoint {drypoint.__version__}"
+    )
     source = drypoint.Source.from_arrays(vertices.astype(np.float32), faces.astype(np.uint32))
     overhead(source, drypoint.Camera.fit().resolve(source, SIZE))
     beside_vtk(vertices, faces, display)

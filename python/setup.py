@@ -1,4 +1,5 @@
-"""Builds the wheel: the libraries by CMake unless DRYPOINT_BUILD names a folder that has them, the rest here."""
+"""Builds the wheel: the libraries by CMake unless DRYPOINT_BUILD names a folder that has them,
+the rest here."""
 
 import glob
 import os
@@ -24,7 +25,9 @@ def read(*path):
 
 def version():
     """(major, minor, patch), of base.h."""
-    return tuple(int(n) for n in re.findall(r"#define DP_VERSION_\w+ (\d+)", read(INCLUDE, "base.h")))
+    return tuple(
+        int(n) for n in re.findall(r"#define DP_VERSION_\w+ (\d+)", read(INCLUDE, "base.h"))
+    )
 
 
 def libraries():
@@ -34,9 +37,13 @@ def libraries():
         folder = os.path.join(ROOT, "build")
         if not os.path.exists(os.path.join(folder, "CMakeCache.txt")):
             subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
-        subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "drypoint", "drypoint_io"], check=True)
+        subprocess.run(
+            ["cmake", "--build", folder, "--parallel", "--target", "drypoint_io"], check=True
+        )
     if not os.path.exists(os.path.join(folder, "libdrypoint.a")):
-        raise SystemExit(f"there is no libdrypoint.a in {folder}: build the target drypoint there first")
+        raise SystemExit(
+            f"there is no libdrypoint.a in {folder}: build the target drypoint there first"
+        )
     return os.path.abspath(folder)
 
 
@@ -69,7 +76,9 @@ def core_extension():
     """The core alone: libc, libm and pthreads."""
     from build_drypoint import extension
 
-    return extension.builder("drypoint._native", ["drypoint.h"], [os.path.join(FOLDER, "libdrypoint.a")], ["m"])
+    return extension.builder(
+        "drypoint._native", ["drypoint.h"], [os.path.join(FOLDER, "libdrypoint.a")], ["m"]
+    )
 
 
 def io_extension():
@@ -77,11 +86,17 @@ def io_extension():
     from build_drypoint import extension
 
     archives = [os.path.join(FOLDER, name) for name in ("libdrypoint_io.a", "libdrypoint.a")]
-    return extension.builder("drypoint._native_io", ["drypoint.h", "io.h"], archives, ["png", "z", "assimp", "m"])
+    return extension.builder(
+        "drypoint._native_io", ["drypoint.h", "io.h"], archives, ["png", "z", "assimp", "m"]
+    )
 
 
 FOLDER = libraries()
 
 if __name__ == "__main__":
-    setup(version=".".join(str(n) for n in version()), cffi_modules=extensions(), cmdclass={"build_py": BuildPython},
-          options={"bdist_wheel": {"py_limited_api": ABI}})
+    setup(
+        version=".".join(str(n) for n in version()),
+        cffi_modules=extensions(),
+        cmdclass={"build_py": BuildPython},
+        options={"bdist_wheel": {"py_limited_api": ABI}},
+    )

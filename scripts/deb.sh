@@ -5,6 +5,7 @@
 # They are built in a copy of the files that git knows, as these are now; the tree itself stays as it is. Files' dates are
 # those of debian/changelog, so that one source gives the same bytes each time.
 set -euo pipefail
+umask 022 # folders of the copy have no other rights for being made here
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
 out=build/deb
@@ -24,13 +25,17 @@ if ! grep -q "^Package: libdrypoint$minor$" debian/control; then
     exit 1
 fi
 
+if ! git rev-parse --git-dir >/dev/null 2>&1; then
+    say "this is no git checkout, which says what belongs to the source: here dpkg-buildpackage -b does without" >&2
+    exit 1
+fi
 rm -rf "$out"
 source=$out/drypoint-$version
 mkdir -p "$source"
 # What git ignores or does not know yet is no part of the source; what is deleted here is not either.
 git ls-files -z --deduplicate | while IFS= read -r -d '' file; do
     [ ! -e "$file" ] && [ ! -L "$file" ] || printf '%s\0' "$file"
-done | tar --create --null --files-from=- --mtime="@$(dpkg-parsechangelog -S Timestamp)" | tar --extract -C "$source"
+done | tar --create --null --files-from=- --mode=u=rwX,go=rX --mtime="@$(dpkg-parsechangelog -S Timestamp)" | tar --extract -C "$source"
 
 say "building in $source, which takes some minutes; $log tells more"
 if ! (cd "$source" && DEB_BUILD_OPTIONS="parallel=$jobs noautodbgsym ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -us -uc) >"$log" 2>&1; then

@@ -5,7 +5,6 @@
 # What is there is found by trying it, so nothing is asked of apt on a machine that has everything. The
 # rest comes from Debian's packages, with sudo when not root. What can be done without is installed if that works.
 set -eu
-here=$(dirname "$0")/..
 
 have() { command -v "$1" >/dev/null 2>&1; }
 module() { have pkg-config && pkg-config --exists "$1" 2>/dev/null; }
@@ -93,9 +92,9 @@ find_python() {
 # What debian/control says that the packages are built with, and is not here, without versions.
 unmet() {
     if have dpkg-checkbuilddeps; then
-        dpkg-checkbuilddeps "$here/debian/control" 2>&1 | sed -n 's/.*[Uu]nmet build dependencies: //p'
+        dpkg-checkbuilddeps debian/control 2>&1 | sed -n 's/.*[Uu]nmet build dependencies: //p'
     else
-        sed -n '/^Build-Depends:/,/^$/{s/^Build-Depends://;p;}' "$here/debian/control" | tr ',' ' '
+        sed -n '/^Build-Depends:/,/^$/{s/^Build-Depends://;p;}' debian/control | tr ',' ' '
     fi | sed 's/([^)]*)//g'
 }
 find_for_deb() {

@@ -11,11 +11,15 @@ if [ -n "$lacking" ]; then
     echo "wheel: $python lacks Debian's $lacking: apt-get install $lacking" >&2
     exit 1
 fi
+# shellcheck disable=SC2046
 [ -e "$build/CMakeCache.txt" ] || cmake --preset release $(scripts/generator.sh)
-cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target drypoint drypoint_io
+target=drypoint_io # and what it needs, the core
+! grep -q '^DRYPOINT_IO:BOOL=OFF' "$build/CMakeCache.txt" || target=drypoint
+cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target "$target"
 rm -rf build/python/tree build/python/dist
 mkdir -p build/python/tree build/python/dist
 cp -r --parents include tools/colors.c python LICENSE build/python/tree
+cp LICENSE build/python/tree/python
 DRYPOINT_BUILD=$(realpath "$build") "$python" -m build --wheel --no-isolation --outdir build/python/dist build/python/tree/python \
     >build/python/wheel.log 2>&1 || { tail -n 30 build/python/wheel.log >&2; exit 1; }
 ls -s build/python/dist/*.whl

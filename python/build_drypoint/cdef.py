@@ -1,6 +1,7 @@
 """The declarations that cffi is given, made of include/drypoint by the C compiler's preprocessor.
 
-What cffi cannot read is taken out: attributes, inline functions, what the standard's headers hold, and
+What cffi cannot read is taken out: attributes, inline functions, what the standard's headers
+    hold, and
 functions that take pointers to constant arrays.
 Macros that are numbers become `#define NAME ...`, whose values the compiler fills in.
 """
@@ -25,9 +26,23 @@ def preprocess(includes, folder, *flags):
     with tempfile.TemporaryDirectory() as empty:
         for name in STANDARD_HEADERS:
             open(os.path.join(empty, name), "w").close()
-        command = [*compiler, "-E", *flags, "-nostdinc", "-I", empty, "-I", folder,
-                   "-D__attribute__(x)=", "-x", "c", "-"]
-        return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+        command = [
+            *compiler,
+            "-E",
+            *flags,
+            "-nostdinc",
+            "-I",
+            empty,
+            "-I",
+            folder,
+            "-D__attribute__(x)=",
+            "-x",
+            "c",
+            "-",
+        ]
+        return subprocess.run(
+            command, input=text, capture_output=True, text=True, check=True
+        ).stdout
 
 
 def constants(includes, folder):

@@ -32,7 +32,7 @@ int drypoint_progress_call(void *user, double fraction);
 
 
 def builder(name, headers, libraries, needed):
-    """An ffi builder for cffi's setuptools hook. libraries: archives; needed: names of shared ones."""
+    """An ffi builder for cffi's setuptools hook. libraries: archives; needed: shared ones."""
     ffi = cffi.FFI()
     ffi.cdef(cdef.make(headers, INCLUDE) + TYPES + CALLBACKS)
     with open(os.path.join(HERE, "native.c"), encoding="utf-8") as file:
@@ -40,8 +40,13 @@ def builder(name, headers, libraries, needed):
     includes = "".join(f"#include <drypoint/{header}>\n" for header in headers)
     callback = "static int drypoint_report(void *handle, double fraction);\n"
     ffi.set_source(
-        name, includes + TYPES + callback + native,
-        include_dirs=[INCLUDE], extra_objects=libraries, libraries=needed,
-        extra_compile_args=["-std=gnu17", "-O1", "-g0"], extra_link_args=["-pthread", "-Wl,--exclude-libs,ALL"],
-        py_limited_api=True)
+        name,
+        includes + TYPES + callback + native,
+        include_dirs=[INCLUDE],
+        extra_objects=libraries,
+        libraries=needed,
+        extra_compile_args=["-std=gnu17", "-O1", "-g0"],
+        extra_link_args=["-pthread", "-Wl,--exclude-libs,ALL"],
+        py_limited_api=True,
+    )
     return ffi

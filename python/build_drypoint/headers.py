@@ -1,8 +1,9 @@
 """Reads the structs and enums of a C header, with the comments that stand at them.
 
-A comment belongs to the declaration that it follows on the same line, else to the one that it stands
-before. Headers must be regular: every type is `typedef struct|enum NAME { … } NAME;`, without braces
-inside. What is not of that form is passed over; a test compares the result with what the compiler saw.
+A comment belongs to the declaration that it follows on the same line, else to the one that it
+stands before. Headers must be regular: every type is `typedef struct|enum NAME { … } NAME;`,
+without braces inside. What is not of that form is passed over; a test compares the result with
+what the compiler saw.
 """
 
 import re

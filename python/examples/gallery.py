@@ -1,4 +1,5 @@
-"""gallery.py [WxH] [OUTPUT]: the picture of docs/python.md, four drawings of arrays side by side."""
+"""gallery.py [WxH] [OUTPUT]: the picture of docs/python.md, four drawings of arrays side by
+side."""
 
 import sys
 
@@ -26,7 +27,9 @@ def tube(points, radius, sides):
 def knot():
     """A trefoil."""
     t = np.linspace(0, 2 * np.pi, 240, endpoint=False)
-    curve = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], -1)
+    curve = np.stack(
+        [np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], -1
+    )
     return tube(curve, 0.55, 32)
 
 
@@ -45,7 +48,9 @@ def depth_picture(depth):
     """Grey by distance, near is dark."""
     seen = np.isfinite(depth)
     near, far = depth[seen].min(), depth[seen].max()
-    grey = np.where(seen, 60 + 170 * (np.where(seen, depth, far) - near) / (far - near), 255).astype(np.uint8)
+    grey = np.where(
+        seen, 60 + 170 * (np.where(seen, depth, far) - near) / (far - near), 255
+    ).astype(np.uint8)
     return np.dstack([grey, grey, grey, np.full_like(grey, 255)])
 
 
@@ -68,10 +73,22 @@ def colored_lines(image, size):
 
 def main(size, output):
     vertices, faces = knot()
-    toon = drypoint.Style(shade={"shading": "toon"}, surface="lightsteelblue", line={"silhouette": {"width": 4}})
-    image = drypoint.draw(vertices, faces, style=toon, size=size, planes=["depth"], camera=drypoint.Camera.fit(direction=(0.2, 0.3, 1)))
+    toon = drypoint.Style(
+        shade={"shading": "toon"}, surface="lightsteelblue", line={"silhouette": {"width": 4}}
+    )
+    image = drypoint.draw(
+        vertices,
+        faces,
+        style=toon,
+        size=size,
+        planes=["depth"],
+        camera=drypoint.Camera.fit(direction=(0.2, 0.3, 1)),
+    )
     land, quads, colors = hill()
-    style = drypoint.Style(shade={"shading": "lambert", "model_colors": True}, line={"silhouette": {"width": 3}, "border": {"width": 3}})
+    style = drypoint.Style(
+        shade={"shading": "lambert", "model_colors": True},
+        line={"silhouette": {"width": 3}, "border": {"width": 3}},
+    )
     field = drypoint.draw(land, quads, colors=colors, style=style, size=size)
     row = [image.rgba, depth_picture(image.depth), colored_lines(image, size), field.rgba]
     whole = drypoint.Image((4 * size[0], size[1]))

@@ -1,4 +1,5 @@
-"""run.py [NAME...]: runs the tests and prints a line for each: `ok N - name` or `not ok N - name` and what went wrong.
+"""run.py [NAME...]: runs the tests and prints a line for each: `ok N - name` or `not ok N - name`
+and what went wrong.
 
 NAME: parts of test modules' names; without any, all run.
 """
@@ -44,8 +45,14 @@ def main(wanted):
     sys.path.insert(0, HERE)
     suite = unittest.TestSuite()
     for name in sorted(os.listdir(HERE)):
-        if name.startswith("test_") and name.endswith(".py") and (not wanted or any(part in name for part in wanted)):
-            suite.addTests(unittest.defaultTestLoader.loadTestsFromModule(importlib.import_module(name[:-3])))
+        if (
+            name.startswith("test_")
+            and name.endswith(".py")
+            and (not wanted or any(part in name for part in wanted))
+        ):
+            suite.addTests(
+                unittest.defaultTestLoader.loadTestsFromModule(importlib.import_module(name[:-3]))
+            )
     result = Lines()
     suite.run(result)
     print(f"1..{result.testsRun}")

@@ -56,7 +56,13 @@ class Forms(unittest.TestCase):
         packed = np.zeros(8 * 13, np.uint8)  # rows of 13 bytes: floats that are not aligned
         odd = np.ndarray((8, 3), np.float32, packed, 0, (13, 4))
         odd[:] = CUBE
-        for vertices in (wide[:, 1:4], odd, np.asfortranarray(CUBE), CUBE[::-1][::-1], np.repeat(CUBE, 2, 0)[::2]):
+        for vertices in (
+            wide[:, 1:4],
+            odd,
+            np.asfortranarray(CUBE),
+            CUBE[::-1][::-1],
+            np.repeat(CUBE, 2, 0)[::2],
+        ):
             self.same(vertices, QUADS)
         self.same(CUBE, np.asfortranarray(QUADS))
         self.same(CUBE, np.repeat(QUADS.astype(np.uint32), 2, 0)[::2])
@@ -79,7 +85,9 @@ class Forms(unittest.TestCase):
         self.assertTrue((drypoint.draw(source, size=SIZE).rgba != before).any())
 
     def test_soups(self):
-        np.testing.assert_array_equal(pixels(CUBE[TRIANGLES].reshape(-1, 3)), pixels(CUBE[TRIANGLES]))
+        np.testing.assert_array_equal(
+            pixels(CUBE[TRIANGLES].reshape(-1, 3)), pixels(CUBE[TRIANGLES])
+        )
         self.assertEqual(draw(CUBE[QUADS]).stats.polygons, 6)
 
     def test_mesh_objects(self):
@@ -117,7 +125,9 @@ class Forms(unittest.TestCase):
         floats, whole = np.tile((1.0, 0.5, 0.0), (8, 1)), np.full((8, 4), (255, 128, 0, 255))
         packed = np.full(8, 0xFF8000FF, np.int64)
         for colors in (floats, whole, packed):
-            self.assertEqual(pixels(CUBE, QUADS, colors=colors, style=lit)[45, 60].tolist(), [255, 128, 0, 255])
+            self.assertEqual(
+                pixels(CUBE, QUADS, colors=colors, style=lit)[45, 60].tolist(), [255, 128, 0, 255]
+            )
         image = draw(CUBE, QUADS, groups=range(6), planes=["id"])
         self.assertEqual(set(np.unique(image.id)), {0, 3 + 1, 5 + 1, 1 + 1})
         for count in (8, 24):  # for each vertex, for each corner
@@ -172,15 +182,32 @@ class Mistakes(unittest.TestCase):
             draw(np.full((8, 3), np.nan), QUADS, check=False)
 
     def test_empty(self):
-        for vertices, faces in (([], []), (CUBE, []), (CUBE, np.empty((0, 3), int)), ([], None), ([], QUADS)):
+        for vertices, faces in (
+            ([], []),
+            (CUBE, []),
+            (CUBE, np.empty((0, 3), int)),
+            ([], None),
+            ([], QUADS),
+        ):
             self.refuse("", vertices, faces)
         self.refuse("no polygons", np.empty((0, 3)))
+        with self.assertRaises(drypoint.FormatError):  # the only polygon has no area
+            draw(CUBE[:1].astype(np.float32)[::-1], [(0, 0, 0)])
 
     def test_attributes(self):
-        for name, value in (("groups", [0] * 5), ("groups", [-1] * 6), ("groups", [70000] * 6), ("groups", [0.5] * 6),
-                            ("colors", np.ones((7, 3))), ("colors", np.full((8, 3), 300)), ("colors", np.full((8, 3), 1.5)),
-                            ("normals", np.ones((7, 3))), ("texcoords", np.ones((8, 3))), ("edges", [1] * 23),
-                            ("edges", ["fold"] * 24)):
+        for name, value in (
+            ("groups", [0] * 5),
+            ("groups", [-1] * 6),
+            ("groups", [70000] * 6),
+            ("groups", [0.5] * 6),
+            ("colors", np.ones((7, 3))),
+            ("colors", np.full((8, 3), 300)),
+            ("colors", np.full((8, 3), 1.5)),
+            ("normals", np.ones((7, 3))),
+            ("texcoords", np.ones((8, 3))),
+            ("edges", [1] * 23),
+            ("edges", ["fold"] * 24),
+        ):
             with self.subTest(name):
                 self.refuse(name, CUBE, QUADS, **{name: value})
 

@@ -1,4 +1,5 @@
-"""What texts say runs: doctests of the package, blocks of docs/python.md and of README.md, and the examples."""
+"""What texts say runs: doctests of the package, blocks of docs/python.md and of README.md, and
+the examples."""
 
 import doctest
 import glob
@@ -26,7 +27,9 @@ def load_tests(loader, tests, pattern):
             loaded = importlib.import_module(module.name)
             if doctest.DocTestFinder(exclude_empty=True).find(loaded, globs={}):
                 try:
-                    tests.addTests(doctest.DocTestSuite(loaded, globs=vars(drypoint) | vars(loaded)))
+                    tests.addTests(
+                        doctest.DocTestSuite(loaded, globs=vars(drypoint) | vars(loaded))
+                    )
                 except ValueError:
                     pass  # it has none
     return tests

@@ -26,7 +26,9 @@ def decoded(png):
     while place < len(png):
         size, name = struct.unpack(">I4s", png[place : place + 8])
         chunk = png[place + 8 : place + 8 + size]
-        assert struct.unpack(">I", png[place + 8 + size : place + 12 + size])[0] == zlib.crc32(name + chunk)
+        assert struct.unpack(">I", png[place + 8 + size : place + 12 + size])[0] == zlib.crc32(
+            name + chunk
+        )
         data += chunk if name == b"IDAT" else b""
         place += 12 + size
     channels = {2: 3, 6: 4}[kind]
@@ -41,11 +43,21 @@ class Planes(unittest.TestCase):
     def test_all(self):
         names = ["depth", "normals", "classes", "id", "edge_map", "eye_normals", "distance"]
         image = bolt(planes=names, style={"edge_map": {"detector": "diagonal"}})
-        shapes = [(150, 200), (150, 200, 3), (150, 200), (150, 200), (150, 200, 4), (150, 200, 3), (150, 200)]
+        shapes = [
+            (150, 200),
+            (150, 200, 3),
+            (150, 200),
+            (150, 200),
+            (150, 200, 4),
+            (150, 200, 3),
+            (150, 200),
+        ]
         self.assertEqual([getattr(image, name).shape for name in names], shapes)
         seen = image.id > 0
         self.assertTrue(0.02 < seen.mean() < 0.9)
-        self.assertTrue(np.isfinite(image.distance[seen]).all() and np.isinf(image.distance[~seen]).all())
+        self.assertTrue(
+            np.isfinite(image.distance[seen]).all() and np.isinf(image.distance[~seen]).all()
+        )
         np.testing.assert_allclose(np.linalg.norm(image.eye_normals[seen], axis=-1), 1, atol=1e-3)
         self.assertEqual(set(np.unique(image.classes)) - set(range(6)), set())
         self.assertIsNone(bolt().depth)
@@ -67,7 +79,11 @@ class Planes(unittest.TestCase):
 
     def test_stats(self):
         stats = bolt().stats
-        self.assertTrue(stats.triangles > 1000 and stats.frame_ms > 0 and len(stats.stage_ms) == len(drypoint.Stage))
+        self.assertTrue(
+            stats.triangles > 1000
+            and stats.frame_ms > 0
+            and len(stats.stage_ms) == len(drypoint.Stage)
+        )
 
 
 class Lines(unittest.TestCase):
@@ -102,7 +118,10 @@ class Lines(unittest.TestCase):
 
     def test_no_lines(self):
         image = bolt(style={"lines": "none"})
-        self.assertEqual((len(image.segments()), len(image.chains().lines), len(image.drawing().paths().lines)), (0, 0, 0))
+        self.assertEqual(
+            (len(image.segments()), len(image.chains().lines), len(image.drawing().paths().lines)),
+            (0, 0, 0),
+        )
         xml.fromstring(image.svg())
 
     def test_paths(self):
@@ -116,10 +135,14 @@ class Lines(unittest.TestCase):
         directions = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (1, 2, 3)]
         images = [bolt(camera=drypoint.Camera.fit(direction=d)) for d in directions]
         for image, direction in zip(images, directions):
-            alone = bolt(camera=drypoint.Camera.fit(direction=direction), context=drypoint.Context(threads=1))
+            alone = bolt(
+                camera=drypoint.Camera.fit(direction=direction), context=drypoint.Context(threads=1)
+            )
             np.testing.assert_array_equal(image.segments()["world_a"], alone.segments()["world_a"])
             self.assertEqual(image.svg(), alone.svg())
-        self.assertEqual(images[-1].drawing(optimize=True).info.paths, images[-1].drawing().info.paths)
+        self.assertEqual(
+            images[-1].drawing(optimize=True).info.paths, images[-1].drawing().info.paths
+        )
         with self.assertRaisesRegex(drypoint.Error, "drawn others"):
             images[0].drawing(optimize=True)
 
@@ -150,9 +173,15 @@ class Files(unittest.TestCase):
 
     def test_pdf_holds_what_svg_does(self):
         pdf = bolt().pdf()
-        streams = [zlib.decompress(part.split(b"endstream")[0].strip(b"\r\n")) for part in pdf.split(b"stream\n")[1::2]
-                   if part[:1] == b"\x78"]
-        self.assertTrue(any(stream.count(b" l\n") + stream.count(b" l ") > 50 for stream in streams), [s[:60] for s in streams])
+        streams = [
+            zlib.decompress(part.split(b"endstream")[0].strip(b"\r\n"))
+            for part in pdf.split(b"stream\n")[1::2]
+            if part[:1] == b"\x78"
+        ]
+        self.assertTrue(
+            any(stream.count(b" l\n") + stream.count(b" l ") > 50 for stream in streams),
+            [s[:60] for s in streams],
+        )
 
     def test_grounds(self):
         lines = bolt(style={"shade": {"shading": "gooch"}})

@@ -12,11 +12,15 @@ import drypoint
 from models import CUBE, QUADS, TRIANGLES, sphere
 
 OBJ = "".join(f"v {x} {y} {z}\n" for x, y, z in CUBE) + "".join(
-    "f " + " ".join(str(i + 1) for i in face) + "\n" for face in QUADS)
+    "f " + " ".join(str(i + 1) for i in face) + "\n" for face in QUADS
+)
 COLORED = "mtllib a.mtl\ng lid\nusemtl m\n" + OBJ
 MTL = b"newmtl m\nKd 1 0 0\n"
-STL = b"\0" * 80 + struct.pack("<I", 12) + b"".join(
-    struct.pack("<12fH", 0, 0, 0, *CUBE[face].reshape(-1), 0) for face in TRIANGLES)
+STL = (
+    b"\0" * 80
+    + struct.pack("<I", 12)
+    + b"".join(struct.pack("<12fH", 0, 0, 0, *CUBE[face].reshape(-1), 0) for face in TRIANGLES)
+)
 
 
 def draw(source, **named):
@@ -55,6 +59,8 @@ class Files(unittest.TestCase):
             drypoint.Source.open("-")  # a file of that name, not standard input
         with self.assertRaises(TypeError):
             drypoint.Source.open(7)
+        with self.assertRaises(drypoint.ArgumentError):
+            drypoint.Source.open(f"{bad}\0.stl")
         (self.folder / "a.xyz").write_text("what is this")
         with self.assertRaises(drypoint.Error):
             drypoint.Source.open(self.folder / "a.xyz")
@@ -112,7 +118,9 @@ class Models(unittest.TestCase):
 
     def test_extent(self):
         extent = drypoint.Source.from_arrays(CUBE, QUADS).extent
-        self.assertEqual((extent.exact_min, extent.exact_max, extent.polygons), ((0, 0, 0), (1, 1, 1), 6))
+        self.assertEqual(
+            (extent.exact_min, extent.exact_max, extent.polygons), ((0, 0, 0), (1, 1, 1), 6)
+        )
         self.assertEqual(drypoint.Source.shape("cube").up.tolist(), [0, 1, 0])
 
     def test_groups(self):
@@ -121,7 +129,10 @@ class Models(unittest.TestCase):
         self.assertEqual(groups[0].max, (1, 1, 1))
 
     def test_join(self):
-        parts = [drypoint.Source.from_arrays(CUBE, QUADS), drypoint.Source.from_arrays(CUBE + 2, QUADS)]
+        parts = [
+            drypoint.Source.from_arrays(CUBE, QUADS),
+            drypoint.Source.from_arrays(CUBE + 2, QUADS),
+        ]
         scene = drypoint.Source.join(parts, ["low", "high"])
         self.assertEqual([g.name for g in scene.groups], ["low", "high"])
         with self.assertRaisesRegex(drypoint.ArgumentError, "belongs to another"):
@@ -137,12 +148,23 @@ class Models(unittest.TestCase):
             drypoint.Source.join([one], ["a", "b"])
 
     def test_clip(self):
-        source = drypoint.Source.from_arrays(CUBE, QUADS).clip([((1, 0, 0), 0.5), drypoint.ClipPlane((0, 1, 0), 0.25)])
+        source = drypoint.Source.from_arrays(CUBE, QUADS).clip(
+            [((1, 0, 0), 0.5), drypoint.ClipPlane((0, 1, 0), 0.25)]
+        )
         self.assertEqual(source.extent.exact_max, (0.5, 0.25, 1))
         self.assertIn(drypoint.Line.SECTION, draw(source).segments()["line"])
         clip = drypoint.Clip(planes=[drypoint.ClipPlane((0, 0, 1), 0.5)], look="plain")
-        self.assertNotIn(drypoint.Line.HATCHING, draw(drypoint.Source.shape("cube").clip(clip)).segments()["line"])
-        for wrong in ([((0, 0, 0), 1.0)], [((1, 0, 0), 0.0)] * 9, [3], [((1, 0), 0.0)]):
+        self.assertNotIn(
+            drypoint.Line.HATCHING,
+            draw(drypoint.Source.shape("cube").clip(clip)).segments()["line"],
+        )
+        for wrong in (
+            drypoint.Clip(planes=[3]),
+            [((0, 0, 0), 1.0)],
+            [((1, 0, 0), 0.0)] * 9,
+            [3],
+            [((1, 0), 0.0)],
+        ):
             with self.assertRaises((drypoint.ArgumentError, TypeError)):
                 drypoint.Source.shape("cube").clip(wrong)
 

@@ -56,12 +56,12 @@ fi
 
 mkdir -p "$root/share/doc/another"
 touch "$root/share/doc/another/file" "$root/bin/another"
-"$cmake" -DMANIFEST="$build/install_manifest.txt" -P "$source/cmake/Uninstall.cmake" >"$stage/log"
+"$cmake" -DBUILD="$build" -P "$source/cmake/Uninstall.cmake" >"$stage/log"
 left=$(cd "$root" && find . ! -type d | sort | paste -sd' ')
 [ "$left" = "./bin/another ./share/doc/another/file" ] || bad "uninstalling leaves other files than those of others: $left"
 left=$(find "$root" -mindepth 1 -type d -empty)
 [ -z "$left" ] || bad "uninstalling leaves empty directories: $left"
-if "$cmake" -DMANIFEST="$build/install_manifest.txt" -P "$source/cmake/Uninstall.cmake" 2>"$stage/log"; then
+if "$cmake" -DBUILD="$build" -P "$source/cmake/Uninstall.cmake" 2>"$stage/log"; then
     bad "there is nothing to uninstall, and nobody says so"
 fi
 [ "$problems" -eq 0 ]

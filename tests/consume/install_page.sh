@@ -1,6 +1,7 @@
 #!/bin/bash
 # install_page.sh CC CMAKE SOURCE PREFIX LIBDIR: docs/install.md as it stands: its C project is built in two ways with what is
-# installed in PREFIX, its jobs of CI are run from where they draw on, its targets of make are there, and so are its packages.
+# installed in PREFIX, its jobs of CI are run from where they draw on, its targets of make are there, and so are its packages,
+# of this version.
 set -eu
 cc=$1 cmake=$2 source=$3 prefix=$4 libdir=$5
 page=$source/docs/install.md
@@ -36,6 +37,9 @@ done <targets
 grep -o '^| `[^|]*' "$page" | tr -d '| `' | tr ',' '\n' | sort >told
 sed -n 's/^Package: //p' "$source/debian/control" | sort >packages
 cmp -s told packages || bad "its packages are not those of debian/control: $(diff told packages | paste -sd' ')"
+
+version=$(sed -n 's/^#define DP_VERSION_[A-Z]* \([0-9]*\)$/\1/p' "$source/include/drypoint/base.h" | paste -sd.)
+head -n 1 "$source/debian/changelog" | grep -qF "drypoint ($version)" || bad "debian/changelog does not begin with $version"
 
 # ---- a program of yours ----
 

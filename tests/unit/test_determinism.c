@@ -1,5 +1,6 @@
 /* The same input gives the same bytes: for any number of threads, again, in another context, with
  * any kernels. */
+#include "base/hostile.h"
 #include "base/kernels.h"
 
 #include <drypoint/drypoint.h>
@@ -11,11 +12,11 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 320, HEIGHT = 240, THREADS = 3 };
+enum { WIDTH = DP_TUNED(320, 160), HEIGHT = DP_TUNED(240, 120), THREADS = 3 };
 
 /* Of models: fewer where the sanitizers make every one of them dear. */
 #ifdef __SANITIZE_ADDRESS__
-enum { TRIANGLES = 5000 };
+enum { TRIANGLES = DP_TUNED(5000, 1500) };
 #else
 enum { TRIANGLES = 20000 };
 #endif

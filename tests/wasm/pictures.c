@@ -74,7 +74,7 @@ static const picture_look looks[] = {
 };
 
 static const dp_shape shapes[] = {
-    {.name = "bolt"},  {.name = "bracket"}, {.name = "gear"},
+    {.name = "bolt"},  {.name = "bracket"}, {.name = "stairs"},
     {.name = "torus"}, {.name = "boxes"},   {.name = "terrain", .triangles = 3000, .seed = 5},
 };
 

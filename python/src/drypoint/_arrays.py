@@ -1,10 +1,12 @@
-"""Turns what people have, arrays of any type and layout, into what dp_batch wants, copying only where it must.
+"""Turns what people have, arrays of any type and layout, into what dp_batch wants, copying only
+where it must.
 
-Floats of 32 bits and integers of 32 bits are used where they lie, rows of any stride too. Doubles far from
-0 are counted from an origin, as the library's own readers do (src/mesh/wide.c), so that no digits are lost.
+Floats of 32 bits and integers of 32 bits are used where they lie, rows of any stride too. Doubles
+far from 0 are counted from an origin, as the library's own readers do (src/mesh/wide.c), so that
+no digits are lost.
 
-With `check`, what C would drop and count is refused: numbers of vertices out of range, coordinates that
-are not finite.
+With `check`, what C would drop and count is refused: numbers of vertices out of range,
+coordinates that are not finite.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ NO_VERTEX = np.uint32(MOST)
 
 @dataclass
 class Arrays:
-    """One dp_batch. All arrays are C's types; positions may have rows farther apart than 12 bytes."""
+    """One dp_batch. All arrays are C's types; positions may have rows farther apart than 12
+    bytes."""
 
     positions: np.ndarray
     origin: np.ndarray
@@ -52,7 +55,8 @@ def real(values: Any, what: str) -> np.ndarray:
 
 
 def floats(values: Any, columns: int, what: str) -> np.ndarray:
-    """(n, columns) of float32: the array itself where it is one, with numbers of a row side by side."""
+    """(n, columns) of float32: the array itself where it is one, with numbers of a row side by
+    side."""
     array = real(values, what)
     if array.ndim != 2 or array.shape[1] != columns:
         raise ArgumentError(f"{what}: an array of shape {array.shape} is not (n, {columns})")
@@ -60,7 +64,9 @@ def floats(values: Any, columns: int, what: str) -> np.ndarray:
         rows, step = array.strides
         if step == 4 and rows >= 4 * columns and rows % 4 == 0:
             return array
-    with np.errstate(over="ignore"):  # what is beyond float32 becomes infinite, and is refused or dropped
+    with np.errstate(
+        over="ignore"
+    ):  # what is beyond float32 becomes infinite, and is refused or dropped
         return np.ascontiguousarray(array, dtype=np.float32)
 
 
@@ -101,15 +107,19 @@ def numbers(values: Any, what: str) -> np.ndarray:
 
 
 def as_indices(array: np.ndarray, vertices: int, check: bool) -> np.ndarray:
-    """Vertex numbers as uint32, in one dimension; those out of range are refused, or become none."""
+    """Vertex numbers as uint32, in one dimension; those out of range are refused, or become
+    none."""
     flat = array.reshape(-1)
     if check and flat.size:
         for number in (int(flat.min()), int(flat.max())):
             if not 0 <= number < vertices:
                 item = int((flat == number).argmax())
                 polygon = item // array.shape[1] if array.ndim == 2 else item
-                raise ArgumentError(f"faces: vertex number {number} (in face {polygon}) is not one of 0 to "
-                                    f"{vertices - 1}", item=polygon)
+                raise ArgumentError(
+                    f"faces: vertex number {number} (in face {polygon}) is not one of 0 to "
+                    f"{vertices - 1}",
+                    item=polygon,
+                )
     if flat.dtype == np.int32 and flat.dtype.isnative and flat.flags.aligned:
         flat = flat.view(np.uint32)  # negative ones become too large ones
     if check:
@@ -122,7 +132,9 @@ def as_indices(array: np.ndarray, vertices: int, check: bool) -> np.ndarray:
     return np.require(flat, np.uint32, ["C", "A"])
 
 
-def polygons_of(faces: Any, vertices: int, check: bool) -> tuple[np.ndarray, Optional[np.ndarray], int]:
+def polygons_of(
+    faces: Any, vertices: int, check: bool
+) -> tuple[np.ndarray, Optional[np.ndarray], int]:
     """Indices, firsts and the number of polygons, of an array (m, k) or a list of polygons."""
     ragged = isinstance(faces, (list, tuple)) and len({np.size(face) for face in faces}) > 1
     if ragged:
@@ -134,8 +146,10 @@ def polygons_of(faces: Any, vertices: int, check: bool) -> tuple[np.ndarray, Opt
     if not array.size:
         return np.empty(0, np.uint32), None, 0
     if array.ndim != 2:
-        raise ArgumentError(f"faces: an array of shape {array.shape} is not (m, k); "
-                            "runs of counts and numbers are known of objects with points")
+        raise ArgumentError(
+            f"faces: an array of shape {array.shape} is not (m, k); "
+            "runs of counts and numbers are known of objects with points"
+        )
     count, corners = array.shape
     if corners < 3 and check:
         raise ArgumentError(f"faces: polygons of {corners} corners")
@@ -144,17 +158,26 @@ def polygons_of(faces: Any, vertices: int, check: bool) -> tuple[np.ndarray, Opt
 
 
 def soup(vertices: np.ndarray) -> tuple[np.ndarray, Optional[np.ndarray], int]:
-    """Vertices (n, 3), firsts and the number of polygons, of triangles (3m, 3) or polygons (m, k, 3)."""
+    """Vertices (n, 3), firsts and the number of polygons, of triangles (3m, 3) or polygons (m, k,
+    3)."""
     if vertices.ndim == 2:
         if len(vertices) % 3:
-            raise ArgumentError(f"without faces, {len(vertices)} vertices are no whole number of triangles")
+            raise ArgumentError(
+                f"without faces, {len(vertices)} vertices are no whole number of triangles"
+            )
         return vertices, None, len(vertices) // 3
     count, corners, _ = vertices.shape
-    firsts = None if corners == 3 else np.arange(0, count * corners + 1, max(corners, 1), dtype=np.uint32)
+    firsts = (
+        None
+        if corners == 3
+        else np.arange(0, count * corners + 1, max(corners, 1), dtype=np.uint32)
+    )
     return vertices.reshape(-1, 3), firsts, count
 
 
-def refuse_infinite(positions: np.ndarray, indices: Optional[np.ndarray], vertices: np.ndarray) -> None:
+def refuse_infinite(
+    positions: np.ndarray, indices: Optional[np.ndarray], vertices: np.ndarray
+) -> None:
     """Raises where a polygon uses a vertex that is not finite; others harm nobody."""
     if np.isfinite(positions).all():
         return
@@ -164,15 +187,20 @@ def refuse_infinite(positions: np.ndarray, indices: Optional[np.ndarray], vertic
         used[indices] = True
     item = (bad & used).argmax()
     if bad[item] and used[item]:
-        raise ArgumentError(f"vertices: vertex {item} is {vertices[item].tolist()}, which float32 does not hold; "
-                            "check=False drops the polygons that use it", item=int(item))
+        raise ArgumentError(
+            f"vertices: vertex {item} is {vertices[item].tolist()}, which float32 does not hold; "
+            "check=False drops the polygons that use it",
+            item=int(item),
+        )
 
 
 def group_numbers(values: Any, polygons: int) -> np.ndarray:
     """(m,) of uint16."""
     array = numbers(values, "groups")
     if array.shape != (polygons,):
-        raise ArgumentError(f"groups: an array of shape {array.shape} is not ({polygons},), one for each polygon")
+        raise ArgumentError(
+            f"groups: an array of shape {array.shape} is not ({polygons},), one for each polygon"
+        )
     if array.size and not (0 <= array.min() and array.max() <= 65535):
         raise ArgumentError("groups: numbers are 0 to 65535")
     return np.require(array, np.uint16, ["C", "A"])
@@ -181,9 +209,15 @@ def group_numbers(values: Any, polygons: int) -> np.ndarray:
 def vertex_colors(values: Any, vertices: int) -> np.ndarray:
     """(n,) 0xRRGGBBAA, of such, of (n, 3 or 4) integers of 0 to 255, or of floats of 0 to 1."""
     array = real(values, "colors")
-    if len(array) != vertices or array.ndim not in (1, 2) or (array.ndim == 2 and array.shape[1] not in (3, 4)):
-        raise ArgumentError(f"colors: an array of shape {array.shape} is not ({vertices},), ({vertices}, 3) or "
-                            f"({vertices}, 4)")
+    if (
+        len(array) != vertices
+        or array.ndim not in (1, 2)
+        or (array.ndim == 2 and array.shape[1] not in (3, 4))
+    ):
+        raise ArgumentError(
+            f"colors: an array of shape {array.shape} is not ({vertices},), ({vertices}, 3) or "
+            f"({vertices}, 4)"
+        )
     if array.ndim == 1:
         return np.require(numbers(array, "colors"), np.uint32, ["C", "A"])
     most = 1 if array.dtype.kind == "f" else 255
@@ -209,19 +243,32 @@ def attribute(values: Any, columns: int, vertices: int, corners: int, what: str)
     """One row for each vertex or, without common vertices, for each corner."""
     array = floats(values, columns, what)
     if len(array) not in (vertices, corners):
-        raise ArgumentError(f"{what}: {len(array)} rows for {vertices} vertices and {corners} corners")
+        raise ArgumentError(
+            f"{what}: {len(array)} rows for {vertices} vertices and {corners} corners"
+        )
     return array
 
 
-def gather(vertices: Any, faces: Any = None, *, groups: Any = None, edges: Any = None, normals: Any = None,
-           texcoords: Any = None, colors: Any = None, check: bool = True) -> Arrays:
+def gather(
+    vertices: Any,
+    faces: Any = None,
+    *,
+    groups: Any = None,
+    edges: Any = None,
+    normals: Any = None,
+    texcoords: Any = None,
+    colors: Any = None,
+    check: bool = True,
+) -> Arrays:
     """All arrays of a mesh."""
     given = real(vertices, "vertices")
     if not given.size:
         given = np.empty((0, 3), np.float32)
     indices: Optional[np.ndarray] = None
     if given.ndim not in (2, 3) or given.shape[-1] != 3 or (given.ndim == 3 and faces is not None):
-        raise ArgumentError(f"vertices: an array of shape {given.shape} is not (n, 3), nor (m, k, 3) without faces")
+        raise ArgumentError(
+            f"vertices: an array of shape {given.shape} is not (n, 3), nor (m, k, 3) without faces"
+        )
     if faces is None:
         given, firsts, count = soup(given)
     if len(given) > MOST:
@@ -234,6 +281,8 @@ def gather(vertices: Any, faces: Any = None, *, groups: Any = None, edges: Any =
     if check:
         refuse_infinite(positions, indices, given)
     corners = len(given) if indices is None else len(indices)
+    if corners > MOST:
+        raise LimitError(f"faces: {corners} corners are more than {MOST}")
     made = Arrays(positions, origin, indices, firsts, corners, count)
     if groups is not None:
         made.groups = group_numbers(groups, count)

@@ -19,10 +19,10 @@ Vector = Union[Sequence[float], np.ndarray]
 
 
 class Camera:
-    """View and projection, in OpenGL's conventions: a right-handed camera space that looks along -z.
+    """View and projection, as in OpenGL: a right-handed camera space that looks along -z.
 
-    A camera says how, and becomes two matrices when it is known what is seen, in which format: resolve(),
-    which draw() calls.
+    A camera says how. It becomes two matrices when it is known what is seen, and in which format,
+    by resolve(), which draw() calls.
 
     >>> Camera.look_at((3, 2, 4), (0, 0, 0)).perspective(fov_y=30)
     <drypoint.Camera, of the model and the picture>
@@ -31,48 +31,76 @@ class Camera:
     """
 
     def __init__(self, view: Optional[Any] = None, projection: Optional[Any] = None) -> None:
-        """A camera of two matrices (4, 4), which multiply column vectors: world to camera space, camera to clip
-        space (-w <= x, y, z <= w). Without any, one that fits the model."""
+        """A camera of two matrices (4, 4), which multiply column vectors: world to camera space,
+        camera to clip space (-w <= x, y, z <= w). Without any, one that fits the model."""
         self._view = None if view is None else _matrix(view, "view")
         self._projection = None if projection is None else _matrix(projection, "projection")
         self._fit: Optional[Fit] = None
-        self._lens: Optional[tuple[str, float, Optional[float], Optional[float], Optional[float]]] = None
+        self._lens: Optional[
+            tuple[str, float, Optional[float], Optional[float], Optional[float]]
+        ] = None
         if view is None and projection is None:
             self._fit = Fit()
 
     @classmethod
     def fit(cls, fit: Union[Fit, Mapping[str, object], None] = None, **fields: Any) -> "Camera":
-        """All that is drawn of the model fills the picture. Fields are Fit's: direction (towards the eye), up, fov_y,
-        orthographic, zoom, …; its aspect is the picture's where it is 0."""
+        """All that is drawn of the model fills the picture. Fields are Fit's: direction (towards
+        the eye), up, fov_y, orthographic, zoom, …; its aspect is the picture's where it is 0."""
         camera = cls()
         camera._fit = coerce(Fit, fit, "fit").replace(**fields)
         return camera
 
     @classmethod
     def look_at(cls, eye: Vector, target: Vector, up: Vector = (0, 1, 0)) -> "Camera":
-        """From eye to target, both world space. up need not be perpendicular to that. The projection is a perspective of
-        35 degrees unless perspective() or orthographic() says otherwise."""
+        """From eye to target, both world space. up need not be perpendicular to that. The
+        projection is a perspective of 35 degrees unless perspective() or orthographic() says
+        otherwise."""
         camera = ffi.new("dp_camera *")
-        _refused(lib.dp_camera_look_at(camera, _three(eye, "eye"), _three(target, "target"), _three(up, "up")),
-                 f"look_at: eye {tuple(eye)}, target {tuple(target)}, up {tuple(up)}")
+        _refused(
+            lib.dp_camera_look_at(
+                camera, _three(eye, "eye"), _three(target, "target"), _three(up, "up")
+            ),
+            f"look_at: eye {tuple(eye)}, target {tuple(target)}, up {tuple(up)}",
+        )
         made = cls(_array(camera.view))
         return made.perspective()
 
-    def perspective(self, fov_y: float = 35, *, aspect: Optional[float] = None, near: Optional[float] = None,
-                    far: Optional[float] = None) -> "Camera":
-        """This camera with a perspective. fov_y: vertical, degrees; aspect: width / height, None: the picture's; near,
-        far: distances along the line of sight, world units, None: as the model needs."""
+    def perspective(
+        self,
+        fov_y: float = 35,
+        *,
+        aspect: Optional[float] = None,
+        near: Optional[float] = None,
+        far: Optional[float] = None,
+    ) -> "Camera":
+        """This camera with a perspective. fov_y: vertical, degrees; aspect: width / height, None:
+        the picture's; near, far: distances along the line of sight, world units, None: as the
+        model needs."""
         return self._with_lens("perspective", fov_y, aspect, near, far)
 
-    def orthographic(self, height: float, *, aspect: Optional[float] = None, near: Optional[float] = None,
-                     far: Optional[float] = None) -> "Camera":
+    def orthographic(
+        self,
+        height: float,
+        *,
+        aspect: Optional[float] = None,
+        near: Optional[float] = None,
+        far: Optional[float] = None,
+    ) -> "Camera":
         """The same without perspective. height: of what is seen, world units."""
         return self._with_lens("orthographic", height, aspect, near, far)
 
-    def _with_lens(self, kind: str, size: float, aspect: Optional[float], near: Optional[float],
-                   far: Optional[float]) -> "Camera":
+    def _with_lens(
+        self,
+        kind: str,
+        size: float,
+        aspect: Optional[float],
+        near: Optional[float],
+        far: Optional[float],
+    ) -> "Camera":
         if self._view is None:
-            raise ArgumentError(f"{kind}: first say from where, by look_at() or a view; Camera.fit() has fields of its own")
+            raise ArgumentError(
+                f"{kind}: first say from where, by look_at() or a view; fit() has fields for it"
+            )
         made = copy.copy(self)
         made._projection, made._fit, made._lens = None, None, (kind, float(size), aspect, near, far)
         return made
@@ -93,7 +121,8 @@ class Camera:
         return matrix.copy()
 
     def resolve(self, source: Source, size: tuple[int, int] = (800, 600)) -> "Camera":
-        """This camera for a model and a picture of (width, height) px: both matrices are known then."""
+        """This camera for a model and a picture of (width, height) px: both matrices are known
+        then."""
         camera = self._resolve(source, size)
         return Camera(_array(camera.view), _array(camera.projection))
 
@@ -123,8 +152,10 @@ class Camera:
             lib.dp_camera_near_far(camera, extent.min, extent.max, found, found + 1)
             near, far = found[0] if near is None else near, found[1] if far is None else far
         function = getattr(lib, f"dp_camera_{kind}")
-        _refused(function(camera, size, aspect or picture, near, far),
-                 f"{kind}: {size} with aspect {aspect or picture}, near {near} and far {far}")
+        _refused(
+            function(camera, size, aspect or picture, near, far),
+            f"{kind}: {size} with aspect {aspect or picture}, near {near} and far {far}",
+        )
 
     def __repr__(self) -> str:
         fixed = self._view is not None and self._projection is not None

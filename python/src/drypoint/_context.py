@@ -35,7 +35,12 @@ class Slot:
         self._image: Optional[weakref.ref[Image]] = None
         process = os.getpid()
         self._owned = Owned("dp_context", lambda pointer: _destroy(pointer, process))
-        desc = {"threads": threads, "memory": memory, "progress": self.reporter.call, "user": self.reporter.pointer}
+        desc = {
+            "threads": threads,
+            "memory": memory,
+            "progress": self.reporter.call,
+            "user": self.reporter.pointer,
+        }
         try:
             self._desc = ffi.new("dp_context_desc *", desc)
         except (TypeError, OverflowError) as error:
@@ -69,15 +74,17 @@ def _destroy(pointer: Any, process: int) -> None:
 
 
 class Context:
-    """Threads and memory, which stay for the next picture. draw() has one for each thread of Python's.
+    """Threads and memory, which stay for the next picture. draw() has one for each thread of
+    Python's.
 
     Args:
         threads: 0: one for each processor.
-        memory: beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. Models that would take more are
-            streamed.
+        memory: beyond the picture's own, bytes; 0 means 256 MB, the least is 48 MB. Models that
+            would take more are streamed.
 
-    A context holds two of C's, by turns, so that the last image keeps its lines while the next one is drawn. It may be
-    shared by threads, which then draw one after the other: for pictures at the same time each needs its own.
+    A context holds two of C's, by turns, so that the last image keeps its lines while the next
+    one is drawn. It may be shared by threads, which then draw one after the other: for pictures
+    at the same time each needs its own.
 
     >>> context = Context(threads=1)
     >>> context.draw(Source.shape("cube"), size=(40, 30)).rgba.shape
@@ -90,10 +97,19 @@ class Context:
         self._process = os.getpid()
         self._slots = [Slot(threads, memory)]
 
-    def draw(self, source: Source, *, camera: Optional[Camera] = None, style: StyleLike = None,
-             size: tuple[int, int] = (800, 600), samples: int = 4, planes: Iterable[str] = (),
-             group_styles: Optional[Mapping[Union[int, str], StyleLike]] = None, out: Optional[Image] = None,
-             progress: Optional[Progress] = None) -> Image:
+    def draw(
+        self,
+        source: Source,
+        *,
+        camera: Optional[Camera] = None,
+        style: StyleLike = None,
+        size: tuple[int, int] = (800, 600),
+        samples: int = 4,
+        planes: Iterable[str] = (),
+        group_styles: Optional[Mapping[Union[int, str], StyleLike]] = None,
+        out: Optional[Image] = None,
+        progress: Optional[Progress] = None,
+    ) -> Image:
         """Draws a source.
 
         Args:
@@ -101,22 +117,25 @@ class Context:
             style: None: every class of lines, 2 px wide, black on white.
             size: (width, height), px, 1 to 32768.
             samples: per pixel: 1, 4, 8 or 16.
-            planes: what else the image is to hold: 'depth', 'normals', 'classes', 'id', 'edge_map', 'eye_normals',
-                'distance'.
+            planes: what else the image is to hold: 'depth', 'normals', 'classes', 'id',
+                'edge_map', 'eye_normals', 'distance'.
             group_styles: styles of groups, by number or name; all others have `style`.
-            out: an image of an earlier call, whose memory is used again, and which is the result then.
+            out: an image of an earlier call, whose memory is used again, and which is the result
+                then.
             progress: is told the fraction that is done, now and then; True stops with Cancelled.
 
         Raises:
-            ArgumentError, OutOfMemory, Cancelled, LimitError, and what the source fails with. `out` holds nothing to show
-            then.
+            ArgumentError, OutOfMemory, Cancelled, LimitError, and what the source fails with.
+            `out` holds nothing to show then.
         """
         image = self._target(size, planes, out)
         with self._lock:
             slot = self._slot_for(image)
             with slot.lock, source._lock:
                 if slot.busy:
-                    raise Error("this context is drawing: a progress function must not draw with it")
+                    raise Error(
+                        "this context is drawing: a progress function must not draw with it"
+                    )
                 slot.busy = True
                 try:
                     self._draw(slot, image, source, camera, style, samples, group_styles, progress)
@@ -138,10 +157,13 @@ class Context:
         return Image((width, height), planes)
 
     def _slot_for(self, image: Image) -> Slot:
-        """A dp_context that may draw: the image's own, else one whose last image is gone, or keeps its lines now."""
+        """A dp_context that may draw: the image's own, else one whose last image is gone, or
+        keeps its lines now."""
         if self._process != os.getpid():  # forked
             self._process, self._slots = os.getpid(), []
-        free = next((slot for slot in self._slots if image._slot is slot or slot.image is None), None)
+        free = next(
+            (slot for slot in self._slots if image._slot is slot or slot.image is None), None
+        )
         if free is None and len(self._slots) < SLOTS:
             free = Slot(self._threads, self._memory)
             self._slots.append(free)
@@ -154,24 +176,48 @@ class Context:
         self._slots.append(free)  # the one that drew longest ago is first
         return free
 
-    def _draw(self, slot: Slot, image: Image, source: Source, camera: Optional[Camera], style: StyleLike, samples: int,
-              group_styles: Any, progress: Optional[Progress]) -> None:
+    def _draw(
+        self,
+        slot: Slot,
+        image: Image,
+        source: Source,
+        camera: Optional[Camera],
+        style: StyleLike,
+        samples: int,
+        group_styles: Any,
+        progress: Optional[Progress],
+    ) -> None:
         keep: list[Any] = []
         c_style = filler.new(coerce(Style, style, "style"), keep)
         groups, count = self._group_styles(c_style, group_styles, source, keep)
         c_camera = (camera or Camera())._resolve(source, image.size)
         target = _target_of(image, samples)
         slot._image, image._slot = None, None
-        slot.reporter.run(progress, lambda: call(
-            lib.dp_draw_grouped, slot.pointer, source._pointer, c_camera, c_style, groups, count, target))
+        slot.reporter.run(
+            progress,
+            lambda: call(
+                lib.dp_draw_grouped,
+                slot.pointer,
+                source._pointer,
+                c_camera,
+                c_style,
+                groups,
+                count,
+                target,
+            ),
+        )
         slot.keep = keep
         image._stats = ffi.new("dp_stats *")
         lib.dp_stats_of(slot.pointer, image._stats)
         slot.give(image)
 
     @staticmethod
-    def _group_styles(style: Any, given: Optional[Mapping[Union[int, str], StyleLike]], source: Source,
-                      keep: list[Any]) -> tuple[Any, int]:
+    def _group_styles(
+        style: Any,
+        given: Optional[Mapping[Union[int, str], StyleLike]],
+        source: Source,
+        keep: list[Any],
+    ) -> tuple[Any, int]:
         """An array of dp_style, up to the last group that has one of its own."""
         if not given:
             return ffi.NULL, 0
@@ -192,7 +238,9 @@ class Context:
             styles[number] = style[0]
             if number in numbers:
                 ffi.memmove(styles + number, bytes(ffi.sizeof("dp_style")), ffi.sizeof("dp_style"))
-                filler.fill(styles[number], coerce(Style, numbers[number], f"group_styles[{number}]"), keep)
+                filler.fill(
+                    styles[number], coerce(Style, numbers[number], f"group_styles[{number}]"), keep
+                )
         return styles, count
 
 

@@ -26,17 +26,28 @@ def source_of(mesh: Any, faces: Any = None, **attributes: Any) -> Source:
     return Source.from_arrays(mesh, faces, **attributes)
 
 
-def draw(mesh: Any, faces: Any = None, *, camera: Optional[Camera] = None, style: StyleLike = None,
-         size: tuple[int, int] = (800, 600), samples: int = 4, planes: Iterable[str] = (),
-         group_styles: Optional[Mapping[Union[int, str], StyleLike]] = None, out: Optional[Image] = None,
-         progress: Optional[Progress] = None, context: Optional[Context] = None, **attributes: Any) -> Image:
+def draw(
+    mesh: Any,
+    faces: Any = None,
+    *,
+    camera: Optional[Camera] = None,
+    style: StyleLike = None,
+    size: tuple[int, int] = (800, 600),
+    samples: int = 4,
+    planes: Iterable[str] = (),
+    group_styles: Optional[Mapping[Union[int, str], StyleLike]] = None,
+    out: Optional[Image] = None,
+    progress: Optional[Progress] = None,
+    context: Optional[Context] = None,
+    **attributes: Any,
+) -> Image:
     """Draws a mesh.
 
     Args:
-        mesh: vertices (n, 3), world units, of any real type; or a mesh of trimesh, PyVista or Open3D; or a Source; or the
-            name of a file.
-        faces: (m, k) vertex numbers, counter-clockwise seen from the front, or a list of polygons; None: each three
-            vertices are a triangle.
+        mesh: vertices (n, 3), world units, of any real type; or a mesh of trimesh, PyVista or
+            Open3D; or a Source; or the name of a file.
+        faces: (m, k) vertex numbers, counter-clockwise seen from the front, or a list of
+            polygons; None: each three vertices are a triangle.
         camera: a Camera; None: all of it, from the right, the front and above.
         style: a Style, or a mapping of its fields.
         size: (width, height), px.
@@ -55,5 +66,14 @@ def draw(mesh: Any, faces: Any = None, *, camera: Optional[Camera] = None, style
     [4]
     """
     source = source_of(mesh, faces, **attributes)
-    return (context or own_context()).draw(source, camera=camera, style=style, size=size, samples=samples, planes=planes,
-                                           group_styles=group_styles, out=out, progress=progress)
+    return (context or own_context()).draw(
+        source,
+        camera=camera,
+        style=style,
+        size=size,
+        samples=samples,
+        planes=planes,
+        group_styles=group_styles,
+        out=out,
+        progress=progress,
+    )

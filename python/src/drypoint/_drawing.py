@@ -18,10 +18,19 @@ from ._texture import filler
 
 
 def dtype_of(name: str) -> np.dtype:
-    """The structured dtype of a C struct: the same names, at the same places. Pointers are left out."""
-    fields = [(key, field) for key, field in ffi.typeof(name).fields if field.type.kind != "pointer"]
-    return np.dtype({"names": [key for key, _ in fields], "formats": [_format(field.type) for _, field in fields],
-                     "offsets": [field.offset for _, field in fields], "itemsize": ffi.sizeof(name)})
+    """The structured dtype of a C struct: the same names, at the same places. Pointers are left
+    out."""
+    fields = [
+        (key, field) for key, field in ffi.typeof(name).fields if field.type.kind != "pointer"
+    ]
+    return np.dtype(
+        {
+            "names": [key for key, _ in fields],
+            "formats": [_format(field.type) for _, field in fields],
+            "offsets": [field.offset for _, field in fields],
+            "itemsize": ffi.sizeof(name),
+        }
+    )
 
 
 def _format(kind: Any) -> Any:
@@ -36,19 +45,46 @@ def _format(kind: Any) -> Any:
 
 
 SEGMENT = dtype_of("dp_segment")
-"""A piece of a feature line: C's dp_segment. Ends a and b are x, y in px and the distance in world units;
-`line` is a Line, `end` a LineEnd each; polygons are counted from 0, 2^64 - 1: none."""
+"""A piece of a feature line: C's dp_segment. Ends a and b are x, y in px and the distance in
+world units; `line` is a Line, `end` a LineEnd each; polygons are counted from 0, 2^64 - 1:
+none."""
 
 POINT = dtype_of("dp_path_point")
-"""A point of a path: x and y in px, distance and world in world units, edge and polygon of what leads on."""
+"""A point of a path: x and y in px, distance and world in world units, edge and polygon of what
+leads on."""
 
-PATH = np.dtype([(name, dtype_of("dp_path")[name]) for name in
-                 ("line", "level", "group", "width", "color", "dash", "closed", "end", "hider", "length")]
-                + [("first", "u8"), ("count", "u8")])
+PATH = np.dtype(
+    [
+        (name, dtype_of("dp_path")[name])
+        for name in (
+            "line",
+            "level",
+            "group",
+            "width",
+            "color",
+            "dash",
+            "closed",
+            "end",
+            "hider",
+            "length",
+        )
+    ]
+    + [("first", "u8"), ("count", "u8")]
+)
 """A path: what C's dp_path holds, px; its points are points[first : first + count]."""
 
-CHAIN = np.dtype([("line", "u4"), ("level", "u4"), ("group", "u4"), ("width", "f4"), ("color", "u4"), ("closed", "?"),
-                  ("first", "u8"), ("count", "u8")])
+CHAIN = np.dtype(
+    [
+        ("line", "u4"),
+        ("level", "u4"),
+        ("group", "u4"),
+        ("width", "f4"),
+        ("color", "u4"),
+        ("closed", "?"),
+        ("first", "u8"),
+        ("count", "u8"),
+    ]
+)
 """A chain of segments: what its first one is; its points are points[first : first + count]."""
 
 CHAIN_POINT = np.dtype([("x", "f4"), ("y", "f4"), ("distance", "f4"), ("world", "f8", 3)])
@@ -56,7 +92,8 @@ CHAIN_POINT = np.dtype([("x", "f4"), ("y", "f4"), ("distance", "f4"), ("world", 
 
 
 class Polylines(NamedTuple):
-    """Lines of several points each: lines['first'] and lines['count'] say which of the points are a line's."""
+    """Lines of several points each: lines['first'] and lines['count'] say which of the points are
+    a line's."""
 
     lines: np.ndarray
     points: np.ndarray
@@ -71,7 +108,11 @@ def chains_of(segments: np.ndarray) -> Polylines:
     """Chains of segments, joined end to end in their order."""
     order = np.lexsort((segments["place"], segments["chain"]))
     ordered = segments[order]
-    starts = np.flatnonzero(np.diff(ordered["chain"], prepend=np.uint32(2**32 - 1)) != 0) if len(order) else order
+    starts = (
+        np.flatnonzero(np.diff(ordered["chain"], prepend=np.uint32(2**32 - 1)) != 0)
+        if len(order)
+        else order
+    )
     lengths = np.diff(np.append(starts, len(ordered)))
     first = starts + np.arange(len(starts))  # each chain has a point more than segments
     begin, end = _ends(ordered)
@@ -85,7 +126,9 @@ def chains_of(segments: np.ndarray) -> Polylines:
         lines[name] = ordered[name][starts]
     lines["first"], lines["count"] = first, lengths + 1
     last = first + lengths
-    lines["closed"] = (points["x"][first] == points["x"][last]) & (points["y"][first] == points["y"][last])
+    lines["closed"] = (points["x"][first] == points["x"][last]) & (
+        points["y"][first] == points["y"][last]
+    )
     return Polylines(lines, points)
 
 
@@ -110,7 +153,8 @@ def _compress(data: Any, size: int, write: Any, user: Any, diag: Any) -> int:
 
 
 class Drawing:
-    """The lines of a picture as paths, cleaned for pens and vectors. It stands for itself. Image.drawing() makes one.
+    """The lines of a picture as paths, cleaned for pens and vectors. It stands for itself.
+    Image.drawing() makes one.
 
     A length of one px is 25.4 / 96 mm on paper unless `mm_per_px` says otherwise.
     """
@@ -163,30 +207,50 @@ class Drawing:
         """JSON by the schema of docs/vector.md."""
         return self.bytes_of(Format.JSON, **page).decode()
 
-    def bytes_of(self, format: Any, *, mm_per_px: float = 0, ground: Any = None, paper: Color = None, title: str = "",
-                 least_width: float = 0) -> bytes:
+    def bytes_of(
+        self,
+        format: Any,
+        *,
+        mm_per_px: float = 0,
+        ground: Any = None,
+        paper: Color = None,
+        title: str = "",
+        least_width: float = 0,
+    ) -> bytes:
         """A page of this drawing alone.
 
         Args:
             format: a Format or its name.
             mm_per_px: 0 means 25.4 / 96.
-            ground: what lies under the lines: an Image of the same size, drawn without lines, or its pixels.
+            ground: what lies under the lines: an Image of the same size, drawn without lines, or
+                its pixels.
             paper: painted over the whole page (not in DXF); None: nothing is.
             title: of the file.
             least_width: mm; narrower lines are written this wide.
         """
         keep: list[Any] = []
-        view = ffi.new("dp_view_on_page *", {"drawing": self._owned._pointer, "mm_per_px": float(mm_per_px)})
+        view = ffi.new(
+            "dp_view_on_page *", {"drawing": self._owned._pointer, "mm_per_px": float(mm_per_px)}
+        )
         if ground is not None:
             self._lay(view, ground, keep)
-        page = ffi.new("dp_page *", {"views": view, "view_count": 1, "least_width": float(least_width),
-                                     "compress": lib.drypoint_compress})
+        page = ffi.new(
+            "dp_page *",
+            {
+                "views": view,
+                "view_count": 1,
+                "least_width": float(least_width),
+                "compress": lib.drypoint_compress,
+            },
+        )
         page.paper = _names.color(paper, "paper", COLORS, lib.DP_COLOR_NONE)
         if title:
             keep.append(ffi.new("char[]", title.encode()))
             page.title = keep[-1]
         out, size = ffi.new("void **"), ffi.new("size_t *")
-        call(lib.dp_page_write_memory, page, int(_names.member(Format, format, "format")), out, size)
+        call(
+            lib.dp_page_write_memory, page, int(_names.member(Format, format, "format")), out, size
+        )
         try:
             return ffi.buffer(out[0], size[0])[:]
         finally:
@@ -196,17 +260,22 @@ class Drawing:
         """Puts a picture under the lines."""
         pixels, info = np.ascontiguousarray(ground), self.info
         if pixels.shape != (info.height, info.width, 4) or pixels.dtype != np.uint8:
-            raise ArgumentError(f"ground: an array of {pixels.dtype} of shape {pixels.shape} is not one of uint8 of shape "
-                                f"({info.height}, {info.width}, 4)")
+            raise ArgumentError(
+                f"ground: an array of {pixels.dtype} of shape {pixels.shape} is not one of "
+                "uint8 of shape "
+                f"({info.height}, {info.width}, 4)"
+            )
         png = _png.encode(pixels)
         keep += [pixels, png]
         view.ground = ffi.from_buffer("uint8_t[]", pixels)
         view.ground_png, view.ground_png_size = ffi.from_buffer(png), len(png)
         keep.append(view.ground_png)
 
-    def save(self, path: "str | os.PathLike[str]", format: Optional[str] = None, **page: Any) -> None:
-        """Writes a file; its ending, or `format`, says which: svg, pdf, eps, dxf, json. An old one stays until the new
-        one is complete."""
+    def save(
+        self, path: "str | os.PathLike[str]", format: Optional[str] = None, **page: Any
+    ) -> None:
+        """Writes a file; its ending, or `format`, says which: svg, pdf, eps, dxf, json. An old
+        one stays until the new one is complete."""
         kind = format or _files.ending(path)
         _files.write(path, self.bytes_of(_names.member(Format, kind, f"{os.fspath(path)}"), **page))
 

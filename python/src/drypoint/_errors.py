@@ -30,7 +30,8 @@ class FileError(Error, OSError):
 
 
 class FormatError(Error):
-    """A file's content is not what its format says. `line` or `offset` tell where, where that is known."""
+    """A file's content is not what its format says. `line` or `offset` tell where, where that is
+    known."""
 
 
 class UnsupportedError(Error):

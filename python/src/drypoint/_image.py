@@ -18,7 +18,8 @@ from ._texture import filler
 if TYPE_CHECKING:
     from ._context import Slot
 
-# Planes by the names that draw() takes: C's member of dp_target, type and what comes after [height][width].
+# Planes by the names that draw() takes: C's member of dp_target, its type, and what comes after
+# [height][width].
 PLANES: dict[str, tuple[str, str, tuple[int, ...]]] = {
     "rgba": ("rgba", "u1", (4,)),
     "depth": ("depth", "f4", ()),
@@ -56,8 +57,11 @@ class Image:
                 raise _names.unknown("planes", name, PLANES)
         # C refuses pictures this large: nothing is allocated for them, so that it can.
         wanted = {"rgba", *names} if self.width * self.height <= 1 << 30 else set()
-        self._planes = {name: np.empty((self.height, self.width, *more), kind)
-                        for name, (_, kind, more) in PLANES.items() if name in wanted}
+        self._planes = {
+            name: np.empty((self.height, self.width, *more), kind)
+            for name, (_, kind, more) in PLANES.items()
+            if name in wanted
+        }
         self._slot: Optional[Slot] = None  # whose last drawing this is
         self._stats: Any = None
         self._segments: Optional[np.ndarray] = None
@@ -90,8 +94,8 @@ class Image:
     # ---- lines ----
 
     def segments(self) -> np.ndarray:
-        """The pieces of lines that were found, as a structured array (drypoint.SEGMENT), in an order that does not depend on
-        threads."""
+        """The pieces of lines that were found, as a structured array (drypoint.SEGMENT), in an
+        order that does not depend on threads."""
         if self._segments is None:
             with self._live() as context:
                 count = ffi.new("size_t *")
@@ -101,12 +105,15 @@ class Image:
         return self._segments
 
     def chains(self) -> Polylines:
-        """The segments joined end to end, as a pen draws them: lines (drypoint.CHAIN) and their points
-        (drypoint.CHAIN_POINT)."""
+        """The segments joined end to end, as a pen draws them: lines (drypoint.CHAIN) and their
+        points (drypoint.CHAIN_POINT)."""
         return chains_of(self.segments())
 
-    def drawing(self, cleaning: Union[Cleaning, dict[str, Any], None] = None, **fields: Any) -> Drawing:
-        """The lines as paths, cleaned for pens and vectors. Fields are Cleaning's: join, min_length, tolerance, optimize, …"""
+    def drawing(
+        self, cleaning: Union[Cleaning, dict[str, Any], None] = None, **fields: Any
+    ) -> Drawing:
+        """The lines as paths, cleaned for pens and vectors. Fields are Cleaning's: join,
+        min_length, tolerance, optimize, …"""
         if cleaning is None and not fields:
             if self._drawing is None:
                 with self._live() as context:
@@ -118,7 +125,8 @@ class Image:
             return Drawing(context, desc)
 
     def svg(self, *, cleaning: Any = None, **page: Any) -> str:
-        """The lines as SVG. page: as of Drawing.bytes_of(): mm_per_px, ground, paper, title, least_width."""
+        """The lines as SVG. page: as of Drawing.bytes_of(): mm_per_px, ground, paper, title,
+        least_width."""
         return self.drawing(cleaning).svg(**page)
 
     def pdf(self, *, cleaning: Any = None, **page: Any) -> bytes:
@@ -140,8 +148,11 @@ class Image:
     def _live(self) -> Any:
         """The context whose last drawing this is, locked."""
         if self._slot is None:
-            raise Error("this image's context has drawn others since; what was kept of its lines are segments(), chains() and "
-                        "drawing() with default cleaning. Draw it again for more")
+            raise Error(
+                "this image's context has drawn others since; what was kept of its lines are segments(), "
+                "chains() and "
+                "drawing() with default cleaning. Draw it again for more"
+            )
         return self._slot.lent_to(self)
 
     def _keep_lines(self) -> None:
@@ -157,8 +168,8 @@ class Image:
         return _png.encode(self.rgba, dpi)
 
     def save(self, path: _files.Path, *, dpi: float = 0, cleaning: Any = None, **page: Any) -> None:
-        """Writes a file, by its ending: png, or the lines as svg, pdf, eps, dxf or json (page: as of Drawing.bytes_of()). An old
-        file stays until the new one is complete."""
+        """Writes a file, by its ending: png, or the lines as svg, pdf, eps, dxf or json (page: as
+        of Drawing.bytes_of()). An old file stays until the new one is complete."""
         kind = _files.ending(path)
         if kind == "png":
             if page or cleaning:

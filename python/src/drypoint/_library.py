@@ -1,4 +1,5 @@
-"""The C library: loads the extension, checks that it fits this package, and turns results into exceptions.
+"""The C library: loads the extension, checks that it fits this package, and turns results into
+exceptions.
 
 Whoever calls C does it as `call(lib.dp_draw, context, …)`, which adds the diagnostics and raises.
 """
@@ -13,14 +14,17 @@ from ._errors import by_result
 
 
 def _load() -> tuple[Any, str]:
-    """The extension with all formats, or the core alone and why the other one could not be loaded."""
+    """The extension with all formats, or the core alone and why the other one could not be
+    loaded."""
     try:
         return importlib.import_module("drypoint._native_io"), ""
     except ImportError as error:
         try:
             return importlib.import_module("drypoint._native"), str(error)
         except ImportError as second:
-            raise ImportError(f"the package drypoint has no extension that loads here: {second}") from error
+            raise ImportError(
+                f"the package drypoint has no extension that loads here: {second}"
+            ) from error
 
 
 _native, missing = _load()
@@ -58,7 +62,8 @@ def error_of(result: int, diag: Any, subject: str = "") -> Exception:
 class Owned:
     """A pointer to a C object that is destroyed with this one, unless somebody takes it.
 
-    A process that was forked leaves the objects of its parent alone: the threads they know are not there.
+    A process that was forked leaves the objects of its parent alone: the threads they know are
+        not there.
     """
 
     def __init__(self, type_name: str, destroy: Callable[[Any], None]) -> None:
@@ -67,7 +72,8 @@ class Owned:
         self._pointer: Any = None
 
     def make(self, function: Callable[..., int], *arguments: Any, subject: str = "") -> Any:
-        """Calls a function that makes the object: its last arguments are where it goes, and diagnostics."""
+        """Calls a function that makes the object: its last arguments are where it goes, and
+        diagnostics."""
         call(function, *arguments, self._slot, subject=subject)
         self._pointer = ffi.gc(self._slot[0], self._destroy)
         return self._pointer

@@ -1,4 +1,5 @@
-"""What people write: names of enums' members, colours, sets of lines. Unknown names raise with the nearest known one."""
+"""What people write: names of enums' members, colours, sets of lines. Unknown names raise with
+the nearest known one."""
 
 from __future__ import annotations
 
@@ -11,11 +12,12 @@ from typing import TypeVar, Union
 from ._errors import ArgumentError
 
 Color = Union[str, int, tuple[float, ...], None]
-"""'#RGB', '#RRGGBB', '#RRGGBBAA', a name of CSS, 'none', 0xRRGGBBAA, or a tuple of 3 or 4: integers of
-0 to 255, or floats of 0 to 1. None is the default."""
+"""'#RGB', '#RRGGBB', '#RRGGBBAA', a name of CSS, 'none', 0xRRGGBBAA, or a tuple of 3 or 4:
+integers of 0 to 255, or floats of 0 to 1. None is the default."""
 
 Lines = Union[Iterable[Union[str, int]], str, int, None]
-"""A set of names of lines, {'silhouette', 'ridge'}; one name; 'all'; 'none'; C's bits; or None, the default: all."""
+"""A set of names of lines, {'silhouette', 'ridge'}; one name; 'all'; 'none'; C's bits; or None,
+the default: all."""
 
 E = TypeVar("E", bound=IntEnum)
 
@@ -50,10 +52,8 @@ def line_bits(lines: Lines, line_enum: type[IntEnum], no_lines: int, what: str =
         if not 0 <= lines < 1 << 32:
             raise ArgumentError(f"{what}: {lines} is no set of lines")
         return lines
-    if lines == "all":
-        return 0
-    if lines == "none":
-        return no_lines
+    if isinstance(lines, str) and lines in ("all", "none"):
+        return 0 if lines == "all" else no_lines
     single = isinstance(lines, (str, IntEnum))
     try:
         members = [lines] if single else list(lines)  # type: ignore[arg-type]
@@ -96,7 +96,9 @@ def _channels(values: tuple[float, ...], what: str) -> int:
         channels.append(255 if whole else 1.0)
     most = 255 if whole else 1
     if len(channels) != 4 or not all(0 <= value <= most for value in channels):
-        raise ArgumentError(f"{what}: {values!r} is not 3 or 4 integers of 0 to 255, or floats of 0 to 1")
+        raise ArgumentError(
+            f"{what}: {values!r} is not 3 or 4 integers of 0 to 255, or floats of 0 to 1"
+        )
     result = 0
     for value in channels:
         result = result << 8 | (int(value) if whole else round(value * 255))
@@ -104,7 +106,8 @@ def _channels(values: tuple[float, ...], what: str) -> int:
 
 
 def color(value: Color, what: str, colors: dict[str, int], transparent: int) -> int:
-    """0xRRGGBBAA, 0 for None. What is wholly transparent becomes `transparent`: 0 would mean the default."""
+    """0xRRGGBBAA, 0 for None. What is wholly transparent becomes `transparent`: 0 would mean the
+    default."""
     if value is None:
         return 0
     if isinstance(value, str):

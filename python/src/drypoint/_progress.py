@@ -1,6 +1,8 @@
-"""Progress: C reports to Python now and then, which tells the caller's function and lets interrupts through.
+"""Progress: C reports to Python now and then, which tells the caller's function and lets
+interrupts through.
 
-An exception that this raises, KeyboardInterrupt too, stops what runs in C and is raised again there after.
+An exception that this raises, KeyboardInterrupt too, stops what runs in C and is raised again
+there after.
 """
 
 from __future__ import annotations
@@ -11,11 +13,13 @@ from ._errors import Cancelled
 from ._library import ffi, lib
 
 Progress = Callable[[float], object]
-"""Is told the fraction that is done, 0 to 1, negative where that is not known; True stops with Cancelled."""
+"""Is told the fraction that is done, 0 to 1, negative where that is not known; True stops with
+Cancelled."""
 
 
 class Reporter:
-    """Stands between one C object and whoever wants to know. `pointer` and `call` are what C is given."""
+    """Stands between one C object and whoever wants to know. `pointer` and `call` are what C is
+    given."""
 
     def __init__(self) -> None:
         self.function: Optional[Progress] = None
@@ -39,14 +43,11 @@ class Reporter:
         finally:
             self.function, self.pointer.handle = None, ffi.NULL
 
-    def failed(self, kind: Any, failure: BaseException, trace: Any) -> None:
-        """Keeps what was raised while C waited."""
-        self.failure = failure
-
 
 def _failed(kind: Any, failure: BaseException, trace: Any) -> None:
     """cffi calls this where a report raised: the frame's `handle` says whose."""
-    ffi.from_handle(trace.tb_frame.f_locals["handle"]).failed(kind, failure, trace)
+    if trace is not None:
+        ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
 
 
 @ffi.def_extern(name="drypoint_report", error=1, onerror=_failed)

@@ -27,7 +27,8 @@ def _has(mesh: Any, *names: str) -> bool:
 
 
 def counted(numbers: Any) -> Any:
-    """PyVista's runs, [3, a, b, c, 4, d, e, f, g, …]: an array (m, k) where all have k corners, else a list."""
+    """PyVista's runs, [3, a, b, c, 4, d, e, f, g, …]: an array (m, k) where all have k corners,
+    else a list."""
     numbers = np.asarray(numbers)
     if numbers.ndim == 2:
         return numbers
@@ -44,7 +45,9 @@ def counted(numbers: Any) -> Any:
     while place < numbers.size:
         count = int(numbers[place])
         if count < 0 or place + 1 + count > numbers.size:
-            raise ArgumentError(f"faces with counts: {count} at place {place} of {numbers.size} numbers")
+            raise ArgumentError(
+                f"faces with counts: {count} at place {place} of {numbers.size} numbers"
+            )
         faces.append(numbers[place + 1 : place + 1 + count])
         place += 1 + count
     return faces
@@ -67,7 +70,9 @@ def recognize(mesh: Any) -> Optional[Mesh]:
     if _has(mesh, "points", "regular_faces"):
         return Mesh(np.asarray(mesh.points), np.asarray(mesh.regular_faces))
     if _has(mesh, "points", "cells"):
-        raise ArgumentError("this mesh has cells, not faces: give its surface (PyVista: mesh.extract_surface())")
+        raise ArgumentError(
+            "this mesh has cells, not faces: give its surface (PyVista: mesh.extract_surface())"
+        )
     if _has(mesh, "vertices", "faces"):
         return Mesh(np.asarray(mesh.vertices), mesh.faces, _trimesh_colors(mesh))
     if _has(mesh, "vertices", "triangles"):

@@ -19,7 +19,8 @@ from ._struct import coerce
 from ._texture import filler
 
 Beside = Union[Mapping[str, bytes], Callable[[str], Optional[bytes]]]
-"""Files beside one in memory: by name, or a function that finds them and gives None where there is none."""
+"""Files beside one in memory: by name, or a function that finds them and gives None where there
+is none."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +46,9 @@ class Group:
 class Source:
     """A model: arrays, a file, a generated shape, several joined to one.
 
-    Make one with from_arrays(), from_mesh(), open(), from_bytes(), shape() or join(). Arrays are used where
-    they lie as far as that is possible, are kept alive, and must not change while they are drawn.
-    A source serves one thread at a time; others wait.
+    Make one with from_arrays(), from_mesh(), open(), from_bytes(), shape() or join(). Arrays are
+    used where they lie as far as that is possible, are kept alive, and must not change while they
+    are drawn. A source serves one thread at a time; others wait.
     """
 
     def __init__(self) -> None:
@@ -67,28 +68,49 @@ class Source:
     # ---- where they come from ----
 
     @classmethod
-    def from_arrays(cls, vertices: Any, faces: Any = None, *, groups: Any = None, edges: Any = None,
-                    normals: Any = None, texcoords: Any = None, colors: Any = None, check: bool = True) -> "Source":
+    def from_arrays(
+        cls,
+        vertices: Any,
+        faces: Any = None,
+        *,
+        groups: Any = None,
+        edges: Any = None,
+        normals: Any = None,
+        texcoords: Any = None,
+        colors: Any = None,
+        check: bool = True,
+    ) -> "Source":
         """A source of arrays.
 
         Args:
-            vertices: (n, 3) real numbers of any type, world units; float64 keeps its digits far from 0, too.
-            faces: (m, k) vertex numbers, counter-clockwise seen from the front; or a list of polygons of any
-                lengths; or None: each three vertices are a triangle, and vertices may be (m, k, 3).
+            vertices: (n, 3) real numbers of any type, world units; float64 keeps its digits far
+                from 0, too.
+            faces: (m, k) vertex numbers, counter-clockwise seen from the front; or a list of
+                polygons of any lengths; or None: each three vertices are a triangle, and vertices
+                may be (m, k, 3).
             groups: (m,) 0 to 65535, one for each face.
             edges: for each corner what the edge to the next one is: EdgeKind or its name.
             normals: (n, 3) or one for each corner; for shading only.
             texcoords: (n, 2) or one for each corner.
-            colors: (n, 3 or 4) integers of 0 to 255 or floats of 0 to 1, or (n,) 0xRRGGBBAA; for shading
-                with Shade(model_colors=True).
-            check: refuse numbers of vertices out of range and coordinates that are not finite. Without, polygons
-                that have some are dropped and counted (Stats.dropped_index, dropped_finite).
+            colors: (n, 3 or 4) integers of 0 to 255 or floats of 0 to 1, or (n,) 0xRRGGBBAA; for
+                shading with Shade(model_colors=True).
+            check: refuse numbers of vertices out of range and coordinates that are not finite.
+                Without, polygons that have some are dropped and counted (Stats.dropped_index,
+                dropped_finite).
 
         >>> Source.from_arrays([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]).extent.exact_max
         (1.0, 1.0, 0.0)
         """
-        arrays = _arrays.gather(vertices, faces, groups=groups, edges=edges, normals=normals, texcoords=texcoords,
-                                colors=colors, check=check)
+        arrays = _arrays.gather(
+            vertices,
+            faces,
+            groups=groups,
+            edges=edges,
+            normals=normals,
+            texcoords=texcoords,
+            colors=colors,
+            check=check,
+        )
         source = cls()
         batch = source._batch(arrays)
         source._owned.make(lib.dp_source_from_arrays, batch, ffi.NULL)
@@ -96,20 +118,30 @@ class Source:
 
     @classmethod
     def from_mesh(cls, mesh: Any, **attributes: Any) -> "Source":
-        """A source of a mesh of trimesh, PyVista or Open3D, or of whatever has the same attributes: vertices and
-        faces, points and faces (or regular_faces), vertices and triangles. attributes: as of from_arrays()."""
+        """A source of a mesh of trimesh, PyVista or Open3D, or of whatever has the same
+        attributes: vertices and faces, points and faces (or regular_faces), vertices and
+        triangles. attributes: as of from_arrays().
+        """
         found = _shapes.recognize(mesh)
         if found is None:
-            raise ArgumentError(f"a {type(mesh).__name__} has neither vertices and faces (or triangles) nor points and "
-                                "faces")
+            raise ArgumentError(
+                f"a {type(mesh).__name__} has neither vertices and faces (or triangles) "
+                "nor points and faces"
+            )
         if found.colors is not None:
             attributes.setdefault("colors", found.colors)
         return cls.from_arrays(found.vertices, found.faces, **attributes)
 
     @classmethod
-    def open(cls, path: Union[str, "os.PathLike[str]"], *, format: Union[_generated.FileFormat, str, int] = 0,
-             progress: Optional[Progress] = None) -> "Source":
-        """A model file: STL, PLY, OBJ, OFF, glTF; with Assimp all else that it knows (FBX, 3MF, COLLADA, …).
+    def open(
+        cls,
+        path: Union[str, "os.PathLike[str]"],
+        *,
+        format: Union[_generated.FileFormat, str, int] = 0,
+        progress: Optional[Progress] = None,
+    ) -> "Source":
+        """A model file: STL, PLY, OBJ, OFF, glTF; with Assimp all else that it knows (FBX, 3MF,
+        COLLADA, …).
 
         Raises FileError, FormatError (with `line` or `offset`), UnsupportedError.
         """
@@ -117,15 +149,24 @@ class Source:
         source = cls()
         options = source._options(format)
         encoded = os.fsencode("./-" if name == "-" else name)
+        if b"\0" in encoded:
+            raise ArgumentError(f"{name!r}: a file's name has no zero in it")
         function = lib.dp_io_open if has_io else lib.dp_source_open
         assert source._reporter
         source._reporter.run(
-            progress, lambda: source._owned.make(function, encoded, options, subject=str(name)))
+            progress, lambda: source._owned.make(function, encoded, options, subject=str(name))
+        )
         return source
 
     @classmethod
-    def from_bytes(cls, data: Any, name: str = "", *, beside: Optional[Beside] = None,
-                   format: Union[_generated.FileFormat, str, int] = 0) -> "Source":
+    def from_bytes(
+        cls,
+        data: Any,
+        name: str = "",
+        *,
+        beside: Optional[Beside] = None,
+        format: Union[_generated.FileFormat, str, int] = 0,
+    ) -> "Source":
         """A model file that lies in memory.
 
         Args:
@@ -141,7 +182,10 @@ class Source:
             raise ArgumentError(f"data: {error}") from None
         encoded = ffi.new("char[]", name.encode()) if name else ffi.NULL
         files = _Beside(beside)
-        file = ffi.new("dp_memory_file *", {"data": view, "size": len(view), "name": encoded, "user": files.handle})
+        file = ffi.new(
+            "dp_memory_file *",
+            {"data": view, "size": len(view), "name": encoded, "user": files.handle},
+        )
         if beside is not None:
             file.open_beside = lib.drypoint_open_beside
         source._keep += [view, encoded]
@@ -165,7 +209,9 @@ class Source:
         source = cls()
         encoded = ffi.new("char[]", str(name).encode())
         try:
-            shape = ffi.new("dp_shape *", {"name": encoded, "triangles": triangles, "size": size, "seed": seed})
+            shape = ffi.new(
+                "dp_shape *", {"name": encoded, "triangles": triangles, "size": size, "seed": seed}
+            )
         except (TypeError, OverflowError) as error:
             raise ArgumentError(f"shape: {error}") from None
         source._owned.make(lib.dp_source_from_shape, shape)
@@ -173,15 +219,21 @@ class Source:
 
     @classmethod
     def join(cls, sources: Iterable["Source"], names: Optional[Sequence[str]] = None) -> "Source":
-        """One source of several, which belong to it then. names: of the sources, come before those of groups."""
+        """One source of several, which belong to it then. names: of the sources, come before
+        those of groups."""
         parts = list(sources)
         if names is not None and len(names) != len(parts):
             raise ArgumentError(f"{len(names)} names for {len(parts)} sources")
         scene = cls()
         pointers = [part._pointer for part in parts]
         encoded = [ffi.new("char[]", str(name).encode()) for name in names or ()]
-        scene._owned.make(lib.dp_source_join, ffi.new("dp_source *[]", pointers),
-                          ffi.new("char *[]", encoded) if names else ffi.NULL, len(parts), ffi.NULL)
+        scene._owned.make(
+            lib.dp_source_join,
+            ffi.new("dp_source *[]", pointers),
+            ffi.new("char *[]", encoded) if names else ffi.NULL,
+            len(parts),
+            ffi.NULL,
+        )
         scene._adopt(parts)
         return scene
 
@@ -189,24 +241,30 @@ class Source:
         """This source cut open; it belongs to the result then.
 
         Args:
-            planes: a Clip, or a list of ClipPlane or of (normal, offset): what lies beyond, on the side that the normal
-                points to, is taken away.
+            planes: a Clip, or a list of ClipPlane or of (normal, offset): what lies beyond, on
+                the side that the normal points to, is taken away.
 
         >>> Source.shape("cube").clip([((0, 1, 0), 0.0)]).extent.exact_max[1]
         0.0
         """
         if not isinstance(planes, _generated.Clip):
-            given = [p if isinstance(p, _generated.ClipPlane) else _generated.ClipPlane(*p) for p in planes]
+            given = [
+                p if isinstance(p, _generated.ClipPlane) else _generated.ClipPlane(*p)
+                for p in planes
+            ]
             planes = _generated.Clip(planes=given)
         return self._wrapped(lib.dp_source_clip, planes)
 
     def deform(self, deform: Any = None, **fields: Any) -> "Source":
-        """This source with vertices that move with time; it belongs to the result then. Fields are Deform's:
+        """This source with vertices that move with time; it belongs to the result then. Fields
+        are Deform's:
 
         >>> Source.shape("flag").deform(kind="wave", amplitude=0.1).duration
         0.0
         """
-        return self._wrapped(lib.dp_source_deform, coerce(_generated.Deform, deform or fields, "deform"))
+        return self._wrapped(
+            lib.dp_source_deform, coerce(_generated.Deform, deform or fields, "deform")
+        )
 
     # ---- what they know ----
 
@@ -234,7 +292,9 @@ class Source:
                 groups = ffi.new("dp_group[]", most)
                 call(lib.dp_source_groups, self._pointer, groups, most, count)
                 if count[0] <= most:
-                    return [self._group(groups[i], i) for i in range(count[0]) if groups[i].polygons]
+                    return [
+                        self._group(groups[i], i) for i in range(count[0]) if groups[i].polygons
+                    ]
                 most = count[0]
 
     @property
@@ -260,7 +320,8 @@ class Source:
         return [text(scene.clips[i].name) for i in range(scene.clip_count)] if scene else []
 
     def play(self, clip: Union[str, int, None]) -> None:
-        """Chooses what moves it: the name or the number of an animation, from 0 on; None: nothing."""
+        """Chooses what moves it: the name or the number of an animation, from 0 on; None:
+        nothing."""
         names = self.clips
         if isinstance(clip, str):
             if clip not in names:
@@ -274,7 +335,9 @@ class Source:
     @property
     def remark(self) -> str:
         """What is missing or wrong although it can be drawn; known when it has been read once."""
-        return text(lib.dp_source_remark(self._pointer)) or text(lib.dp_source_color_remark(self._pointer))
+        return text(lib.dp_source_remark(self._pointer)) or text(
+            lib.dp_source_color_remark(self._pointer)
+        )
 
     def __repr__(self) -> str:
         return "<drypoint.Source, part of another one>" if self._taken else "<drypoint.Source>"
@@ -285,7 +348,7 @@ class Source:
         """The dp_batch of arrays, which it keeps alive."""
         batch = ffi.new("dp_batch *")
         batch.positions = self._borrow("float[]", arrays.positions)
-        batch.position_stride = arrays.positions.strides[0] if len(arrays.positions) else 0
+        batch.position_stride = _row_stride(arrays.positions)
         batch.vertex_count = len(arrays.positions)
         batch.corner_count, batch.polygon_count = arrays.corners, arrays.polygons
         batch.indices = self._borrow("uint32_t[]", arrays.indices)
@@ -303,7 +366,7 @@ class Source:
 
     def _attribute(self, target: Any, values: np.ndarray, arrays: _arrays.Arrays) -> None:
         target.values, target.count = self._borrow("float[]", values), len(values)
-        target.stride = values.strides[0]
+        target.stride = _row_stride(values)
         if len(values) != len(arrays.positions):  # one for each corner
             target.indices = self._borrow("uint32_t[]", np.arange(len(values), dtype=np.uint32))
 
@@ -317,8 +380,10 @@ class Source:
     def _options(self, format: Any) -> Any:
         self._reporter = Reporter()
         number = int(_names.member(_generated.FileFormat, format, "format"))
-        options = ffi.new("dp_file_options *", {"format": number, "progress": self._reporter.call,
-                                                "user": self._reporter.pointer})
+        options = ffi.new(
+            "dp_file_options *",
+            {"format": number, "progress": self._reporter.call, "user": self._reporter.pointer},
+        )
         self._keep.append(options)
         return options
 
@@ -326,8 +391,17 @@ class Source:
         name = text(lib.dp_source_group_name(self._pointer, number))
         low: Any
         high: Any
-        low, high = (tuple(group.min), tuple(group.max)) if math.isfinite(group.min[0]) else (None, None)
-        return Group(number, name, lib.dp_source_group_color(self._pointer, number), group.polygons, low, high)
+        low, high = (
+            (tuple(group.min), tuple(group.max)) if math.isfinite(group.min[0]) else (None, None)
+        )
+        return Group(
+            number,
+            name,
+            lib.dp_source_group_color(self._pointer, number),
+            group.polygons,
+            low,
+            high,
+        )
 
     def _wrapped(self, function: Any, value: Any) -> "Source":
         """A source that owns this one."""
@@ -343,6 +417,11 @@ class Source:
             part._owned.take()
             part._taken = True
             self._keep.append((part._keep, part._reporter, part._owned))
+
+
+def _row_stride(array: np.ndarray) -> int:
+    """Bytes from row to row; 0, which is tight, for a single row: its stride may be anything."""
+    return array.strides[0] if len(array) > 1 else 0
 
 
 class _Beside:
@@ -364,7 +443,8 @@ class _Beside:
 
 
 def _beside_failed(kind: Any, failure: BaseException, trace: Any) -> None:
-    ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
+    if trace is not None:
+        ffi.from_handle(trace.tb_frame.f_locals["handle"]).failure = failure
 
 
 @ffi.def_extern(name="drypoint_open_beside", error=False, onerror=_beside_failed)

@@ -1,7 +1,8 @@
 """The base of the dataclasses that mirror C's structs, and how they are copied there and back.
 
-A class names its struct (`_c`) and says which fields need more than a copy (`_kinds`): names of enums,
-colours, sets of lines, structs and arrays of them, images. Everything else is a number or a few.
+A class names its struct (`_c`) and says which fields need more than a copy (`_kinds`): names of
+enums, colours, sets of lines, structs and arrays of them, images. Everything else is a number or
+a few.
 """
 
 from __future__ import annotations
@@ -31,7 +32,8 @@ S = TypeVar("S", bound="Struct")
 
 @dataclass_transform()
 def struct(cls: type[S]) -> type[S]:
-    """A dataclass with slots (a mistyped name is no new attribute) whose unknown arguments are told with the nearest known one."""
+    """A dataclass with slots (a mistyped name is no new attribute) whose unknown arguments are
+    told with the nearest known one."""
     made = dataclasses.dataclass(slots=True)(cls)
     plain = made.__init__
     known = {field.name for field in dataclasses.fields(made)}
@@ -104,7 +106,9 @@ class Filler:
             except (TypeError, ValueError, OverflowError) as error:
                 raise ArgumentError(f"{what}: {item!r} does not fit: {error}") from None
 
-    def _plain(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _plain(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         current = getattr(target, name)
         if not isinstance(current, self.ffi.CData):
             setattr(target, name, self._number(item, type(current), what))
@@ -122,31 +126,51 @@ class Filler:
             return bool(item)
         return operator.index(item) if wanted is int else float(item)
 
-    def _enum(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _enum(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         setattr(target, name, int(_names.member(getattr(self.generated, words[0]), item, what)))
 
-    def _color(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
-        setattr(target, name, _names.color(item, what, self.generated.COLORS, self.lib.DP_COLOR_NONE))
+    def _color(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
+        setattr(
+            target, name, _names.color(item, what, self.generated.COLORS, self.lib.DP_COLOR_NONE)
+        )
 
-    def _lines(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
-        setattr(target, name, _names.line_bits(item, self.generated.Line, self.lib.DP_NO_LINES, what))
+    def _lines(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
+        setattr(
+            target, name, _names.line_bits(item, self.generated.Line, self.lib.DP_NO_LINES, what)
+        )
 
-    def _struct(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
-        self.fill(getattr(target, name), coerce(getattr(self.generated, words[0]), item, what), keep)
+    def _struct(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
+        self.fill(
+            getattr(target, name), coerce(getattr(self.generated, words[0]), item, what), keep
+        )
 
-    def _by(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _by(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         self._indexed(getattr(target, name), item, words, what, keep)
 
     def _indexed(self, array: Any, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
         """An array with an element for each member of an enum, of a mapping."""
         index, cls = (getattr(self.generated, word) for word in words)
         if not isinstance(item, Mapping):
-            raise ArgumentError(f"{what}: {item!r} is no mapping from {index.__name__} to {cls.__name__}")
+            raise ArgumentError(
+                f"{what}: {item!r} is no mapping from {index.__name__} to {cls.__name__}"
+            )
         for key, element in item.items():
             place = _names.member(index, key, what)
             self.fill(array[place], coerce(cls, element, f"{what}[{key!r}]"), keep)
 
-    def _levels(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _levels(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         array = getattr(target, name)
         levels = [item] if isinstance(item, Mapping) else list(item)
         if len(levels) > len(array):
@@ -154,7 +178,9 @@ class Filler:
         for number, mapping in enumerate(levels):
             self._indexed(array[number], mapping, words, what, keep)
 
-    def _counted(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _counted(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         """A list whose length C wants, too: in the struct, or behind a pointer."""
         if item is None or len(item) == 0:
             return
@@ -163,20 +189,25 @@ class Filler:
             if len(item) > len(array):
                 raise ArgumentError(f"{what}: {len(item)} of them; there are {len(array)} at most")
             for number, element in enumerate(item):
-                self.fill(array[number], element, keep)
+                cls = getattr(self.generated, words[1])
+                self.fill(array[number], coerce(cls, element, f"{what}[{number}]"), keep)
         else:
             made = self.ffi.new("uint8_t[]", [int(number) for number in item])
             keep.append(made)
             setattr(target, name, made)
         setattr(target, words[0], len(item))
 
-    def _texture(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _texture(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         if item is not None:
             texture = self.texture(item, what)
             keep.append(texture)
             setattr(target, name, texture.pointer)
 
-    def _image(self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]) -> None:
+    def _image(
+        self, target: Any, name: str, item: Any, words: list[str], what: str, keep: list[Any]
+    ) -> None:
         if item is None:
             return
         shape, channels = np.shape(item), {"shades": (4,)}.get(name, ())

@@ -30,22 +30,30 @@ class Texture:
 
     @classmethod
     def named(cls, name: str, seed: int = 0) -> "Texture":
-        """A procedural texture; textures() tells their names. Each seed gives another one of the kind."""
+        """A procedural texture; textures() tells their names. Each seed gives another one of the
+        kind."""
         texture = cls()
         texture._owned.make(lib.dp_texture_named, str(name).encode(), seed, ffi.NULL)
         return texture
 
     @classmethod
     def from_array(cls, pixels: Any) -> "Texture":
-        """A texture of an array of uint8, (height, width), or (height, width, 1 to 4): grey, grey and alpha, RGB,
-        RGBA. Alpha is the amount of ink; without it, black is full ink."""
+        """A texture of an array of uint8, (height, width), or (height, width, 1 to 4): grey, grey
+        and alpha, RGB, RGBA. Alpha is the amount of ink; without it, black is full ink."""
         array = np.ascontiguousarray(_arrays.real(pixels, "texture"))
         if array.dtype != np.uint8 or array.ndim not in (2, 3) or not array.size:
-            raise ArgumentError(f"texture: an array of {array.dtype} of shape {array.shape} is not one of uint8 of shape "
-                                "(height, width) or (height, width, channels)")
+            raise ArgumentError(
+                f"texture: an array of {array.dtype} of shape {array.shape} is not one of uint8 "
+                "of shape "
+                "(height, width) or (height, width, channels)"
+            )
         height, width = array.shape[:2]
-        desc = {"pixels": ffi.from_buffer("uint8_t[]", array), "width": width, "height": height,
-                "channels": array.shape[2] if array.ndim == 3 else 1}
+        desc = {
+            "pixels": ffi.from_buffer("uint8_t[]", array),
+            "width": width,
+            "height": height,
+            "channels": array.shape[2] if array.ndim == 3 else 1,
+        }
         texture = cls()
         texture._owned.make(lib.dp_texture_create, ffi.new("dp_texture_desc *", desc))
         return texture
@@ -54,8 +62,11 @@ class Texture:
     def open(cls, path: Union[str, "os.PathLike[str]"]) -> "Texture":
         """A texture of a PNG file."""
         if not has_io:
-            raise UnsupportedError(f"{path}: reading PNG files lacks a library here ({missing}); give from_array() the "
-                                   "pixels")
+            raise UnsupportedError(
+                f"{path}: reading PNG files lacks a library here ({missing}); give "
+                "from_array() the "
+                "pixels"
+            )
         texture = cls()
         texture._owned.make(lib.dp_io_read_texture, os.fsencode(path), ffi.NULL, subject=str(path))
         return texture
@@ -77,7 +88,9 @@ def texture_of(value: Any, what: str) -> Texture:
         return Texture.named(value)
     if isinstance(value, np.ndarray):
         return Texture.from_array(value)
-    raise ArgumentError(f"{what}: {value!r} is no Texture, and neither the name nor the pixels of one")
+    raise ArgumentError(
+        f"{what}: {value!r} is no Texture, and neither the name nor the pixels of one"
+    )
 
 
 filler = Filler(ffi, lib, _generated, texture_of)
