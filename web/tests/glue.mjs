@@ -100,7 +100,7 @@ const tests = {
             ['threads', '4', /--threads/],
             ['nonsense', '1', /nonsense/],
             ['stroke', 'a/b.png', /PNG/],
-            ['only', 'nobody', /nobody/],
+            ['only', 'nobody', /no names/],
             ['view', 'inside', /inside/],
         ]) {
             said.length = 0;
