@@ -4,8 +4,8 @@
  * It bundles and minifies the scripts with esbuild (npm's, if web/node_modules holds it, else the one on the PATH, as
  * Debian's package puts it there), copies page, style, icons and both WebAssembly builds, and tells the service worker
  * which files there are and by which hash of their content. At the end it lists the sizes, as brotli makes them, and
- * fails if a visit takes more than `most` without optional parts: those that are loaded when a script asks for them
- * (import()), the WebAssembly build that the visitor's browser does not choose, and icons for whoever installs the page. */
+ * fails, with the page in its place, if a visit takes more than `most` without optional parts: those that are loaded when a
+ * script asks for them (import()), the WebAssembly build that the visitor's browser does not choose, and pictures. */
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cp, mkdir, readdir, readFile, rename, rm, stat, writeFile } from 'node:fs/promises';
@@ -134,14 +134,14 @@ async function report(later, builds) {
         if (name.endsWith('.map')) continue;
         const bytes = await readFile(path.join(work, name));
         size[name] = brotli(bytes);
-        const needed = !later.has(name) && !/^icons\/icon-.*png$/.test(name);
+        const needed = !later.has(name) && !/\.(png|webp|svg)$/.test(name);
         if (needed && !builds.some((names) => names.includes(name))) parts.push(name);
         console.log(`${name.padEnd(32)} ${String(bytes.length).padStart(8)} ${String(size[name]).padStart(8)}${needed ? '' : '  optional'}`);
     }
     const sum = (names) => names.reduce((total, name) => total + (size[name] ?? 0), 0);
     const visit = sum(parts) + Math.max(...builds.map(sum));
     console.log(`build: a visit takes ${(visit / 1024).toFixed(1)} KiB by brotli, of at most ${most / 1024}; all files ${(sum(Object.keys(size)) / 1024).toFixed(1)} KiB`);
-    if (visit > most && !option.debug) fail('that is too much');
+    return visit;
 }
 
 await rm(work, { recursive: true, force: true });
@@ -154,7 +154,8 @@ for (const [name, source] of [['page', 'src/page/main.js'], ['worker', 'src/engi
 await copy_page();
 const builds = [await copy_wasm(option.single, 'drypoint'), await copy_wasm(option.threads, 'drypoint-threads')];
 await write_service_worker();
-await report(later, builds);
+const visit = await report(later, builds);
 await rm(out, { recursive: true, force: true });
 await rename(work, out);
 console.log(`build: ${path.relative(process.cwd(), out) || '.'} is ready; \`make serve\` shows it`);
+if (visit > most && !option.debug) fail('a visit takes too much');
