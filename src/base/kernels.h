@@ -20,7 +20,8 @@ typedef struct dp_width {
 
 enum { DP_WIDTHS_MOST = 4 };
 
-/* Lists the widths that this processor can run, slowest first. Returns how many. */
+/* Lists the widths that this processor can run, slowest first. Returns how many. WebAssembly with
+ * vectors has "base" alone. */
 uint32_t dp_widths_list(dp_width list[DP_WIDTHS_MOST]);
 
 /* Lanes of the fastest width. In builds with tests, DRYPOINT_CPU in the environment chooses
@@ -41,6 +42,14 @@ uint32_t dp_lanes_best(void);
         if (DP_WIDTHS_BUILT & 16 && lanes >= 16) return &type##_avx512;                            \
         if (DP_WIDTHS_BUILT & 8 && lanes >= 8) return &type##_avx2;                                \
         return DP_WIDTHS_BUILT & 1 && lanes < 4 ? &type##_plain : &type##_base;                    \
+    }                                                                                              \
+    typedef type type##_tables
+#elif defined __wasm_simd128__ /* what is not named is not linked, and pages load faster */
+#define DP_KERNEL_TABLES(type)                                                                     \
+    extern const type type##_plain, type##_base;                                                   \
+    static inline const type *type##_for(uint32_t lanes) {                                         \
+        (void)lanes;                                                                               \
+        return &type##_base;                                                                       \
     }                                                                                              \
     typedef type type##_tables
 #else

@@ -6,7 +6,9 @@
 
 uint32_t dp_widths_list(dp_width list[DP_WIDTHS_MOST]) {
     uint32_t count = 0;
+#ifndef __wasm_simd128__
     if (DP_WIDTHS_BUILT & 1) list[count++] = (dp_width){"plain", 1};
+#endif
 #if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     list[count++] = (dp_width){"base", 4};
 #endif

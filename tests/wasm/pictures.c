@@ -1,11 +1,10 @@
 /* Hashes of drawings: what two builds of the library must print alike.
  *
- *     pictures [--threads N] [--lanes N] [FILE...]
+ *     pictures [--threads N] [FILE...]
  *
  * Draws every look below of every model, generated ones unless files are named, and prints a line
  * for each: model, look, hash of the pixels, of the segments (dp_trace) and of the pages in all
  * formats. A drawing that is refused prints its message instead: that, too, must be the same.
- * --lanes chooses the width of the kernels (src/base/kernels.h) instead of the processor.
  *
  * Not handled: speed; what differs in floats that no pixel, segment or page shows. */
 #include <drypoint/drypoint.h>
@@ -77,13 +76,6 @@ static const dp_shape shapes[] = {
     {.name = "bolt"},  {.name = "bracket"}, {.name = "stairs"},
     {.name = "torus"}, {.name = "boxes"},   {.name = "terrain", .triangles = 3000, .seed = 5},
 };
-
-static uint32_t lanes;
-
-/* The linker puts these before the library's own choice (--wrap). */
-uint32_t __real_dp_lanes_best(void);
-uint32_t __wrap_dp_lanes_best(void);
-uint32_t __wrap_dp_lanes_best(void) { return lanes ? lanes : __real_dp_lanes_best(); }
 
 /* ------- hashes: FNV-1a ------- */
 
@@ -191,16 +183,9 @@ int main(int argc, char **argv) {
     dp_context_desc desc = {.threads = 1};
     dp_context *context = NULL;
     dp_diag diag;
-    int at = 1;
-    for (; at + 1 < argc && argv[at][0] == '-'; at += 2) {
-        const uint32_t number = (uint32_t)strtoul(argv[at + 1], NULL, 10);
-        if (!strcmp(argv[at], "--threads"))
-            desc.threads = number;
-        else if (!strcmp(argv[at], "--lanes"))
-            lanes = number;
-        else
-            return fprintf(stderr, "pictures: what is %s?\n", argv[at]), 1;
-    }
+    const bool threads = argc > 2 && !strcmp(argv[1], "--threads");
+    const int at = threads ? 3 : 1;
+    if (threads) desc.threads = (uint32_t)strtoul(argv[2], NULL, 10);
     if (dp_context_create(&desc, &context, &diag))
         return fprintf(stderr, "pictures: %s\n", diag.message), 1;
     const uint32_t models = argc > at ? (uint32_t)(argc - at) : sizeof shapes / sizeof *shapes;

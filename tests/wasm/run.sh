@@ -62,7 +62,6 @@ for test in kernels kernels_ink kernels_lines elementary; do
     [ ${#models[@]} -gt 0 ] || ok "test_$test holds in WebAssembly" in_node web-single wasm_test_$test
 done
 ok 'the pictures of one thread are the native ones' same in_node web-single wasm_pictures
-[ ${#models[@]} -gt 0 ] || ok 'so are those of plain kernels' same in_node web-single wasm_pictures --lanes 1
 ok 'so are those of more threads than the pool has' same in_node web-threads wasm_pictures --threads 64
 [ ${#models[@]} -gt 0 ] || ok 'so are those of a thread per processor' same in_node web-threads wasm_pictures --threads 0
 echo "1..$number"
