@@ -261,7 +261,7 @@ web() {
         tail -n 15 "$logs/web.log.build" | sed 's/^/    /'
         return
     fi
-    phase check-gcc "$title" web_tests -L '^web$'
+    phase check-gcc "$title" web_tests -L '^web$|^wasm$'
 }
 
 run_phase() {
@@ -269,7 +269,7 @@ run_phase() {
     format) format ;;
     structure) structure ;;
     gcc) # pictures by OpenGL are drawn under the sanitizers (gl): compiling their shaders takes long
-        phase check-gcc "gcc, release, -Werror: all tests" all -E '^gl\.test_' -LE '^web$'
+        phase check-gcc "gcc, release, -Werror: all tests" all -E '^gl\.test_' -LE '^web$|^wasm$'
         ;;
     clang)
         # Another compiler may answer differently what is arithmetic: kernels, pictures, headers, and the tests that see most
@@ -283,7 +283,7 @@ run_phase() {
         # Counted bytes are the same counts as under gcc. Pairs of features are thousands of pictures; sources in
         # sources (test_wrapped, fuzz.wrapped) and each feature's own tests are drawn here.
         phase check-asan "address and undefined behaviour sanitizers" \
-            "drypoint_tool unit_tests golden_tests twins_tests fuzzers" -LE 'accuracy|^gl$' \
+            "drypoint_tool unit_tests golden_tests twins_tests fuzzers" -LE 'accuracy|^gl$|^wasm$' \
             -E 'unit.test_(determinism|stats_bytes)|cli.pairs'
         ;;
     tsan) phase check-tsan "thread sanitizer: what runs in threads" threads_tests -L threads ;;

@@ -14,7 +14,7 @@ const project = fileURLToPath(new URL('../../', import.meta.url));
 /* Where the tests find things; run.mjs changes them by its options. */
 export const place = {
     page: path.join(project, 'build/web'),
-    program: ['build/check-gcc/drypoint', 'build/drypoint'].map((name) => path.join(project, name)).find((name) => existsSync(name)),
+    program: process.env.DRYPOINT || ['build/check-gcc/drypoint', 'build/drypoint'].map((name) => path.join(project, name)).find((name) => existsSync(name)),
     chromium: process.env.CHROMIUM || ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((name) => existsSync(name)),
     folder: mkdtempSync(path.join(tmpdir(), 'drypoint-web-')), // for files; goes at the end
 };
@@ -40,6 +40,7 @@ export function sha256(bytes) {
 /* Runs a command line as the page shows it, which begins with `drypoint`, where the test's files are. */
 export function run_program(command) {
     assert.match(command, /^drypoint /);
+    assert.ok(place.program, 'no native program to compare with: `make` builds it, or DRYPOINT names it');
     try {
         execFileSync('sh', ['-c', `"$DRYPOINT" ${command.slice('drypoint '.length)}`], {
             cwd: place.folder, env: { ...process.env, DRYPOINT: place.program }, stdio: ['ignore', 'pipe', 'pipe'],
