@@ -2,6 +2,7 @@
 BUILD   := build
 PREFIX  ?= /usr/local
 DESTDIR ?=
+PORT    ?= 8000
 JOBS    ?= $(shell nproc 2>/dev/null || echo 1)
 export DESTDIR JOBS
 
@@ -28,8 +29,14 @@ help:
 	@echo 'make twins      compare random scenes with their twins: SEEDS=10000 FROM=0 KIND=fan,star'
 	@echo 'make bench      time frames, ten minutes long, beside Mesa; BENCH_QUICK=1: two'
 	@echo 'make bench-big  draw a 5 GB file; TRIANGLES=2000000 makes it smaller'
+	@echo 'make web        install what is missing and build the page for browsers, build/web'
+	@echo 'make serve      build the page if it is not there and show it: PORT=8000'
+	@echo 'make check-web  test the page in Chromium, and its WebAssembly in node'
 	@echo 'make gallery    draw the pictures of docs/gallery again'
+	@echo 'make wheel      make the Python package, build/python/dist/*.whl'
 	@echo 'make install    install below PREFIX=/usr/local'
+	@echo 'make uninstall  remove what make install put there'
+	@echo 'make deb        install what is missing, and build Debian packages in build/deb'
 	@echo 'make setup      only install what is missing to build'
 	@echo 'make format     format the C sources; make format-check only looks'
 	@echo 'make clean      remove the build directory'
@@ -80,8 +87,30 @@ gallery: setup
 	@$(MAKE) --no-print-directory all
 	@scripts/gallery.sh $(BUILD)/drypoint
 
+wheel: setup
+	@scripts/wheel.sh $(BUILD)
+
+web:
+	@scripts/setup.sh web
+	@scripts/web.sh
+
+serve:
+	@[ -e build/web/index.html ] || $(MAKE) --no-print-directory web
+	@node web/serve.mjs --port $(PORT)
+
+check-web: setup-check
+	@scripts/check.sh web
+
 install: all
 	@cmake --install $(BUILD) --prefix "$(PREFIX)"
+
+# What was installed last, by CMake's manifest.
+uninstall:
+	@cmake -DBUILD=$(BUILD) -P cmake/Uninstall.cmake
+
+deb:
+	@scripts/setup.sh deb
+	@scripts/deb.sh
 
 format:
 	@clang-format -i $(SOURCES)
@@ -93,4 +122,4 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all help setup setup-check demo check check-all check-gl test sanitize fuzz mutants accuracy twins bench bench-big gallery \
-        install format format-check clean
+        web serve check-web wheel install uninstall deb format format-check clean

@@ -1,6 +1,10 @@
-# What `cmake --install` puts where: headers, libraries, the program, its manual page, and what
-# find_package(drypoint) and pkg-config need.
+# What `cmake --install` puts where: headers, libraries, the programs, their manual pages and completions, the viewer's
+# desktop file and icon, pages to read, and what find_package(drypoint) and pkg-config need. cmake/Uninstall.cmake takes it
+# away again.
 include(CMakePackageConfigHelpers)
+
+# For cmake/Uninstall.cmake, beside the manifest.
+install(CODE "file(WRITE \"${PROJECT_BINARY_DIR}/install_prefix.txt\" \"\${CMAKE_INSTALL_PREFIX}\\n\")")
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/drypoint)
 
@@ -66,6 +70,9 @@ endforeach()
 
 foreach(program drypoint_tool drypoint_view)
   if(TARGET ${program})
+    if(DRYPOINT_TOOLS_SHARED AND NOT IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}") # found wherever the prefix is
+      set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+    endif()
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()
 endforeach()
@@ -85,10 +92,27 @@ if(TARGET drypoint_tool AND NOT CMAKE_CROSSCOMPILING)
   install(FILES ${completions}/drypoint DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   install(FILES ${completions}/_drypoint DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
   install(FILES ${completions}/drypoint.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  if(TARGET drypoint_view) # shells look for a file of that name; the scripts know it
+    file(CREATE_LINK drypoint ${completions}/drypoint-view SYMBOLIC)
+    file(CREATE_LINK drypoint.fish ${completions}/drypoint-view.fish SYMBOLIC)
+    install(FILES ${completions}/drypoint-view DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${completions}/drypoint-view.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  endif()
 endif()
-if(EXISTS ${PROJECT_SOURCE_DIR}/docs/man/drypoint.1)
+# The viewer's place among the desktop's programs.
+if(TARGET drypoint_view)
+  install(FILES viewer/desktop/drypoint-view.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+  install(FILES viewer/desktop/drypoint-view.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
+  install(FILES viewer/desktop/drypoint.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+  install(FILES docs/man/drypoint-view.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
+if(TARGET drypoint_tool)
   install(FILES docs/man/drypoint.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
-if(EXISTS ${PROJECT_SOURCE_DIR}/LICENSE)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-endif()
+
+# The pages to read, as they lie here, so that their links hold, and the programs that tests/consume builds, to copy from.
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN man EXCLUDE)
+install(DIRECTORY tests/consume/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
+        FILES_MATCHING PATTERN "*.c" PATTERN "find_package/CMakeLists.txt" PATTERN "add_subdirectory" EXCLUDE
+        PATTERN "pkg_config" EXCLUDE)

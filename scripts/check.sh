@@ -22,14 +22,16 @@ usual() {
     seconds=$(awk -v phase="$1" '$1 == phase { print $2 }' "$logs/times" 2>/dev/null)
     [ -z "$seconds" ] || { echo "$seconds"; return; }
     case $1 in
-    gcc) seconds=290 ;;
-    clang) seconds=230 ;;
-    asan) seconds=300 ;;
-    hostile) seconds=150 ;;
+    gcc) seconds=400 ;;
+    clang) seconds=130 ;;
+    asan) seconds=450 ;;
+    hostile) seconds=400 ;;
     tsan) seconds=130 ;;
-    fuzz) seconds=120 ;;
+    fuzz) seconds=170 ;;
     accuracy) seconds=60 ;;
-    gl) seconds=60 ;;
+    gl) seconds=150 ;;
+    python) seconds=60 ;;
+    web) seconds=240 ;;
     *) seconds=1 ;;
     esac
     [ "$jobs" -le 2 ] || seconds=$((seconds * 2 / jobs))
@@ -53,8 +55,8 @@ now() {
         printf 'building %s' "$(grep -aoE '^\[[^]]*\]' "$1.build" 2>/dev/null | tail -n 1)"
         return
     fi
-    over=$(grep -acE '^ *[0-9]+/[0-9]+ +Test +#' "$1")
-    printf '%d tests are over, %s runs' "$over" "$(sed -n 's/^ *Start *[0-9]*: *//p' "$1" | tail -n 1)"
+    over=$(grep -acE '^ *[0-9]+/[0-9]+ +Test +#|^(not )?ok ' "$1")
+    printf '%d tests are over, %s runs' "$over" "$(sed -n 's/^ *Start *[0-9]*: *//p;/^ok /s/.*/the next/p' "$1" | tail -n 1)"
 }
 
 # begin TITLE LOG: from now on a line every 25 s says what runs, until `end`. It shares no output with its sleep, which
@@ -118,21 +120,21 @@ show_failures() {
     done
 }
 
-# build NAME TARGET: configures a preset and builds one of its targets.
+# build NAME TARGETS: configures a preset and builds some of its targets.
 build() {
-    # shellcheck disable=SC2046
+    # shellcheck disable=SC2046,SC2086
     cmake --preset "$1" $([ -e "build/$1/CMakeCache.txt" ] || scripts/generator.sh) &&
-        cmake --build "build/$1" --parallel "$jobs" --target "$2"
+        cmake --build "build/$1" --parallel "$jobs" --target $2
 }
 
-# phase NAME TITLE TARGET CTEST-ARGUMENTS...: configures and builds a preset, then runs its tests.
+# phase NAME TITLE TARGETS CTEST-ARGUMENTS...: configures a preset, builds what its tests need, then runs them.
 phase() {
-    local name=$1 title=$2 target=$3
+    local name=$1 title=$2 targets=$3
     shift 3
     local log=$logs/$name.log start=$SECONDS good wrong
     : >"$log"
     begin "$title" "$log"
-    if ! build "$name" "$target" >"$log.build" 2>&1; then
+    if ! build "$name" "$targets" >"$log.build" 2>&1; then
         end
         failed=$((failed + 1))
         printf "%-${width}s" "$title"
@@ -205,12 +207,69 @@ any() { # PATTERN...: is there a file of one of these names?
 }
 has_gl() { [ -z "$(no_gl)" ]; }
 
+# The Python package: its wheel, of the libraries of the gcc phase, and its tests with it.
+python_package() {
+    local log=$logs/python.log start=$SECONDS good wrong status
+    : >"$log"
+    begin "Python: the wheel and its tests" "$log"
+    if ! build check-gcc drypoint_io >"$log.build" 2>&1; then
+        status=1
+        cp "$log.build" "$log"
+    else
+        scripts/python.sh build/check-gcc >"$log" 2>&1
+        status=$?
+    fi
+    end
+    printf "%-${width}s" "Python: the wheel and its tests"
+    if [ "$status" -eq 77 ]; then
+        echo "skipped ($(tail -n 1 "$log"))"
+        return
+    fi
+    good=$(grep -c '^ok ' "$log") wrong=$(grep -c '^not ok ' "$log")
+    if [ "$status" -ne 0 ] && [ "$wrong" -eq 0 ]; then wrong=1; fi
+    passed=$((passed + good)) failed=$((failed + wrong))
+    printf '%5d passed' "$good"
+    [ "$wrong" -eq 0 ] || printf ', %d failed (%s)' "$wrong" "$log"
+    printf '  %d s\n' $((SECONDS - start))
+    [ "$wrong" -eq 0 ] || grep -v '^ok ' "$log" | tail -n 60 | sed 's/^/    /'
+}
+
+# What building the page lacks here; its tests say themselves what they lack.
+no_web() {
+    command -v emcc >/dev/null || { echo emscripten; return; }
+    command -v node >/dev/null || { echo nodejs; return; }
+    command -v esbuild >/dev/null || [ -x web/node_modules/.bin/esbuild ] || echo esbuild
+}
+
+# The page for browsers: its WebAssembly and itself, then their tests, which compare with the native build.
+web() {
+    local title="the page for browsers, WebAssembly"
+    if [ -n "$(no_web)" ]; then
+        printf "%-${width}s" "$title"
+        echo "skipped (no $(no_web): make setup-check installs it where it can)"
+        return
+    fi
+    : >"$logs/web.log"
+    begin "$title: its build" "$logs/web.log"
+    scripts/web.sh >"$logs/web.log.build" 2>&1
+    local status=$?
+    end
+    if [ "$status" -ne 0 ]; then
+        failed=$((failed + 1))
+        printf "%-${width}s" "$title"
+        printf 'does not build (%s)\n' "$logs/web.log.build"
+        tail -n 15 "$logs/web.log.build" | sed 's/^/    /'
+        return
+    fi
+    phase check-gcc "$title" web_tests -L '^web$'
+}
+
 run_phase() {
     case $1 in
     format) format ;;
     structure) structure ;;
     gcc) # pictures by OpenGL are drawn under the sanitizers (gl): compiling their shaders takes long
-        phase check-gcc "gcc, release, -Werror: all tests" all -E '^gl\.test_'
+        phase check-gcc "gcc, release, -Werror: all tests" all -E '^gl\.test_' -LE '^web$'
         ;;
     clang)
         # Another compiler may answer differently what is arithmetic: kernels, pictures, headers, and the tests that see most
@@ -223,20 +282,18 @@ run_phase() {
         # slowest of all programs, and every mode's pictures are drawn here once by the golden ones.
         # Counted bytes are the same counts as under gcc. Pairs of features are thousands of pictures; sources in
         # sources (test_wrapped, fuzz.wrapped) and each feature's own tests are drawn here.
-        phase check-asan "address and undefined behaviour sanitizers" all -LE 'accuracy|^gl$' \
+        phase check-asan "address and undefined behaviour sanitizers" \
+            "drypoint_tool unit_tests golden_tests twins_tests fuzzers" -LE 'accuracy|^gl$' \
             -E 'unit.test_(determinism|stats_bytes)|cli.pairs'
         ;;
-    tsan) # failing allocations are the same in any thread
-        phase check-tsan "thread sanitizer: what runs in threads" all -R 'thread|draw|context|stream$' -E context_memory -LE '^gl$'
-        ;;
+    tsan) phase check-tsan "thread sanitizer: what runs in threads" threads_tests -L threads ;;
     hostile)
         : >"$logs/reference.log"
         begin "hostile build: its reference" "$logs/reference.log"
         build check-gcc drypoint_tool >"$logs/reference.log.build" 2>&1 # whose pictures are compared
         end
-        phase check-hostile "hostile build: tiny batches, bins and tiles" all \
-        -L 'unit|golden' -E 'write_mesh|shapes|number|context_memory|stats_bytes|progress|locale|sort|own_memory|assimp|moving|wrapped'
-        # those are large, and slow in tiny steps, or count what tiny steps do not change, or draw what others draw
+        # tests/CMakeLists.txt lists what this build leaves out
+        phase check-hostile "hostile build: tiny batches, bins and tiles" "unit_tests golden_tests" -L 'unit|golden'
         ;;
     gl)
         # In the sanitizers' build, of which only these tests are built if the phase runs alone.
@@ -247,16 +304,18 @@ run_phase() {
             echo "skipped (no $(no_gl): make setup-check installs it where it can)"
         fi
         ;;
+    web) web ;;
+    python) python_package ;;
     fuzz) phase check-fuzz "fuzzers, a few seconds each" fuzzers -L fuzz ;;
     accuracy) phase check-gcc "gcc, release: accuracy tests" all -L accuracy ;;
     *)
-        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, tsan, hostile, fuzz)" >&2
+        echo "check: unknown phase $1 (format, structure, gcc, accuracy, clang, asan, gl, python, tsan, hostile, fuzz, web)" >&2
         exit 2
         ;;
     esac
 }
 
-[ $# -gt 0 ] || set -- format structure gcc clang asan gl tsan hostile fuzz
+[ $# -gt 0 ] || set -- format structure gcc web python clang asan gl tsan hostile fuzz
 total=0
 for name; do total=$((total + $(usual "$name"))); done
 echo "check: $*: about $(spoken $total) with $jobs processors; longer where much is to be built"

@@ -1,4 +1,5 @@
-/* drypoint --completions bash|zsh|fish: scripts for shells, from the table of options.
+/* drypoint --completions bash|zsh|fish: scripts for shells, from the table of options, for drypoint and for drypoint-view,
+ * which takes what drypoint view takes.
  *
  * What a value can be follows from an option's kind and from its argument as --help shows it: words
  * between bars, FILE, and lists (NAME,...), of which the last part is completed. */
@@ -141,6 +142,7 @@ static const char bash_head[] =
     "    # The shell parts words at = and :, too; these are whole.\n"
     "    read -ra line <<<\"${COMP_LINE:0:COMP_POINT}\"\n"
     "    case ${COMP_LINE:0:COMP_POINT} in *[[:space:]]) line+=('') ;; esac\n"
+    "    [ \"${line[0]##*/}\" != drypoint-view ] || line=(drypoint view \"${line[@]:1}\")\n"
     "    cur=${line[${#line[@]}-1]}\n"
     "    command=${line[1]-}\n"
     "    [ ${#line[@]} -gt 2 ] || command=\n";
@@ -192,7 +194,7 @@ static const char bash_tail[] =
     "    cur=${cur%\"$before\"}\n"
     "    [ ${#COMPREPLY[@]} -eq 0 ] || COMPREPLY=(\"${COMPREPLY[@]#\"$cur\"}\")\n"
     "}\n"
-    "complete -F _drypoint drypoint\n";
+    "complete -F _drypoint drypoint drypoint-view\n";
 
 static void write_bash(FILE *out) {
     char shapes[WORDS_BYTES], models[WORDS_BYTES], topics[WORDS_BYTES];
@@ -256,7 +258,7 @@ static void zsh_option(FILE *out, const option *o) {
 
 static void write_zsh(FILE *out) {
     char words[WORDS_BYTES];
-    fputs("#compdef drypoint\n"
+    fputs("#compdef drypoint drypoint-view\n"
           "# zsh completion of drypoint, written by: drypoint --completions zsh\n"
           "_drypoint_models() {\n",
           out);
@@ -270,6 +272,10 @@ static void write_zsh(FILE *out) {
     fputs("_drypoint_first() {\n    compadd -- info make bench view help\n    _drypoint_models\n}\n"
           "_drypoint() {\n"
           "    local -a options\n"
+          "    if [[ ${words[1]:t} == drypoint-view ]]; then\n"
+          "        words=(drypoint view ${words[2,-1]})\n"
+          "        (( CURRENT++ ))\n"
+          "    fi\n"
           "    local command=$words[2]\n"
           "    case $command in\n"
           "    info|make|bench|view|help) [[ $CURRENT -gt 2 ]] || command= ;;\n"
@@ -362,6 +368,7 @@ static void write_fish(FILE *out) {
     fprintf(out, "complete -c drypoint -n '__fish_prev_arg_in -h --help' -f -a '%s'\n", words);
     for (const option *o = option_table; o < option_table + option_count; o++)
         if (is_shown(o)) fish_option(out, o);
+    fputs("complete -c drypoint-view -w 'drypoint view'\n", out);
 }
 
 void completions_write(FILE *out, int shell) {

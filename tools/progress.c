@@ -71,8 +71,9 @@ void interrupt_install(void) {
 
 void interrupt_also(pid_t child) { child_process = (sig_atomic_t)child; }
 
-void interrupt_child(void) {
-    if (child_process) kill((pid_t)child_process, SIGKILL);
+bool interrupt_child(void) {
+    const pid_t child = (pid_t)child_process;
+    return child && !kill(child, SIGKILL);
 }
 
 void interrupt_hold(void) { writing = 1; }

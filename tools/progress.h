@@ -29,7 +29,7 @@ void interrupt_release(void);
 bool interrupt_seen(void);
 /* The child process that is ended with the program; 0: none. */
 void interrupt_also(pid_t child);
-/* Ends that child now. */
-void interrupt_child(void);
+/* Ends that child now. False: there is none. */
+bool interrupt_child(void);
 
 #endif

@@ -367,7 +367,10 @@ void view_stop_reading(viewer *v) {
     if (!v->job) return;
     messages_mute(true);
     load_stop();
-    if (load_end(v->job, &none)) loaded_free(&none);
+    if (load_end(v->job, &none))
+        loaded_free(&none);
+    else if (!v->model.source && !load_was_stopped())
+        v->code = EXIT_FAILED; /* it had failed before; a key came between */
     cmdline_free(&v->reading);
     v->job = NULL;
     messages_mute(false);

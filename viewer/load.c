@@ -23,19 +23,23 @@ struct load_job {
 };
 
 static atomic_int per_mille = -1; /* of the reading; -1: not known */
-static atomic_bool stop;
+static atomic_bool stop, stopped;
 
 static int hear(double fraction) {
     atomic_store(&per_mille, fraction < 0 ? -1 : (int)(1000 * fmin(fraction, 1)));
-    return atomic_load(&stop);
+    if (!atomic_load(&stop)) return 0;
+    atomic_store(&stopped, true);
+    return 1;
 }
 
 double load_fraction(void) { return atomic_load(&per_mille) / 1000.0; }
 
 void load_stop(void) {
     atomic_store(&stop, true);
-    interrupt_child(); /* Assimp's reader does not listen */
+    if (interrupt_child()) atomic_store(&stopped, true); /* Assimp's reader does not listen */
 }
+
+bool load_was_stopped(void) { return atomic_load(&stopped); }
 
 static void *run(void *argument) {
     load_job *const job = argument;
@@ -50,6 +54,7 @@ load_job *load_begin(const cmdline *line, void (*wake)(void)) {
     if (!job) return wrong_usage("out of memory"), NULL;
     job->wake = wake;
     atomic_store(&stop, false);
+    atomic_store(&stopped, false);
     atomic_store(&per_mille, -1);
     progress_to(hear);
     if (!cmdline_parse(line, NULL, &job->line)) {

@@ -17,5 +17,7 @@ double load_fraction(void);
 bool load_end(load_job *job, loaded *out);
 /* Tells the job to stop. */
 void load_stop(void);
+/* Has it heard that, so that it failed for no reason of the model's? Asked after its end. */
+bool load_was_stopped(void);
 
 #endif

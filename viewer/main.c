@@ -353,6 +353,7 @@ static int run(viewer *v, const tool_settings *s) {
         }
         wait_for_events(v, &more);
     }
+    view_stop_reading(v); /* which may have failed, and been told so */
     return v->code;
 }
 

@@ -9,7 +9,7 @@
  *
  * and then, when it runs,
  *
- *     LD_PRELOAD=libdrypoint-preload.so ./program
+ *     LD_PRELOAD=/usr/local/lib/drypoint/libdrypoint-preload.so ./program
  *
  * Nothing is linked. Without the library preloaded, glEnable answers GL_INVALID_ENUM and nothing else
  * happens; a program can ask so whether it gets lines (glGetError after it, or glIsEnabled). Programs

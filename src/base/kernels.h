@@ -20,12 +20,18 @@ typedef struct dp_width {
 
 enum { DP_WIDTHS_MOST = 4 };
 
-/* Lists the widths that this processor can run, slowest first. Returns how many. */
+/* Lists the widths that this processor can run, slowest first. Returns how many. WebAssembly with
+ * vectors has "base" alone. */
 uint32_t dp_widths_list(dp_width list[DP_WIDTHS_MOST]);
 
 /* Lanes of the fastest width. In builds with tests, DRYPOINT_CPU in the environment chooses
  * another. */
 uint32_t dp_lanes_best(void);
+
+/* Widths that are built, by their lanes. Base always is. */
+#ifndef DP_WIDTHS_BUILT
+#define DP_WIDTHS_BUILT (1 | 4 | 8 | 16)
+#endif
 
 /* Declares a folder's tables of type `type`, one for each width, and type_for(lanes), which returns
  * one. */
@@ -33,13 +39,12 @@ uint32_t dp_lanes_best(void);
 #define DP_KERNEL_TABLES(type)                                                                     \
     extern const type type##_plain, type##_base, type##_avx2, type##_avx512;                       \
     static inline const type *type##_for(uint32_t lanes) {                                         \
-        if (lanes >= 16) return &type##_avx512;                                                    \
-        if (lanes >= 8) return &type##_avx2;                                                       \
-        return lanes >= 4 ? &type##_base : &type##_plain;                                          \
+        if (DP_WIDTHS_BUILT & 16 && lanes >= 16) return &type##_avx512;                            \
+        if (DP_WIDTHS_BUILT & 8 && lanes >= 8) return &type##_avx2;                                \
+        return DP_WIDTHS_BUILT & 1 && lanes < 4 ? &type##_plain : &type##_base;                    \
     }                                                                                              \
     typedef type type##_tables
-#elif defined __wasm_simd128__
-/* A module is for one width: plain kernels, a fifth of it, would never be called. */
+#elif defined __wasm_simd128__ /* what is not named is not linked, and pages load faster */
 #define DP_KERNEL_TABLES(type)                                                                     \
     extern const type type##_plain, type##_base;                                                   \
     static inline const type *type##_for(uint32_t lanes) {                                         \

@@ -104,13 +104,7 @@ DP_LANES_INLINE dp_lm lm_and(dp_lm a, dp_lm b) { return a & b; }
 DP_LANES_INLINE dp_lm lm_or(dp_lm a, dp_lm b) { return a | b; }
 DP_LANES_INLINE dp_lm lm_xor(dp_lm a, dp_lm b) { return a ^ b; }
 DP_LANES_INLINE dp_lm lm_not(dp_lm a) { return ~a; }
-DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) {
-#ifdef __wasm_simd128__
-    return (dp_li)wasm_v128_bitselect((v128_t)a, (v128_t)b, (v128_t)m);
-#else
-    return (m & a) | (~m & b);
-#endif
-}
+DP_LANES_INLINE dp_li li_select(dp_lm m, dp_li a, dp_li b) { return (m & a) | (~m & b); }
 DP_LANES_INLINE dp_lf l_select(dp_lm m, dp_lf a, dp_lf b) {
     return (dp_lf)li_select(m, (dp_li)a, (dp_li)b);
 }

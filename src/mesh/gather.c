@@ -349,9 +349,17 @@ static bool any_mark(const uint8_t *flags, uint32_t count) {
     return marks;
 }
 
+/* Polygons that lie in the source's own memory may name vertices that do not exist: nothing of them is drawn. */
+static bool names_vertices(const dp_polygons *p, uint32_t first, uint32_t n) {
+    for (uint32_t i = 0; i < n; i++)
+        if (dp_corner_vertex(p, first + i) >= p->vertex_count) return false;
+    return true;
+}
+
 static bool list_polygon(dp_polygon_store *store, const dp_allocator *memory, dp_polygons *p,
                          uint32_t polygon) {
     const uint32_t first = dp_first_corner(p, polygon), n = dp_corner_count(p, polygon);
+    if (!names_vertices(p, first, n)) return true;
     for (uint32_t i = 0; i < n; i++) {
         if (!is_mark(p->edge_flags[first + i])) continue;
         if (!dp_reserve(memory, &store->marks, &store->marks_cap, p->mark_count + (size_t)1,

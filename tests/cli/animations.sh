@@ -143,13 +143,17 @@ stands_still() {
 }
 # Every model that says it has animations moves, in two pictures or in its bounds.
 test_models_move() {
-    local models=/usr/share/assimp/models folders='3DS ASE BVH CSM Collada FBX LWS MDL SMD X' count=0 file name end time
+    local models=/usr/share/assimp/models folders='3DS ASE BVH CSM Collada FBX LWS MDL SMD X' count=0 seen=0 file name end time
+    local least=40
+    [ -z "${SANITIZED:-}" ] || least=5
     if [ ! -d $models ]; then
         echo "# skipped: no $models (install assimp-testmodels)"
         return
     fi
     while IFS= read -r file; do
         name=${file#"$models"/}
+        seen=$((seen + 1)) # sanitizers look at every fourth
+        [ -z "${SANITIZED:-}" ] || [ $((seen % 4)) = 0 ] || continue
         "$program" info --json -q "$file" >out 2>err </dev/null || continue
         grep -q '"seconds"' out || continue
         count=$((count + 1))
@@ -166,5 +170,5 @@ test_models_move() {
             stands_still "$name" || fail "$name stands still"
         fi
     done < <(cd $models && find $folders -type f | sort | sed "s|^|$models/|")
-    [ "$count" -ge 40 ] || fail "only $count animated models"
+    [ "$count" -ge "$least" ] || fail "only $count animated models"
 }

@@ -315,6 +315,7 @@ films_from_a_pipe() {
     same_bytes file.rgba piped.rgba
     "$program" - --size 64x48 --turn 360 --frames 4 -o given.rgba -q 2>err <cube.stl || fail "redirected: $(cat err)"
     same_bytes file.rgba given.rgba
+    [ -z "${SANITIZED:-}" ] || return
     # a file that is read in parts, by several processes at once
     run 0 make terrain -o hills.stl --triangles 1200000
     run 0 hills.stl --size 64x48 --turn 360 --frames 3 -o one.rgba -q --jobs 1 --memory 48M

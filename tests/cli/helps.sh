@@ -148,6 +148,10 @@ bash_completion() {
     completes 'drypoint a --view ' 'front back left right top bottom iso'
     completes 'drypoint a --view=t' top
     completes 'drypoint bench a --samples 1' '1 16'
+    completes 'drypoint view a --backen' --backend
+    completes 'drypoint-view a --backend ' 'cpu gl'
+    completes '/usr/bin/drypoint-view --backen' --backend
+    completes 'drypoint-view --js' '' # an option of info
     completes 'drypoint a --preset bl' blueprint
     completes 'drypoint a --lines ridge,va' ridge,valley
     completes 'drypoint a --sheet front,to' front,top
@@ -178,7 +182,7 @@ bash_completion() {
 skip() { echo "# $1 is not installed: its completions are not tried"; }
 zsh_completion() {
     run 0 --completions zsh
-    [ "$(head -n 1 out)" = '#compdef drypoint' ] || fail "no #compdef"
+    [ "$(head -n 1 out)" = '#compdef drypoint drypoint-view' ] || fail "no #compdef"
     command -v zsh >/dev/null || { skip zsh; return; }
     zsh -n out 2>err || fail "zsh -n: $(cat err)"
 }
@@ -197,5 +201,7 @@ fish_completion() {
     offers 'drypoint make gea' gear
     offers 'drypoint a --pres' --preset
     offers 'drypoint info --js' --json
+    offers 'drypoint view --backen' --backend
+    offers 'drypoint-view --backen' --backend
     offers 'drypoint help cam' camera
 }

@@ -45,8 +45,9 @@ weights_of_sizes() {
     weighs "ridge 0.65 silhouette 1.1" --lines silhouette,ridge --size 80x60
     weighs "ridge 0.75 silhouette 1.5" --lines silhouette,ridge --size 800x600
     weighs "ridge 0.75 silhouette 1.5" --lines silhouette,ridge --size 600x900
-    weighs "ridge 5 silhouette 10" --lines silhouette,ridge --size 4000x4000
-    weighs "ridge 40 silhouette 64" --lines silhouette,ridge --size 32000x32000
+    # small in large pictures, whose paper is cheap
+    weighs "ridge 5 silhouette 10" --lines silhouette,ridge --size 4000x4000 --zoom 0.05 --detail exact
+    weighs "ridge 40 silhouette 64" --lines silhouette,ridge --size 32000x32000 --zoom 0.02 --detail exact
 }
 weights_on_paper() {
     weighs "ridge 2.5 silhouette 5" --lines silhouette,ridge --page A4 --dpi 254
@@ -371,7 +372,7 @@ presets_of_sizes() {
         run 0 shape:bolt -q --preset $preset --sheet front,iso --dpi 40 -o sheet.png -o sheet.dxf
     done
     weighs "silhouette 6" --lines silhouette --preset cartoon --size 1000x1000
-    weighs "silhouette 30" --lines silhouette --preset cartoon --size 5000x5000
+    weighs "silhouette 30" --lines silhouette --preset cartoon --size 5000x5000 --zoom 0.05
 }
 # Black lines of three weights, dashed where they are hidden; the Gooch shading that it once had is illustration.
 technical() {

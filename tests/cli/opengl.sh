@@ -3,8 +3,13 @@
 
 opengl_tests="draws_by_opengl opengl_refuses opengl_missing opengl_old no_viewer"
 
-# Is there OpenGL 4.3 without a window, and is it built in?
-has_opengl() { "$program" shape:cube --gl --size 32x32 -o probe.png -q 2>/dev/null; }
+# Is there OpenGL 4.3 without a window, and is it built in? What ends in another way than being told so has failed.
+has_opengl() {
+    local code=0
+    "$program" shape:cube --gl --size 32x32 -o probe.png -q 2>probe || code=$?
+    [ $code -le 1 ] || fail "--gl: exit code $code: $(head -c 300 probe)"
+    return $code
+}
 
 draws_by_opengl() {
     has_opengl || return

@@ -79,6 +79,8 @@ static bool draw_with_failure(const char *shape, uint32_t threads, long at,
  * sanitizer looks for races, not for leaks, and is slow: it sees fewer, and only with threads. */
 #ifdef __SANITIZE_THREAD__
 enum { ALIKE = 60, FEWEST_THREADS = 2 };
+#elif defined __SANITIZE_ADDRESS__
+enum { ALIKE = 150, FEWEST_THREADS = 1 };
 #else
 enum { ALIKE = 400, FEWEST_THREADS = 1 };
 #endif

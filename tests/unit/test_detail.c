@@ -136,6 +136,7 @@ static void a_rough_ball_keeps_its_outline_alone(void **state) {
 }
 
 static void a_rough_terrain_keeps_crests_and_borders(void **state) {
+    if (DP_TUNED(false, true)) skip(); /* large, and of whole chains */
     rough_model m = make_rough("terrain", 20000, 0.006f, true),
                 smooth = make_rough("terrain", 20000, 0, true);
     const dp_camera camera = view_of(smooth.source, oblique, false, 1);
@@ -279,6 +280,7 @@ static void lines_are_parts_of_exact_ones(void **state) {
     for (size_t i = 0; i < sizeof models / sizeof *models; i++)
         for (int way = 0; way < 4; way++) {
             char what[100];
+            if (((int)i + way) % DP_TUNED(1, 2)) continue;
             rough_model m = make_rough(models[i].name, models[i].triangles, models[i].noise, false);
             const dp_camera camera = view_of(m.source, way % 2 ? oblique : askew, way % 2, 1.5);
             const dp_hidden hidden = {.look = way > 1 ? DP_HIDDEN_THIN : DP_HIDDEN_NONE,
@@ -319,6 +321,7 @@ static void borders_and_intersections_are_all_drawn(void **state) {
 /* ------- how much ------- */
 
 static void finer_is_more(void **state) {
+    if (DP_TUNED(false, true)) skip(); /* large, and of whole chains */
     static const double details[] = {0.2, 0.4, 1, 3, 10, 100};
     rough_model m = make_rough("terrain", 20000, 0.004f, true);
     const dp_camera camera = view_of(m.source, oblique, false, 1);
@@ -340,6 +343,7 @@ static void finer_is_more(void **state) {
 
 /* Twice as large a picture has the same lines, twice as long. */
 static void sizes_of_a_picture_look_alike(void **state) {
+    if (DP_TUNED(false, true)) skip(); /* large, and of whole chains */
     rough_model m = make_rough("terrain", 20000, 0.004f, true);
     const dp_camera camera = view_of(m.source, oblique, false, 1);
     (void)state;

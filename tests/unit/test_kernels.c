@@ -226,7 +226,7 @@ static void fill_members(float *members, uint32_t *keys, uint32_t *seed) {
     for (uint32_t i = 0; i < 3 * CANDIDATE_STRIDE; i++) keys[i] = next_random(seed) % 12;
     for (uint32_t i = 0; i < CANDIDATES; i++) {
         float at[3], *const of = members + i;
-        for (uint32_t k = 0; k < 3; k++) at[k] = (float)(next_random(seed) % 40);
+        for (uint32_t k = 0; k < 3; k++) at[k] = (float)(next_random(seed) % 25);
         for (uint32_t k = 0; k < 3; k++) {
             float least = 100, most = 0;
             for (uint32_t c = 0; c < 3; c++) {

@@ -92,7 +92,7 @@ static void end_counting(const char *what) {
 
 /* ------- drawings ------- */
 
-enum { WIDTH = 400, HEIGHT = 300, PIXELS = WIDTH * HEIGHT, TRIANGLES = 6000 };
+enum { WIDTH = 200, HEIGHT = 150, PIXELS = WIDTH * HEIGHT, TRIANGLES = 1500 };
 
 static uint8_t rgba[4 * PIXELS], edge_map[4 * PIXELS], line_class[PIXELS];
 static float depth[PIXELS], normal[3 * PIXELS], eye_normal[3 * PIXELS], distance[PIXELS];

@@ -285,6 +285,9 @@ static void doubled_soups(void **state) {
 static void too_many_crossings(void **state) {
     (void)state;
     if (DP_TUNED(false, true)) skip(); /* as many in small steps take too long */
+#ifdef __SANITIZE_THREAD__
+    skip(); /* and threads work as on those of other tests */
+#endif
     uint64_t random = 12345;
     soup s = {.count = 60000};
     s.corners = malloc(s.count * sizeof *s.corners);

@@ -1,7 +1,10 @@
 /* base/threads: every index runs once, no two tasks have the same worker number at a time, on own
- * and foreign threads. */
+ * and foreign threads; and what happens when the system starts no more. */
+#include <drypoint/draw.h>
+
 #include "base/threads.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -208,6 +211,36 @@ static void too_many_calls_burn_no_time(void **state) {
     dp_threads_destroy(threads);
 }
 
+/* The linker puts this before the system's (--wrap): no thread is started beyond `most`. */
+int __real_pthread_create(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+int __wrap_pthread_create(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+static uint32_t most = UINT32_MAX;
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*start)(void *), void *arg) {
+    if (!most) return EAGAIN;
+    most--;
+    return __real_pthread_create(thread, attributes, start, arg);
+}
+
+static void threads_that_do_not_start_are_a_limit(void **state) {
+    (void)state;
+    for (uint32_t started = 0; started < 3; started++) {
+        dp_context *context = NULL;
+        dp_diag diag;
+        most = started;
+        const dp_context_desc desc = {.threads = 4};
+        assert_int_equal(dp_context_create(&desc, &context, &diag), DP_ERR_LIMIT);
+        assert_null(context);
+        assert_string_equal(diag.message, "the system starts no more threads: ask for fewer");
+        most = started;
+        const dp_context_desc fewer = {.threads = started + 1};
+        assert_int_equal(dp_context_create(&fewer, &context, &diag), DP_OK);
+        dp_context_destroy(context);
+    }
+    most = UINT32_MAX;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_piece_is_done_once_per_loop),
@@ -218,6 +251,7 @@ int main(void) {
         cmocka_unit_test(or_none_at_all),
         cmocka_unit_test(a_call_without_a_worker_returns_at_once),
         cmocka_unit_test(too_many_calls_burn_no_time),
+        cmocka_unit_test(threads_that_do_not_start_are_a_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

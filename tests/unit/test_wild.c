@@ -228,6 +228,35 @@ static void survives_extreme_coordinates(void **state) {
     }
 }
 
+/* An edge that is a line by itself, of a triangle that lacks a corner. */
+static void a_line_of_a_polygon_without_vertices_is_dropped(void **state) {
+    static const float positions[][3] = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    static const uint32_t indices[] = {0, 1, 2, 1, 2, 0x20000000};
+    static const uint8_t flags[] = {DP_EDGE_NORMAL,  DP_EDGE_NORMAL, DP_EDGE_NORMAL,
+                                    DP_EDGE_SECTION, DP_EDGE_NORMAL, DP_EDGE_NORMAL};
+    const dp_batch batch = {.positions = positions[0],
+                            .vertex_count = 3,
+                            .indices = indices,
+                            .corner_count = 6,
+                            .polygon_count = 2,
+                            .edge_flags = flags,
+                            .stable = true};
+    dp_source *source;
+    dp_camera camera;
+    dp_stats stats;
+    size_t count;
+    (void)state;
+    assert_int_equal(dp_source_from_arrays(&batch, NULL, &source, NULL), DP_OK);
+    assert_int_equal(dp_camera_fit_source(&camera, NULL, source, NULL, NULL), DP_OK);
+    const dp_target target = {.width = 64, .height = 48};
+    assert_int_equal(dp_draw(context, source, &camera, NULL, &target, NULL), DP_OK);
+    dp_stats_of(context, &stats);
+    assert_int_equal(stats.dropped_index, 1);
+    const dp_segment *const segments = dp_segments(context, &count);
+    for (size_t i = 0; i < count; i++) assert_int_not_equal(segments[i].line, DP_LINE_SECTION);
+    dp_source_destroy(source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(survives_a_fan_on_one_edge),
@@ -241,6 +270,7 @@ int main(void) {
         cmocka_unit_test(a_source_without_one_good_polygon_is_an_error),
         cmocka_unit_test(draws_a_room_from_inside),
         cmocka_unit_test(survives_extreme_coordinates),
+        cmocka_unit_test(a_line_of_a_polygon_without_vertices_is_dropped),
     };
     return cmocka_run_group_tests(tests, make_context, destroy_context);
 }

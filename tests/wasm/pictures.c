@@ -1,11 +1,10 @@
 /* Hashes of drawings: what two builds of the library must print alike.
  *
- *     pictures [--threads N] [--lanes N] [FILE...]
+ *     pictures [--threads N] [FILE...]
  *
  * Draws every look below of every model, generated ones unless files are named, and prints a line
  * for each: model, look, hash of the pixels, of the segments (dp_trace) and of the pages in all
  * formats. A drawing that is refused prints its message instead: that, too, must be the same.
- * --lanes chooses the width of the kernels (src/base/kernels.h) instead of the processor.
  *
  * Not handled: speed; what differs in floats that no pixel, segment or page shows. */
 #include <drypoint/drypoint.h>
@@ -20,60 +19,63 @@ enum { WIDTH = 320, HEIGHT = 240 };
 #define TAN  DP_RGB(224, 196, 150)
 #define BLUE DP_RGB(40, 60, 160)
 
-typedef struct look {
+typedef struct picture_look {
     const char *name;
     dp_style style;
     const char *texture; /* of strokes, with its own way to draw them; NULL: none */
     const char *pattern; /* on lines; NULL: none */
     dp_stroke_u u;       /* of the texture */
     bool cut;            /* by two planes through the middle of the model */
-} look;
+} picture_look;
 
-static const look looks[] = {
+static const picture_look looks[] = {
     {.name = "plain"},
-    {"gooch", .style = {.surface = TAN,
-                        .shade = {.shading = DP_SHADING_GOOCH, .highlight = 0.5f},
-                        .edge_map = {.detector = DP_EDGE_MAP_C1}}},
-    {"charcoal", .texture = "charcoal"},
-    {"pencil-shading", .style = {.shade = {.shading = DP_SHADING_PENCIL}}, .texture = "pencil"},
-    {"quads", .style = {.ink = DP_INK_QUADS, .line[DP_LINE_VALLEY] = {3, BLUE}}},
-    {"quads-paper", .style = {.ink = DP_INK_QUADS,
-                              .method = DP_METHOD_PAPER,
-                              .between = DP_BETWEEN_INTERVAL,
-                              .shade = {.shading = DP_SHADING_LAMBERT}}},
-    {"hatch", .style = {.shade = {.shading = DP_SHADING_HATCH, .object_space = true}}},
-    {"adjacency-polar",
+    {.name = "gooch",
+     .style = {.surface = TAN,
+               .shade = {.shading = DP_SHADING_GOOCH, .highlight = 0.5f},
+               .edge_map = {.detector = DP_EDGE_MAP_C1}}},
+    {.name = "charcoal", .texture = "charcoal"},
+    {.name = "pencil-shading",
+     .style = {.shade = {.shading = DP_SHADING_PENCIL}},
+     .texture = "pencil"},
+    {.name = "quads", .style = {.ink = DP_INK_QUADS, .line[DP_LINE_VALLEY] = {3, BLUE}}},
+    {.name = "quads-paper",
+     .style = {.ink = DP_INK_QUADS,
+               .method = DP_METHOD_PAPER,
+               .between = DP_BETWEEN_INTERVAL,
+               .shade = {.shading = DP_SHADING_LAMBERT}}},
+    {.name = "hatch", .style = {.shade = {.shading = DP_SHADING_HATCH, .object_space = true}}},
+    {.name = "adjacency-polar",
      .style = {.edges = DP_EDGES_ADJACENCY, .ink = DP_INK_QUADS, .line[0].width = 6},
-     .texture = "brush", .u = DP_STROKE_POLAR},
-    {"strokes-polar", .style = {.edges = DP_EDGES_ADJACENCY, .line[0].width = 5}, .texture = "ink",
+     .texture = "brush",
      .u = DP_STROKE_POLAR},
-    {"toon",
+    {.name = "strokes-polar",
+     .style = {.edges = DP_EDGES_ADJACENCY, .line[0].width = 5},
+     .texture = "ink",
+     .u = DP_STROKE_POLAR},
+    {.name = "toon",
      .style = {.surface = TAN,
                .shade = {.shading = DP_SHADING_TOON},
                .edge_map = {.detector = DP_EDGE_MAP_DIAGONAL,
                             .as_printed = true,
                             .eight_bits = true},
                .mirror = {.normal = {0.1, 1, 0}, .offset = -1.1, .size = 4, .tint_share = 0.3f}}},
-    {"hidden", .style = {.exact_ends = true,
-                         .hidden = {.look = DP_HIDDEN_DASHED, .levels = 3, .smooth = true}}},
-    {"xray", .style = {.xray = 0.4f, .surface = BLUE, .shade = {.shading = DP_SHADING_HALFTONE}}},
-    {"smooth", .style = {.smooth = DP_SMOOTH_SURFACE, .detail = 1}},
-    {"section", .style = {.section = TAN}, .cut = true},
-    {"pattern", .style = {.line_light = {.lighting = DP_LINE_LIGHT_GOOCH}, .line[0].width = 6},
+    {.name = "hidden",
+     .style = {.exact_ends = true,
+               .hidden = {.look = DP_HIDDEN_DASHED, .levels = 3, .smooth = true}}},
+    {.name = "xray",
+     .style = {.xray = 0.4f, .surface = BLUE, .shade = {.shading = DP_SHADING_HALFTONE}}},
+    {.name = "smooth", .style = {.smooth = DP_SMOOTH_SURFACE, .detail = 1}},
+    {.name = "section", .style = {.section = TAN}, .cut = true},
+    {.name = "pattern",
+     .style = {.line_light = {.lighting = DP_LINE_LIGHT_GOOCH}, .line[0].width = 6},
      .pattern = "rope"},
 };
 
 static const dp_shape shapes[] = {
-    {.name = "bolt"},  {.name = "bracket"}, {.name = "gear"},
+    {.name = "bolt"},  {.name = "bracket"}, {.name = "stairs"},
     {.name = "torus"}, {.name = "boxes"},   {.name = "terrain", .triangles = 3000, .seed = 5},
 };
-
-static uint32_t lanes;
-
-/* The linker puts these before the library's own choice (--wrap). */
-uint32_t __real_dp_lanes_best(void);
-uint32_t __wrap_dp_lanes_best(void);
-uint32_t __wrap_dp_lanes_best(void) { return lanes ? lanes : __real_dp_lanes_best(); }
 
 /* ------- hashes: FNV-1a ------- */
 
@@ -130,7 +132,8 @@ static dp_result open_model(const char *file, uint32_t number, dp_source **out, 
                 : dp_source_from_shape(&shapes[number], out, diag);
 }
 
-static dp_result complete(const look *look, dp_style *style, dp_texture **texture, dp_diag *diag) {
+static dp_result complete(const picture_look *look, dp_style *style, dp_texture **texture,
+                          dp_diag *diag) {
     const char *const name = look->texture ? look->texture : look->pattern;
     *style = look->style;
     dp_result result = name ? dp_texture_named(name, 3, NULL, texture, diag) : DP_OK;
@@ -159,7 +162,8 @@ static dp_result draw(dp_context *context, dp_source *source, const dp_style *st
 }
 
 /* One line. */
-static void print_look(dp_context *context, const char *file, uint32_t number, const look *look) {
+static void print_look(dp_context *context, const char *file, uint32_t number,
+                       const picture_look *look) {
     const char *const slash = file ? strrchr(file, '/') : NULL;
     dp_diag diag = {0};
     dp_source *source = NULL;
@@ -179,16 +183,9 @@ int main(int argc, char **argv) {
     dp_context_desc desc = {.threads = 1};
     dp_context *context = NULL;
     dp_diag diag;
-    int at = 1;
-    for (; at + 1 < argc && argv[at][0] == '-'; at += 2) {
-        const uint32_t number = (uint32_t)strtoul(argv[at + 1], NULL, 10);
-        if (!strcmp(argv[at], "--threads"))
-            desc.threads = number;
-        else if (!strcmp(argv[at], "--lanes"))
-            lanes = number;
-        else
-            return fprintf(stderr, "pictures: what is %s?\n", argv[at]), 1;
-    }
+    const bool threads = argc > 2 && !strcmp(argv[1], "--threads");
+    const int at = threads ? 3 : 1;
+    if (threads) desc.threads = (uint32_t)strtoul(argv[2], NULL, 10);
     if (dp_context_create(&desc, &context, &diag))
         return fprintf(stderr, "pictures: %s\n", diag.message), 1;
     const uint32_t models = argc > at ? (uint32_t)(argc - at) : sizeof shapes / sizeof *shapes;

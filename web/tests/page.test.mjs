@@ -28,6 +28,9 @@ test('history: it begins with the first moment, and forgets the oldest', () => {
     assert.equal(history.moments.length, 200);
     assert.equal(history.at(0).text, '299');
     assert.equal(history.at(-199).text, '100');
+    history.go(-1);
+    history.begin_here();
+    assert.deepEqual([history.at(0).text, history.can_undo, history.can_redo], ['298', false, false]);
 });
 
 test('links come back as they were written', () => {

@@ -1,5 +1,7 @@
 #!/usr/bin/env node
-/* picture.mjs OUT.png [--page FOLDER]: takes the picture of the page that docs/web.md shows. Needs what the tests need. */
+/* picture.mjs OUT.png [--page FOLDER]: takes the picture of the page that docs/web.md shows. Needs what the tests need,
+ * and ImageMagick, which makes it small. */
+import { execFileSync } from 'node:child_process';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
@@ -14,7 +16,7 @@ if (positionals.length !== 1) {
 
 const what = new URLSearchParams({
     shape: 'gear',
-    with: '--preset illustration --hidden dashed --azimuth 38 --elevation 24',
+    with: '--preset illustration --azimuth 38 --elevation 24',
 });
 const root = option.page ?? path.join(fileURLToPath(new URL('../..', import.meta.url)), 'build/web');
 const server = await serve({ root });
@@ -25,8 +27,16 @@ try {
     await page.goto(`${server.address}#${what}`);
     await page.waitForFunction(() => document.documentElement.dataset.state === 'ready');
     await page.evaluate(() => document.getElementById('part-look').scrollIntoView());
+    await page.evaluate(() => {
+        // once more: the first picture also waits for the compiler
+        const { engine } = window.drypoint;
+        const drawn = new Promise((resolve) => engine.addEventListener('frame', ({ detail }) => detail.full && resolve()));
+        engine.resize(...['size-width', 'size-height'].map((id) => document.getElementById(id).valueAsNumber));
+        return drawn;
+    });
     await page.waitForTimeout(500);
     await page.screenshot({ path: positionals[0] });
+    execFileSync('convert', [positionals[0], '+dither', '-colors', '256', '-strip', `PNG8:${positionals[0]}`]);
 } finally {
     await browser.close();
     await server.close();

@@ -212,6 +212,12 @@ export class App extends EventTarget {
 
     /* ------- undo ------- */
 
+    /** What is seen now is what undo ends at. */
+    begin_here() {
+        this.history.begin_here();
+        this.dispatchEvent(new CustomEvent('state', { detail: this.state }));
+    }
+
     /** Goes that many moments on (back: -1), after those steps that are under way. */
     travel(step) {
         this.#trip = this.#trip.then(() => this.#go(step));

@@ -27,6 +27,12 @@ export class History {
         return true;
     }
 
+    /** Forgets all but what is seen now. */
+    begin_here() {
+        this.moments = this.moments.slice(this.place, this.place + 1);
+        this.place = this.moments.length - 1;
+    }
+
     /** Corrects the present moment: the engine writes a text in its own way. */
     settle(text) {
         if (this.moments[this.place]) this.moments[this.place].text = text;

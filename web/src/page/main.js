@@ -11,6 +11,7 @@ import { missing_need, show_fatal } from './needs.js';
 import { register_offline } from './offline.js';
 import { bind_panel, copy, fill_panel, panel_keys } from './panel.js';
 import { bind_pointer } from './pointer.js';
+import { preload_engine } from './preload.js';
 import { bind_save, set_screen_size } from './save.js';
 import { recall, remember } from './store.js';
 
@@ -137,11 +138,14 @@ function show_hint() {
 }
 
 async function start() {
-    bind_all();
     const missing = missing_need();
+    if (!missing) preload_engine();
+    const created = missing ? null : Engine.create(by_id('picture'));
+    created?.catch(() => {}); // told below
+    bind_all();
     if (missing) return show_fatal(missing);
     try {
-        const engine = await Engine.create(by_id('picture'));
+        const engine = await created;
         app.attach(engine);
         window.drypoint = { engine };
         bind_progress(app);
@@ -152,6 +156,7 @@ async function start() {
             show_hint();
         }, { once: true });
         await show_first();
+        app.begin_here();
     } catch (error) {
         return show_fatal(`Drypoint could not start: ${reason(error)}`);
     }
