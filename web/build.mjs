@@ -92,7 +92,10 @@ async function copy_wasm(folder, stem) {
     const place = [folder, path.join(folder, 'web'), path.join(folder, 'web/c')].find((at) => existsSync(path.join(at, `${stem}.mjs`)));
     if (!place) fail(`${folder} holds no ${stem}.mjs; \`make web\` builds it`);
     const names = (await readdir(place)).filter((name) => name.startsWith(`${stem}.`) && /\.(mjs|js|wasm)$/.test(name));
-    for (const name of names) await cp(path.join(place, name), path.join(work, name));
+    for (const name of names) {
+        if (name.endsWith('.mjs')) esbuild(path.join(place, name), '--format=esm', `--outfile=${path.join(work, name)}`, ...size_words);
+        else await cp(path.join(place, name), path.join(work, name));
+    }
     return names;
 }
 
