@@ -414,8 +414,8 @@ EMSCRIPTEN_KEEPALIVE web_answer web_restore(char *text) {
     const int count = split(text, words, 512);
     bool done = cmdline_read(&all, count, words);
     if (!done) wrong_usage("out of memory for the options");
-    if (done && all.model_count) done = wrong_usage("\"%s\" is no option", all.models[0]);
     done = done && !check_known(&all.options) && !check_known(&all.camera);
+    if (done && all.model_count) done = wrong_usage("\"%s\" is no option", all.models[0]);
     cmdline_models(&all, next.model_count, (const char *const *)next.models);
     if (done) move_line(&next, &all);
     cmdline_free(&all);

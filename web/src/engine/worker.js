@@ -394,7 +394,7 @@ function given(array) {
 }
 
 function takeDraft(number, { error, mesh }) {
-  if (error) post('message', { text: 'Moving pictures are not simplified: ' + error, kind: 'note' });
+  if (error) post('message', { text: 'While it moves, this large model is drawn whole, which may be slow: what would simplify it is not there.', kind: 'note' });
   if (error || simplified !== number) return;
   const parts = [mesh.positions, mesh.indices, mesh.groups].map(given);
   if (parts.every((at) => at))
