@@ -126,6 +126,9 @@ class Stopping(unittest.TestCase):
         self.assertGreater(len(context.draw(drypoint.Source.shape("cube")).segments()), 0)
 
     def test_interrupt(self):
+        # What runs in a shell's background ignores Ctrl-C, and Python with it.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         source = long_model(4_000_000)
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
         start = time.monotonic()
