@@ -122,8 +122,16 @@ test('reading a large file is cancelled, and the model that was there stays', as
     const file = make_model('terrain --triangles 2000000', 'large.stl');
     const visit = await bench.visit();
     const [command, { hash }] = [await visit.command(), await visit.picture()];
+    await visit.page.evaluate(() => { // while it is read, however fast that is
+        const { engine } = window.drypoint;
+        const cancel = ({ detail }) => {
+            if (detail.what !== 'reading') return;
+            engine.removeEventListener('progress', cancel);
+            document.querySelector('#cancel').click();
+        };
+        engine.addEventListener('progress', cancel);
+    });
     await visit.page.setInputFiles('#file', file);
-    await visit.page.click('#cancel');
     await visit.ready();
     await visit.page.waitForTimeout(300);
     assert.equal(await visit.command(), command);

@@ -313,8 +313,13 @@ function drawNow() {
 function draw(how) {
   const draw = () => module._web_draw(how);
   const answer = how === FULL ? working('drawing', true, draw) : draw();
-  if (!settle(answer, 'Drawing')) { // a move, whose message comes, or stopped
+  if (!settle(answer, 'Drawing')) { // a move, whose message comes, or cancelled: a draft stays, then
     drawn = null;
+    const cancelled = signals && Atomics.load(signals, 1) !== stops;
+    if (!cancelled) return;
+    stops = Atomics.load(signals, 1);
+    draw(HALF);
+    post('frame', { ms: 0, draft: true, full: false, cancelled: true, segments: 0, ...size, threads: options.threads, simplified: false });
     return;
   }
   const frame = new Float64Array(heap().buffer, module._web_frame() >>> 0, 9);

@@ -37,8 +37,9 @@ export class App extends EventTarget {
     }
 
     #on_frame(detail) {
-        this.#full = detail.full;
-        this.#mark(detail.full && this.#asked === 0 ? 'ready' : 'drawing');
+        this.#full = detail.full || Boolean(detail.cancelled); // what was cancelled is not drawn again
+        this.#mark(this.#full && this.#asked === 0 ? 'ready' : 'drawing');
+        if (detail.cancelled) return;
         this.dispatchEvent(new CustomEvent('frame', { detail }));
     }
 
