@@ -1,5 +1,7 @@
 /* Models far from 0: positions about an origin draw what the same model draws at 0, wherever they
- * come from, and what is in world space stays there. */
+ * come from, and what is in world space stays there.
+ *
+ * Above 600 lines: every source and reader is asked the same of the same models. */
 #include "scene.h"
 #include "temporary.h"
 

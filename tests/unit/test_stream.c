@@ -1,4 +1,6 @@
-/* Streaming: a drawing in parts is the drawing from memory, in bounded memory, for any source. */
+/* Streaming: a drawing in parts is the drawing from memory, in bounded memory, for any source.
+ *
+ * Above 600 lines: each kind of source and style is drawn both ways by the same few helpers. */
 #include "temporary.h"
 
 #include "base/hostile.h"
