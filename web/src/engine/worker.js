@@ -311,8 +311,8 @@ function drawNow() {
 }
 
 function draw(how) {
-  const draw = () => module._web_draw(how);
-  const answer = how === FULL ? working('drawing', true, draw) : draw();
+  const call = () => module._web_draw(how);
+  const answer = how === FULL ? working('drawing', true, call) : call();
   if (!settle(answer, 'Drawing')) { // a move, whose message comes, or cancelled: a draft stays, then
     drawn = null;
     const cancelled = signals && Atomics.load(signals, 1) !== stops;
